@@ -1,0 +1,30 @@
+"""What can go wrong for a user, said as a user needs it: what, where, and what to do.
+
+Everything that is not a :class:`ShapevizError` is a bug and keeps its traceback.
+"""
+
+from __future__ import annotations
+
+
+class ShapevizError(Exception):
+    """An error that its message alone explains: what is wrong, in which file, what to do."""
+
+
+class ConfigError(ShapevizError):
+    """An option, a flag or a line of ``shapeviz.toml`` that cannot be followed."""
+
+
+class DatabaseError(ShapevizError):
+    """A shape database that cannot be read as a whole."""
+
+
+class MeshError(ShapevizError):
+    """One mesh that cannot be used; it is reported as a failure and the build goes on."""
+
+
+class RenderError(ShapevizError):
+    """Pictures cannot be made on this machine (OSMesa is missing, for instance)."""
+
+
+class SiteError(ShapevizError):
+    """The site cannot be written where it was asked for."""
