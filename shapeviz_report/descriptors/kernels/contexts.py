@@ -1,0 +1,97 @@
+"""Local frames and the counts of shape contexts."""
+
+import numpy as np
+from numba import njit
+
+
+@njit(cache=True)
+def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover - compiled
+    """A local frame a vertex: two tangents (n, 3) each; the third axis is the normal.
+
+    The first tangent is the dominant eigenvector of the covariance of the neighbourhood within the tangent
+    plane. Both tangents point towards ``centre``, which fixes the signs that eigenvectors lack.
+    """
+    count = len(vertices)
+    first = np.empty((count, 3))
+    second = np.empty((count, 3))
+    for i in range(count):
+        n = normals[i]
+        # Any basis of the tangent plane; Duff et al. 2017, without a branch point at -z.
+        sign = 1.0 if n[2] >= 0.0 else -1.0
+        a = -1.0 / (sign + n[2])
+        b = n[0] * n[1] * a
+        ux, uy, uz = 1.0 + sign * n[0] * n[0] * a, sign * b, -sign * n[0]
+        vx, vy, vz = b, sign + n[1] * n[1] * a, -n[1]
+        size = neighbours.shape[1]
+        mean_u = mean_v = uu = uv = vv = 0.0
+        for s in range(size):
+            d = vertices[neighbours[i, s]] - vertices[i]
+            p = d[0] * ux + d[1] * uy + d[2] * uz
+            q = d[0] * vx + d[1] * vy + d[2] * vz
+            mean_u += p
+            mean_v += q
+            uu += p * p
+            uv += p * q
+            vv += q * q
+        uu -= mean_u * mean_u / size
+        uv -= mean_u * mean_v / size
+        vv -= mean_v * mean_v / size
+        angle = 0.5 * np.arctan2(2.0 * uv, uu - vv)
+        cos, sin = np.cos(angle), np.sin(angle)
+        first[i, 0], first[i, 1], first[i, 2] = cos * ux + sin * vx, cos * uy + sin * vy, cos * uz + sin * vz
+        second[i, 0], second[i, 1], second[i, 2] = cos * vx - sin * ux, cos * vy - sin * uy, cos * vz - sin * uz
+        away = vertices[i] - centre
+        if first[i, 0] * away[0] + first[i, 1] * away[1] + first[i, 2] * away[2] > 0.0:
+            first[i] *= -1.0
+        if second[i, 0] * away[0] + second[i, 1] * away[1] + second[i, 2] * away[2] > 0.0:
+            second[i] *= -1.0
+    return first, second
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: no cover - compiled
+    """Share of the points ``seen`` in each octant and distance shell around each vertex.
+
+    Column ``8 * shell + octant``; an octant is 1 if in front along the first tangent, plus 2 along the second,
+    plus 4 along the normal. ``limits`` are the two inner shell radii. A vertex does not see itself.
+
+    All in float32: (n, 3) arrays and seen (3, s); the result is (n, 24).
+    """
+    count, size = len(vertices), seen.shape[1]
+    result = np.zeros((count, 24), np.float32)
+    codes = np.empty(size, np.uint8)
+    tally = np.zeros((4, 256), np.int64)
+    inner, outer = limits[0] * limits[0], limits[1] * limits[1]
+    xs, ys, zs = seen[0], seen[1], seen[2]
+    for i in range(count):
+        x, y, z = vertices[i, 0], vertices[i, 1], vertices[i, 2]
+        ax, ay, az = first[i, 0], first[i, 1], first[i, 2]
+        bx, by, bz = second[i, 0], second[i, 1], second[i, 2]
+        cx, cy, cz = normals[i, 0], normals[i, 1], normals[i, 2]
+        zero = np.float32(0.0)
+        for j in range(size):
+            dx, dy, dz = xs[j] - x, ys[j] - y, zs[j] - z
+            squared = dx * dx + dy * dy + dz * dz
+            code = np.uint8(ax * dx + ay * dy + az * dz > zero)
+            code |= np.uint8(bx * dx + by * dy + bz * dz > zero) << np.uint8(1)
+            code |= np.uint8(cx * dx + cy * dy + cz * dz > zero) << np.uint8(2)
+            code += np.uint8(squared > inner) << np.uint8(3)
+            code += np.uint8(squared > outer) << np.uint8(3)
+            codes[j] = code + (np.uint8(squared == zero) << np.uint8(5))
+        tally[:] = 0
+        # Four tallies in turn: consecutive equal codes would wait for each other in one.
+        for j in range(0, size - 3, 4):
+            tally[0, codes[j]] += 1
+            tally[1, codes[j + 1]] += 1
+            tally[2, codes[j + 2]] += 1
+            tally[3, codes[j + 3]] += 1
+        for j in range(size - size % 4, size):
+            tally[0, codes[j]] += 1
+        others = 0
+        for code in range(24):
+            tally[0, code] += tally[1, code] + tally[2, code] + tally[3, code]
+            others += tally[0, code]
+        if others > 0:
+            for code in range(24):
+                result[i, code] = tally[0, code] / others
+    return result

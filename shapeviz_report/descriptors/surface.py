@@ -1,0 +1,126 @@
+"""What descriptors share of a mesh, computed once and when first asked for."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse import coo_matrix, csr_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from shapeviz_report.descriptors.kernels.angles import gather_angles
+from shapeviz_report.types import FloatArray, IntArray, Mesh
+
+NEIGHBOURS = 30
+"""k of the paper's nearest neighbours (3.3)."""
+
+
+class Surface:
+    """A prepared mesh with the geometry that several descriptors need.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        As :func:`shapeviz_report.mesh.prepare` returns it: finite, manifold, in the unit ball.
+    """
+
+    def __init__(self, mesh: Mesh) -> None:
+        self.vertices: FloatArray = np.ascontiguousarray(mesh.vertices, dtype=np.float64)
+        self.faces: IntArray = np.ascontiguousarray(mesh.faces, dtype=np.int32)
+
+    @cached_property
+    def _angles(self) -> tuple[FloatArray, FloatArray]:
+        return gather_angles(self.vertices, self.faces)
+
+    @property
+    def angle_sums(self) -> FloatArray:
+        """(n,) sum of the corner angles at each vertex, in radians."""
+        return self._angles[0]
+
+    @property
+    def normals(self) -> FloatArray:
+        """(n, 3) unit vertex normals, outward: face normals weighted by corner angle (Eq. 3)."""
+        return self._angles[1]
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """(n,) area of each vertex: a third of that of its faces."""
+        a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
+        third = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 6
+        return np.bincount(self.faces.ravel(), np.repeat(third, 3), len(self.vertices))
+
+    @cached_property
+    def edges(self) -> IntArray:
+        """(e, 2) distinct edges, each with its lower vertex first."""
+        faces = self.faces.astype(np.int64)
+        pairs = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+        keys, counts = np.unique(pairs[:, 0] * len(self.vertices) + pairs[:, 1], return_counts=True)
+        self._edge_faces = counts
+        return np.stack(np.divmod(keys, len(self.vertices)), axis=1).astype(np.int32)
+
+    @cached_property
+    def on_boundary(self) -> np.ndarray:
+        """(n,) bool: whether a vertex lies on an edge with one face."""
+        edges = self.edges
+        flags = np.zeros(len(self.vertices), dtype=bool)
+        flags[edges[self._edge_faces == 1]] = True
+        return flags
+
+    @cached_property
+    def _nearest(self) -> tuple[FloatArray, IntArray]:
+        size = min(NEIGHBOURS + 1, len(self.vertices))
+        distances, indices = cKDTree(self.vertices).query(self.vertices, k=size)
+        # The vertex itself is one of the nearest, but not the first where others share its place.
+        own = indices == np.arange(len(indices))[:, None]
+        own[~own.any(axis=1), -1] = True
+        others = ~own
+        shape = (len(indices), size - 1)
+        return distances[others].reshape(shape), indices[others].reshape(shape).astype(np.int32)
+
+    @property
+    def neighbours(self) -> IntArray:
+        """(n, k) the k = 30 vertices nearest to each vertex in space, itself excluded; fewer on tiny meshes."""
+        return self._nearest[1]
+
+    @property
+    def neighbour_distances(self) -> FloatArray:
+        """(n, k) distances to :attr:`neighbours`."""
+        return self._nearest[0]
+
+    @cached_property
+    def barycentre(self) -> FloatArray:
+        """(3,) mean of the vertices."""
+        return self.vertices.mean(axis=0)
+
+    @cached_property
+    def main_axis(self) -> FloatArray:
+        """(3,) unit dominant eigenvector of the covariance of the vertices; its sign is arbitrary."""
+        return np.linalg.eigh(np.cov(self.vertices.T))[1][:, -1]
+
+    @cached_property
+    def graph(self) -> csr_matrix:
+        """(n, n) edge lengths between vertices, symmetric, and connected.
+
+        Parts that no edge joins are bridged: each is linked to the largest one by one straight edge between
+        the two closest vertices.
+        """
+        count = len(self.vertices)
+        edges = np.concatenate([self.edges, self._bridges()])
+        lengths = np.linalg.norm(self.vertices[edges[:, 0]] - self.vertices[edges[:, 1]], axis=1)
+        # An explicit edge of length zero must stay an edge: sparse matrices would keep it, sums might not.
+        both = np.concatenate([edges, edges[:, ::-1]])
+        return coo_matrix((np.tile(lengths, 2), (both[:, 0], both[:, 1])), (count, count)).tocsr()
+
+    def _bridges(self) -> IntArray:
+        count = len(self.vertices)
+        links = coo_matrix((np.ones(len(self.edges), np.int8), (self.edges[:, 0], self.edges[:, 1])), (count, count))
+        parts, part = connected_components(links, directed=False)
+        if parts == 1:
+            return np.empty((0, 2), np.int32)
+        largest = np.bincount(part).argmax()
+        main, rest = np.flatnonzero(part == largest), np.flatnonzero(part != largest)
+        distances, nearest = cKDTree(self.vertices[main]).query(self.vertices[rest])
+        order = np.lexsort((distances, part[rest]))
+        closest = order[np.unique(part[rest][order], return_index=True)[1]]
+        return np.stack([rest[closest], main[nearest[closest]]], axis=1).astype(np.int32)

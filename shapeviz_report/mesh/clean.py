@@ -1,0 +1,275 @@
+"""Cleaning: any indexed triangles become an oriented 2-manifold, possibly with boundary."""
+
+from __future__ import annotations
+
+import numba
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import cKDTree
+
+from shapeviz_report.errors import MeshError
+from shapeviz_report.types import FloatArray, IntArray, Mesh
+
+WELD_DISTANCE = 1e-6
+"""Vertices closer than this fraction of the bounding-box diagonal become one."""
+
+NEGLIGIBLE_AREA = 1e-14
+"""Faces of less area than this, in units of the squared diagonal, carry no direction and are dropped."""
+
+
+def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
+    """Mend a mesh as it was read so that every later step can trust it.
+
+    In order: faces with non-finite vertices are dropped; vertices closer than ``WELD_DISTANCE`` are welded;
+    empty and duplicate faces are dropped; faces are given a common winding where neighbours allow it, closed
+    parts facing outward; and the surface is cut along edges that more than two faces share, and at vertices
+    where parts only touch, so that what is left is a 2-manifold.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        As read: indices are valid, coordinates may be anything.
+
+    Returns
+    -------
+    mesh : Mesh
+        In the coordinates of the input. Every vertex is used; every edge has one or two faces.
+    repairs : dict of str to int
+        What was mended and how often; only what happened.
+
+    Raises
+    ------
+    MeshError
+        No face with an area is left.
+    """
+    repairs: dict[str, int] = {}
+
+    def note(what: str, count: int) -> None:
+        if count:
+            repairs[what] = int(count)
+
+    vertices = np.asarray(mesh.vertices, dtype=np.float64)
+    faces = np.asarray(mesh.faces, dtype=np.int64)
+    usable = np.isfinite(vertices).all(axis=1)
+    kept = usable[faces].all(axis=1)
+    note("faces with non-finite coordinates dropped", (~kept).sum())
+    faces = faces[kept]
+    if len(faces) == 0:
+        raise MeshError("no face has finite coordinates")
+
+    used = np.zeros(len(vertices), dtype=bool)
+    used[faces] = True
+    # Halving first keeps the extent of coordinates near the largest float finite.
+    low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
+    diagonal = 2 * float(np.linalg.norm(high / 2 - low / 2))
+    if not np.isfinite(diagonal) or diagonal <= np.abs(vertices[used]).max() * 1e-12:
+        raise MeshError("all its vertices lie in one point, or its coordinates exceed what can be computed with")
+    scaled = np.zeros_like(vertices)
+    scaled[used] = (vertices[used] - low) / diagonal
+
+    faces, welded = _weld(scaled, faces, used)
+    note("vertices welded", welded)
+
+    a, b, c = scaled[faces[:, 0]], scaled[faces[:, 1]], scaled[faces[:, 2]]
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    solid = area > NEGLIGIBLE_AREA
+    note("empty faces dropped", (~solid).sum())
+    faces = faces[solid]
+    if len(faces) == 0:
+        raise MeshError("none of its faces has an area")
+
+    _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    note("duplicate faces dropped", len(faces) - len(first))
+    faces = faces[np.sort(first)]
+
+    pairs, shared_by_more = _manifold_pairs(faces)
+    note("edges of more than two faces cut", shared_by_more)
+    flips, parts = _orient(faces.astype(np.int32), pairs)
+    flips = _face_outward(scaled, faces, flips, parts, pairs)
+    note("faces turned round", flips.sum())
+    faces[flips] = faces[flips][:, ::-1]
+
+    pairs, _ = _manifold_pairs(faces)
+    starts = faces.ravel()[pairs]
+    agree = starts[:, 0] != starts[:, 1]
+    note("edges of one-sided surfaces cut", (~agree).sum())
+    faces, origin = _split_corners(faces, pairs[agree])
+    note("touching vertices parted", len(origin) - len(np.unique(origin)))
+    return Mesh(np.ascontiguousarray(vertices[origin]), faces), repairs
+
+
+def is_watertight(faces: IntArray) -> bool:
+    """Whether every edge of ``faces`` (m, 3) belongs to exactly two faces."""
+    _, counts = np.unique(_sorted_edges(faces), axis=0, return_counts=True)
+    return bool((counts == 2).all())
+
+
+def count_components(vertex_count: int, faces: IntArray) -> int:
+    """Number of connected parts among ``vertex_count`` vertices joined by ``faces`` (m, 3)."""
+    edges = _sorted_edges(faces)
+    graph = coo_matrix((np.ones(len(edges), np.int8), (edges[:, 0], edges[:, 1])), (vertex_count, vertex_count))
+    return int(connected_components(graph, directed=False)[0])
+
+
+def _sorted_edges(faces: IntArray) -> IntArray:
+    return np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+
+
+def _weld(scaled: FloatArray, faces: IntArray, used: np.ndarray) -> tuple[IntArray, int]:
+    """Point faces at one representative of each cluster of close vertices; how many vertices that saved."""
+    index = np.flatnonzero(used)
+    _, first, inverse = np.unique(scaled[index], axis=0, return_index=True, return_inverse=True)
+    points = scaled[index[first]]
+    close = cKDTree(points).query_pairs(WELD_DISTANCE, output_type="ndarray")
+    links = coo_matrix((np.ones(len(close), np.int8), (close[:, 0], close[:, 1])), (len(points),) * 2)
+    count, cluster = connected_components(links, directed=False)
+    # The lowest original index stands for its cluster, so the result keeps the file's order.
+    of_vertex = cluster[inverse.ravel()]
+    representative = np.full(count, len(scaled), dtype=np.int64)
+    np.minimum.at(representative, of_vertex, index)
+    target = np.zeros(len(scaled), dtype=np.int64)
+    target[index] = representative[of_vertex]
+    return target[faces], len(index) - count
+
+
+def _manifold_pairs(faces: IntArray) -> tuple[IntArray, int]:
+    """Half-edge pairs of edges with exactly two faces.
+
+    Returns
+    -------
+    pairs : (p, 2) int array
+        Half-edges ``3 * face + corner``, each starting at that corner of its face.
+    shared_by_more : int
+        Number of edges with more than two faces.
+    """
+    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
+    order = np.lexsort((high, low))
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = (np.diff(low[order]) != 0) | (np.diff(high[order]) != 0)
+    begin = np.flatnonzero(new)
+    counts = np.diff(np.append(begin, len(order)))
+    twos = begin[counts == 2]
+    return np.stack([order[twos], order[twos + 1]], axis=1).astype(np.int32), int((counts > 2).sum())
+
+
+@numba.njit(cache=True)
+def _orient(faces, pairs):  # pragma: no cover - compiled
+    """Give neighbours a common winding by a breadth-first walk over manifold edges.
+
+    Returns which faces to flip and the part of each face. On one-sided surfaces some neighbours must differ.
+    """
+    face_count = len(faces)
+    degree = np.zeros(face_count + 1, np.int64)
+    for p in range(len(pairs)):
+        degree[pairs[p, 0] // 3 + 1] += 1
+        degree[pairs[p, 1] // 3 + 1] += 1
+    offset = np.cumsum(degree)
+    fill = offset.copy()
+    neighbour = np.empty(offset[-1], np.int32)
+    through = np.empty(offset[-1], np.int32)
+    for p in range(len(pairs)):
+        f, g = pairs[p, 0] // 3, pairs[p, 1] // 3
+        neighbour[fill[f]] = g
+        through[fill[f]] = p
+        fill[f] += 1
+        neighbour[fill[g]] = f
+        through[fill[g]] = p
+        fill[g] += 1
+    flip = np.zeros(face_count, np.bool_)
+    part = np.full(face_count, -1, np.int32)
+    queue = np.empty(face_count, np.int32)
+    parts = 0
+    for seed in range(face_count):
+        if part[seed] >= 0:
+            continue
+        part[seed] = parts
+        queue[0] = seed
+        head, tail = 0, 1
+        while head < tail:
+            f = queue[head]
+            head += 1
+            for e in range(offset[f], offset[f + 1]):
+                g = neighbour[e]
+                p = through[e]
+                # Two faces agree when they run along their common edge in opposite directions.
+                same = (
+                    faces[pairs[p, 0] // 3, pairs[p, 0] % 3] == faces[pairs[p, 1] // 3, pairs[p, 1] % 3]
+                )
+                wanted = flip[f] != same
+                if part[g] < 0:
+                    part[g] = parts
+                    flip[g] = wanted
+                    queue[tail] = g
+                    tail += 1
+        parts += 1
+    return flip, part
+
+
+def _face_outward(
+    points: FloatArray, faces: IntArray, flips: np.ndarray, parts: IntArray, pairs: IntArray
+) -> np.ndarray:
+    """Choose, part by part, the winding that faces outward.
+
+    A closed part encloses a positive volume. An open part has no inside; it keeps the winding that most of
+    its faces came with, unless that leaves it facing its own centre.
+    """
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    count = int(parts.max()) + 1
+    cross = np.cross(b - a, c - a)
+    middle = (a + b + c) / 3
+    weight = np.linalg.norm(cross, axis=1)
+    total = np.bincount(parts, weight, count)
+    centre = np.stack([np.bincount(parts, weight * middle[:, i], count) / total for i in range(3)], axis=1)
+    signed = np.where(flips, -1.0, 1.0) * np.einsum("ij,ij->i", middle - centre[parts], cross)
+    outward = np.bincount(parts, signed, count)
+    majority = np.bincount(parts, np.where(flips, -weight, weight), count)
+    manifold = np.bincount(parts[pairs[:, 0] // 3], minlength=count) * 2 == np.bincount(parts, minlength=count) * 3
+    # How strongly a part faces away from its own centre: 1 for a ball, 0 for a flat sheet.
+    reach = np.bincount(parts, weight * np.linalg.norm(middle - centre[parts], axis=1), count)
+    decided = manifold | (np.abs(outward) > 0.2 * reach)
+    reverse = np.where(decided, outward < 0, majority < 0)
+    return flips ^ reverse[parts]
+
+
+@numba.njit(cache=True)
+def _join_corners(corner_count, joins):  # pragma: no cover - compiled
+    """Union-find over corners; the root of every corner, the lowest of its set."""
+    parent = np.arange(corner_count)
+    for j in range(len(joins)):
+        a, b = joins[j, 0], joins[j, 1]
+        while parent[a] != a:
+            parent[a] = parent[parent[a]]
+            a = parent[a]
+        while parent[b] != b:
+            parent[b] = parent[parent[b]]
+            b = parent[b]
+        if a < b:
+            parent[b] = a
+        else:
+            parent[a] = b
+    for c in range(corner_count):
+        parent[c] = parent[parent[c]]
+    return parent
+
+
+def _split_corners(faces: IntArray, pairs: IntArray) -> tuple[IntArray, IntArray]:
+    """Rebuild the vertices so that corners are one vertex only where ``pairs`` joins them.
+
+    Cuts non-manifold edges and vertices alike: a corner is reached from another only by walking over edges
+    of two faces that agree on the winding.
+
+    Returns the new faces and, for each new vertex, the old one it is a copy of.
+    """
+    following = np.where(pairs % 3 == 2, pairs - 2, pairs + 1)
+    # Agreeing half-edges run against each other: each starts where the other ends.
+    joins = np.concatenate(
+        [
+            np.stack([pairs[:, 0], following[:, 1]], axis=1),
+            np.stack([following[:, 0], pairs[:, 1]], axis=1),
+        ]
+    )
+    root = _join_corners(3 * len(faces), joins)
+    unique, new = np.unique(root, return_inverse=True)
+    return new.reshape(-1, 3).astype(np.int32), faces.ravel()[unique]

@@ -1,0 +1,61 @@
+"""Remeshing to an even edge length with Mmg (Dapogny, Dobrzynski, Frey 2014)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shapeviz_report.errors import MeshError
+from shapeviz_report.types import Mesh
+
+MAX_VERTICES = 2_000_000
+"""A remeshed surface larger than this is refused: its input is crumpled far beyond its bounding box."""
+
+
+def remesh(mesh: Mesh, edge_length: float) -> Mesh:
+    """Remesh a cleaned mesh to a constant edge length.
+
+    Runs native code: call it in a process of its own, which it may hang or end.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        As :func:`shapeviz_report.mesh.clean.clean` returns it.
+    edge_length : float
+        Target length of every edge as a fraction of the bounding-box diagonal, 0.01 in the paper (3.2).
+
+    Returns
+    -------
+    Mesh
+        In the coordinates of the input.
+
+    Raises
+    ------
+    MeshError
+        Mmg gives up on it.
+    """
+    # Importing mmgpy costs 0.1 s and loads native libraries: only the processes that remesh pay.
+    from mmgpy import MmgMeshS
+
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    diagonal = float(np.linalg.norm(high - low))
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] / diagonal for i in range(3))
+    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
+    # Euler: an even triangulation has 2 faces a vertex, each of sqrt(3) / 4 squared edges.
+    expected = area / (edge_length**2 * np.sqrt(3) / 2)
+    if expected > MAX_VERTICES:
+        raise MeshError(
+            f"its surface is {area:.0f} times the square of its diagonal, which would take "
+            f"{expected:,.0f} vertices at {edge_length:.2%} of the diagonal; it is probably many copies of itself"
+        )
+    surface = MmgMeshS()
+    surface.set_mesh_size(vertices=len(mesh.vertices), triangles=len(mesh.faces))
+    surface.set_vertices((mesh.vertices - low) / diagonal)
+    surface.set_triangles(mesh.faces)
+    try:
+        surface.remesh(hsiz=edge_length, hausd=edge_length / 2, verbose=-1)
+    except RuntimeError as error:
+        raise MeshError(f"it cannot be remeshed ({error})") from error
+    vertices, faces = surface.get_vertices(), surface.get_triangles()
+    if len(faces) == 0 or not np.isfinite(vertices).all():
+        raise MeshError("it cannot be remeshed (nothing finite was left)")
+    return Mesh(vertices * diagonal + low, np.ascontiguousarray(faces, dtype=np.int32))
