@@ -1,0 +1,85 @@
+"""Reading a shape database: where its meshes are, and what is known of them. Meshes are not opened here."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from shapeviz_report.database.base import Layout
+from shapeviz_report.database.class_folders import ClassFolders
+from shapeviz_report.database.flat import FlatFolder
+from shapeviz_report.database.formats import MESH_FORMATS
+from shapeviz_report.database.modelnet import ModelNet
+from shapeviz_report.database.princeton import Princeton
+from shapeviz_report.database.table import Table
+from shapeviz_report.errors import DatabaseError
+from shapeviz_report.types import Database
+
+__all__ = ["LAYOUTS", "MESH_FORMATS", "Layout", "read_database"]
+
+LAYOUTS: tuple[Layout, ...] = (Princeton(), Table(), ModelNet(), ClassFolders(), FlatFolder())
+"""Every layout, in the order in which they are tried: the first that recognises a database reads it."""
+
+
+def read_database(
+    path: Path, *, layout: str | None = None, labeling: str | None = None, name: str | None = None
+) -> Database:
+    """Read a shape database.
+
+    Parameters
+    ----------
+    path : Path
+        A folder, a table, or a Princeton ``.cla`` file.
+    layout : str, optional
+        Name of one of :data:`LAYOUTS`; by default the first that recognises the path.
+    labeling : str, optional
+        The labeling to put first, that is to use.
+    name : str, optional
+        Title of the database; by default the name of its folder.
+
+    Returns
+    -------
+    Database
+        Not empty: it has shapes, or failures that say why it has none.
+
+    Raises
+    ------
+    DatabaseError
+        If there is nothing to read at the path, or no such layout or labeling.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise DatabaseError(f"There is no shape database at {path}: no such file or folder.")
+    database = _choose_layout(path, layout).read(path)
+    if not database.shapes and not database.failures:
+        raise DatabaseError(_nothing_found(path))
+    if labeling is not None:
+        if labeling not in database.labelings:
+            existing = ", ".join(f"'{existing}'" for existing in database.labelings) or "none"
+            raise DatabaseError(
+                f"The database {path} has no labeling '{labeling}'. Its labelings: {existing}."
+            )
+        others = tuple(other for other in database.labelings if other != labeling)
+        database = replace(database, labelings=(labeling, *others))
+    return database if name is None else replace(database, name=name)
+
+
+def _choose_layout(path: Path, name: str | None) -> Layout:
+    if name is not None:
+        for layout in LAYOUTS:
+            if layout.name == name:
+                return layout
+        names = ", ".join(f"'{layout.name}'" for layout in LAYOUTS)
+        raise DatabaseError(f"There is no layout '{name}'. The layouts: {names}.")
+    for layout in LAYOUTS:
+        if layout.recognises(path):
+            return layout
+    raise DatabaseError(_nothing_found(path))
+
+
+def _nothing_found(path: Path) -> str:
+    if not path.is_dir():
+        return f"{path} is neither a folder, nor a table (.csv, .tsv, .json), nor a .cla file."
+    layouts = "".join(f"\n  {layout.name}: {layout.description}" for layout in LAYOUTS)
+    suffixes = ", ".join(MESH_FORMATS)
+    return f"No shapes were found in {path}. Looked for meshes ({suffixes}) laid out as one of:{layouts}"

@@ -1,0 +1,110 @@
+"""Finding the mesh files below a folder."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from shapeviz_report.database.formats import is_read, is_unread_mesh, why_not_read
+from shapeviz_report.database.text import readable
+from shapeviz_report.errors import DatabaseError
+from shapeviz_report.types import Failure
+
+_NEVER_SHAPES = ("__MACOSX",)
+
+
+@dataclass(frozen=True)
+class MeshFile:
+    """A mesh below the scanned folder; ``relative`` is its path from there as text, ``/`` between folders."""
+
+    path: Path
+    relative: str
+
+    @property
+    def folders(self) -> tuple[str, ...]:
+        """The folders between the root and the file."""
+        return PurePosixPath(self.relative).parts[:-1]
+
+    @property
+    def stem(self) -> str:
+        """The file's name without suffix."""
+        return PurePosixPath(self.relative).stem
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a scan found, in an order that does not depend on that of the file system.
+
+    Attributes
+    ----------
+    files : tuple of MeshFile
+        Sorted by ``relative``.
+    failures : tuple of Failure
+        Meshes of formats that are not read, broken links, folders that cannot be opened. Sorted by path.
+    """
+
+    files: tuple[MeshFile, ...]
+    failures: tuple[Failure, ...]
+
+    @property
+    def paths(self) -> list[str]:
+        """The relative path of everything found, taken or not."""
+        return [*(file.relative for file in self.files), *(failure.path for failure in self.failures)]
+
+
+def scan_folder(root: Path) -> Found:
+    """Every mesh below a folder, and whatever looks like one and cannot be taken.
+
+    Links are followed, to files and to folders; a link back to a folder above it is a failure, so that a loop
+    ends. Hidden files and folders and files that are no meshes are passed over in silence.
+
+    Raises
+    ------
+    DatabaseError
+        If the root is not a folder, or cannot be opened.
+    """
+    files: list[MeshFile] = []
+    failures: list[Failure] = []
+
+    def fail(relative: str, reason: str) -> None:
+        failures.append(Failure(relative, "read", reason))
+
+    # a folder waits with the identities of the folders above it, by which a loop of links is seen
+    waiting: list[tuple[str, str, frozenset[tuple[int, int]]]] = [(os.fspath(root), "", frozenset())]
+    while waiting:
+        folder, prefix, above = waiting.pop()
+        try:
+            status = os.stat(folder)
+            identity = (status.st_dev, status.st_ino)
+            if identity in above:
+                fail(
+                    prefix.rstrip("/"),
+                    "this folder is a link to a folder that contains it; it was not followed",
+                )
+                continue
+            with os.scandir(folder) as listing:
+                entries = list(listing)
+        except OSError as error:
+            if not prefix:
+                raise DatabaseError(f"The folder {root} cannot be opened: {error.strerror}.") from error
+            fail(prefix.rstrip("/"), f"this folder cannot be opened: {error.strerror}")
+            continue
+        for entry in entries:
+            if entry.name.startswith(".") or entry.name in _NEVER_SHAPES:
+                continue
+            relative = prefix + readable(entry.name)
+            if entry.is_dir():
+                waiting.append((entry.path, relative + "/", above | {identity}))
+            elif is_unread_mesh(entry.name):
+                fail(relative, why_not_read(entry.name))
+            elif is_read(entry.name):
+                if entry.is_file():
+                    files.append(MeshFile(Path(entry.path), relative))
+                elif entry.is_symlink():
+                    fail(relative, "this is a link to a file that is not there")
+                else:
+                    fail(relative, "this is not a regular file")
+    files.sort(key=lambda file: (file.relative, os.fsencode(file.path)))
+    failures.sort(key=lambda failure: (failure.path, failure.reason))
+    return Found(tuple(files), tuple(failures))

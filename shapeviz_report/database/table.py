@@ -1,0 +1,284 @@
+"""A table that lists the meshes, their labels and whatever else is known of them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import unicodedata
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
+from shapeviz_report.database.formats import is_read, suffix_of, why_not_read
+from shapeviz_report.database.text import clean, decode, encodable, readable
+from shapeviz_report.errors import DatabaseError
+from shapeviz_report.types import Database, Failure, ShapeEntry
+
+FILE_COLUMN = "file"
+LABEL_COLUMN = "label"
+DELIMITERS = (",", ";", "\t")
+TABLE_SUFFIXES = (".csv", ".tsv", ".json")
+MOST_CLASSES = 100
+FEWEST_SHAPES_A_CLASS = 3
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row as it was written: where it stands, its file, and its other non-empty cells by column."""
+
+    place: str
+    file: str
+    cells: Mapping[str, str]
+
+
+class Table(Layout):
+    """A CSV or JSON table with a column ``file``, a column ``label``, and any further columns as metadata.
+
+    Cells of CSV may be separated by commas, semicolons or tabs; JSON is a list of objects. Paths are relative
+    to the table's folder. A metadata column is a further labeling where it plainly names groups: it has at
+    least 2 and at most ``MOST_CLASSES`` different values, and on average ``FEWEST_SHAPES_A_CLASS`` shapes or
+    more to a value.
+    """
+
+    name = "table"
+    description = (
+        "a CSV or JSON table with the columns file, label and any metadata, or the folder it lies in"
+    )
+
+    def recognises(self, path: Path) -> bool:
+        if path.is_dir():
+            return bool(_tables_in(path))
+        return suffix_of(path.name) in TABLE_SUFFIXES
+
+    def read(self, path: Path) -> Database:
+        table = _the_table(path)
+        rows, warnings = _read_rows(table)
+        root = table.parent
+        listed, failures = _sort_out(rows, table)
+        if repeated := sorted(relative for relative, same in listed.items() if len(same) > 1):
+            warnings.append(
+                f"{len(repeated)} files stand in {table.name} more than once with the same values and are "
+                f"taken once: {', '.join(repeated[:5])}{', ...' if len(repeated) > 5 else ''}."
+            )
+        relatives = sorted(listed)
+        cells = [dict(listed[relative][0].cells) for relative in relatives]
+        labels = [cell.pop(LABEL_COLUMN, "") for cell in cells]
+        columns = list(dict.fromkeys(column for cell in cells for column in cell))
+        groups = [column for column in columns if _names_groups([cell.get(column) for cell in cells])]
+        if groups and not any(labels):
+            warnings.append(
+                f"{table.name} has no labels; the shapes are grouped by its column '{groups[0]}'."
+            )
+        return Database(
+            name=database_name(root),
+            root=root,
+            layout=self.name,
+            shapes=sorted_shapes(
+                ShapeEntry(
+                    id,
+                    _mesh_path(root, listed[relative][0].file),
+                    PurePosixPath(relative).stem,
+                    labels={
+                        **({LABEL_COLUMN: label} if label else {}),
+                        **{column: cell[column] for column in groups if column in cell},
+                    },
+                    metadata=cell,
+                )
+                for id, relative, cell, label in zip(shape_ids(relatives), relatives, cells, labels)
+            ),
+            labelings=(*((LABEL_COLUMN,) if any(labels) else ()), *groups),
+            failures=failures,
+            warnings=tuple(warnings),
+        )
+
+
+def _the_table(path: Path) -> Path:
+    if not path.is_dir():
+        return path
+    tables = _tables_in(path)
+    if len(tables) == 1:
+        return tables[0]
+    if tables:
+        names = ", ".join(table.name for table in tables)
+        raise DatabaseError(
+            f"{path} holds several tables ({names}). Name the one to read instead of the folder."
+        )
+    raise DatabaseError(
+        f"{path} holds no table: no {', '.join(TABLE_SUFFIXES)} file in it has a column '{FILE_COLUMN}'."
+    )
+
+
+def _tables_in(folder: Path) -> list[Path]:
+    """The tables that lie in a folder: other CSV and JSON files have no column for the file."""
+    try:
+        candidates = sorted(
+            entry.name
+            for entry in os.scandir(folder)
+            if suffix_of(entry.name) in TABLE_SUFFIXES and not entry.name.startswith(".") and entry.is_file()
+        )
+    except OSError:
+        return []
+    return [folder / name for name in candidates if _has_file_column(folder / name)]
+
+
+def _has_file_column(table: Path) -> bool:
+    try:
+        text, _ = _read_text(table)
+        if suffix_of(table.name) == ".json":
+            return bool(_json_rows(text, table))
+        return bool(_csv_columns(text, table))
+    except DatabaseError:
+        return False
+
+
+def _read_text(table: Path) -> tuple[str, bool]:
+    try:
+        return decode(table.read_bytes())
+    except OSError as error:
+        raise DatabaseError(f"The table {table} cannot be read: {error.strerror}.") from error
+
+
+def _read_rows(table: Path) -> tuple[list[Row], list[str]]:
+    """The rows of a table, and warnings about it."""
+    text, certain = _read_text(table)
+    warnings = [] if certain else [f"{table.name} is not UTF-8; it was read as Windows-1252."]
+    rows = _json_rows(text, table) if suffix_of(table.name) == ".json" else _csv_rows(text, table)
+    return rows, warnings
+
+
+def _csv_columns(text: str, table: Path) -> tuple[str, list[str]]:
+    """The delimiter, which is the one that makes a column ``file`` appear, and the names of the columns."""
+    for delimiter in DELIMITERS:
+        try:
+            columns = [_column(cell) for cell in next(_csv_reader(text, delimiter), [])]
+        except csv.Error as error:
+            raise DatabaseError(f"The table {table} is not CSV: {error}.") from error
+        if FILE_COLUMN in columns:
+            return delimiter, columns
+    raise DatabaseError(
+        f"The table {table} has no column '{FILE_COLUMN}'. Its first line must name the columns, "
+        f"for instance: file,label."
+    )
+
+
+def _csv_reader(text: str, delimiter: str) -> csv.reader:
+    return csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
+
+
+def _csv_rows(text: str, table: Path) -> list[Row]:
+    delimiter, columns = _csv_columns(text, table)
+    if twice := sorted({column for column in columns if column and columns.count(column) > 1}):
+        raise DatabaseError(f"The table {table} has two columns named '{twice[0]}'; rename one.")
+    reader = _csv_reader(text, delimiter)
+    next(reader)
+    rows = []
+    try:
+        for cells in reader:
+            if any(cell.strip() for cell in cells[len(columns) :]):
+                raise DatabaseError(
+                    f"{table}, line {reader.line_num}: there are more cells than the {len(columns)} columns. "
+                    f"A cell that contains '{delimiter}' belongs in double quotes."
+                )
+            if any(cell.strip() for cell in cells):
+                rows.append(_row(f"line {reader.line_num}", dict(zip(columns, cells))))
+    except csv.Error as error:
+        raise DatabaseError(f"{table}, line {reader.line_num}: this is not CSV: {error}.") from error
+    return rows
+
+
+def _json_rows(text: str, table: Path) -> list[Row]:
+    try:
+        entries = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise DatabaseError(f"The table {table} is not JSON: {error}.") from error
+    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
+        raise DatabaseError(
+            f'The table {table} is not a list of objects: [{{"file": "a.off", "label": "cup"}}, ...].'
+        )
+    rows = [
+        _row(f"entry {number}", {_column(key): _as_text(value) for key, value in entry.items()})
+        for number, entry in enumerate(entries, start=1)
+    ]
+    if not any(row.file for row in rows):
+        raise DatabaseError(f"The table {table} has no key '{FILE_COLUMN}' in its objects.")
+    return rows
+
+
+def _column(name: str) -> str:
+    """A column's name as it is kept; the two that mean something are known in any case."""
+    name = clean(name)
+    return name.lower() if name.lower() in (FILE_COLUMN, LABEL_COLUMN) else name
+
+
+def _as_text(value: object) -> str:
+    if value is None:
+        return ""
+    return encodable(value) if isinstance(value, str) else json.dumps(value)
+
+
+def _row(place: str, cells: Mapping[str, str]) -> Row:
+    """A row without its empty cells, and without columns that have no name, as spreadsheets leave behind."""
+    kept = {column: clean(cell) for column, cell in cells.items() if column and column != FILE_COLUMN}
+    return Row(
+        place, cells.get(FILE_COLUMN, "").strip(), {column: cell for column, cell in kept.items() if cell}
+    )
+
+
+def _sort_out(rows: Sequence[Row], table: Path) -> tuple[dict[str, list[Row]], tuple[Failure, ...]]:
+    """The rows of every file that can be taken, by its path below the table's folder, and the failures."""
+    root = table.parent
+    by_file: dict[str, list[Row]] = {}
+    failures = []
+    for row in rows:
+        if row.file:
+            path = _mesh_path(root, row.file)
+            relative = readable(os.path.relpath(path, root)).replace(os.sep, "/")
+            by_file.setdefault(relative, []).append(row)
+        else:
+            failures.append(
+                Failure(f"{table.name}, {row.place}", "read", f"its column '{FILE_COLUMN}' is empty")
+            )
+    listed = {}
+    for relative, same in by_file.items():
+        places = ", ".join(row.place for row in same)
+        path = _mesh_path(root, same[0].file)
+        if not path.is_file():
+            kind = "a folder, not a mesh" if path.is_dir() else "not there"
+            reason = f"{table.name} lists it ({places}), but it is {kind}"
+        elif not is_read(path.name):
+            reason = why_not_read(path.name)
+        elif any(row.cells != same[0].cells for row in same):
+            reason = f"{table.name} lists it {len(same)} times with different values ({places}); keep one"
+        else:
+            listed[relative] = same
+            continue
+        failures.append(Failure(relative, "read", reason))
+    return listed, tuple(sorted(failures, key=lambda failure: (failure.path, failure.reason)))
+
+
+def _mesh_path(root: Path, file: str) -> Path:
+    """Where a listed file is.
+
+    A path that does not exist as written is also tried with Windows' separators turned, and in the other
+    Unicode normal forms, which tables and file systems exchange behind their users' backs.
+    """
+    written = Path(os.path.normpath(root / file))
+    for spelling in (file, file.replace("\\", "/")):
+        for form in (
+            spelling,
+            unicodedata.normalize("NFC", spelling),
+            unicodedata.normalize("NFD", spelling),
+        ):
+            path = Path(os.path.normpath(root / form))
+            if os.path.lexists(path):
+                return path
+    return written
+
+
+def _names_groups(values: Sequence[str | None]) -> bool:
+    present = [value for value in values if value]
+    classes = len(set(present))
+    return 2 <= classes <= MOST_CLASSES and len(present) >= FEWEST_SHAPES_A_CLASS * classes
