@@ -46,8 +46,8 @@ def shape_ids(relative_paths: Sequence[str]) -> list[str]:
     """One unique id a path, in the order of the paths.
 
     The id is the path without its suffix. It keeps the suffix where the shorter form would name two files, or
-    is the whole name of another one. Paths that are equal as text, as names that are not UTF-8 can become, are
-    numbered.
+    is the whole name of another one. Paths that are equal as text, as names that are not UTF-8 can become,
+    are numbered.
 
     Parameters
     ----------

@@ -137,8 +137,8 @@ class Princeton(Layout):
                 Failure(
                     f"m{model}.off",
                     "read",
-                    f"{listed_in[model].relative_to(root).as_posix()} lists the model {model}, but below this "
-                    f"folder there is no mesh called m{model} or {model}",
+                    f"{listed_in[model].relative_to(root).as_posix()} lists the model {model}, but below "
+                    f"{root.name} there is no mesh called m{model} or {model}",
                 )
                 for model in sorted(set(listed_in) - set(meshes))
             ),
@@ -151,7 +151,7 @@ def _is_cla(name: str) -> bool:
 
 
 def _classification_files(path: Path) -> list[Path]:
-    """The ``.cla`` files to read, sorted: the one given, or those in the folder, or in the benchmark's tree."""
+    """The ``.cla`` files to read, sorted: the one given, those in the folder, or those of the benchmark."""
     if not path.is_dir():
         return [path] if _is_cla(path.name) else []
     try:

@@ -1,0 +1,64 @@
+"""What has to be known of a glTF file before trimesh gets it: its other files, and what it needs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from shapeviz_report.errors import MeshError
+
+_BINARY_MAGIC = b"glTF"
+_COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
+_TRIANGLE_FAN = 6
+
+
+def read_header(data: bytes) -> dict[str, object]:
+    """The JSON of a ``.gltf`` or ``.glb`` file. Raises ``MeshError`` or ``ValueError`` if there is none."""
+    if data.startswith(_BINARY_MAGIC):
+        length = int.from_bytes(data[12:16], "little")
+        data = data[20 : 20 + length]
+    header = json.loads(data)
+    if not isinstance(header, dict):
+        raise MeshError("it is not glTF: its JSON is not an object")
+    return header
+
+
+def buffer_files(header: Mapping[str, object], folder: Path) -> dict[str, Path]:
+    """The files that hold a glTF's geometry: URI, as it is written -> path. Embedded buffers need none.
+
+    Raises
+    ------
+    MeshError
+        If a buffer is not a file in the folder or below it. Nothing is ever fetched, and nothing outside the
+        folder is opened, whatever a file asks for.
+    """
+    files = {}
+    for buffer in header.get("buffers", []):
+        uri = buffer.get("uri")
+        if uri is None or uri.startswith("data:"):
+            continue
+        file = (folder / unquote(uri)).resolve()
+        if urlsplit(uri).scheme or urlsplit(uri).netloc or not file.is_relative_to(folder.resolve()):
+            raise MeshError(f"it refers to {uri[:100]!r}, which is not a file in its own folder")
+        files[uri] = file
+    return files
+
+
+def check(header: Mapping[str, object]) -> None:
+    """Refuse what trimesh would silently leave out or fill with zeros. Raises ``MeshError``."""
+    for extension in header.get("extensionsRequired", []):
+        if extension in _COMPRESSIONS:
+            raise MeshError(f"its geometry is compressed with {extension}, which is not read")
+    accessors = header.get("accessors", [])
+    for mesh in header.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            if primitive.get("mode") == _TRIANGLE_FAN:
+                raise MeshError("it has triangle fans, which are not read")
+            used = [primitive["attributes"]["POSITION"], primitive.get("indices")]
+            for index in used:
+                if index is not None and (
+                    "sparse" in accessors[index] or "bufferView" not in accessors[index]
+                ):
+                    raise MeshError("its positions are sparse or compressed, which is not read")
