@@ -1,0 +1,72 @@
+"""A folder of 3D meshes becomes a self-contained static web site.
+
+>>> import shapeviz_report
+>>> report = shapeviz_report.build("meshes/", "out/")        # doctest: +SKIP
+>>> report.projections["tsne"][1].nh_s                       # doctest: +SKIP
+0.905
+
+The stages can be used on their own: ``database.read_database``, ``mesh.prepare``, ``descriptors.DESCRIPTORS``,
+``features.compute_histograms``, ``projections.project``, ``quality.score``, ``render.render_thumbnail``,
+``site.write_site``.
+"""
+
+from __future__ import annotations
+
+import os
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from shapeviz_report.errors import ShapevizError
+
+if TYPE_CHECKING:
+    from shapeviz_report.pipeline import CheckResult
+    from shapeviz_report.types import Report
+
+__version__ = version("shapeviz-report")
+__all__ = ["ShapevizError", "__version__", "build", "check", "demo_site"]
+
+
+def build(database: str | os.PathLike[str], destination: str | os.PathLike[str], **options: Any) -> Report:
+    """Build the site of a shape database.
+
+    Parameters
+    ----------
+    database : path
+        A folder of meshes, or a table of them.
+    destination : path
+        Where the site goes.
+    **options
+        The fields of :class:`shapeviz_report.config.Config`; they win over ``shapeviz.toml``.
+
+    Returns
+    -------
+    Report
+        What the site shows: features, projections, quality, failures.
+
+    Raises
+    ------
+    ShapevizError
+        Nothing could be built.
+    """
+    # Worker processes import this package too, and need little of what the pipeline does.
+    from shapeviz_report.config import load_config
+    from shapeviz_report.pipeline import build_report
+
+    return build_report(Path(database), Path(destination), load_config(Path(database), options))
+
+
+def demo_site(destination: str | os.PathLike[str], **options: Any) -> Report:
+    """Generate the demo database and build its site; see :func:`build`."""
+    from shapeviz_report.config import load_config
+    from shapeviz_report.pipeline import build_demo
+
+    return build_demo(Path(destination), load_config(None, options))
+
+
+def check(database: str | os.PathLike[str], **options: Any) -> CheckResult:
+    """Read a database and all its meshes without building anything; see :func:`build`."""
+    from shapeviz_report.config import load_config
+    from shapeviz_report.pipeline import check_database
+
+    return check_database(Path(database), load_config(Path(database), options))

@@ -33,6 +33,6 @@ GAUSSIAN_CURVATURE = Descriptor(
     title="Gaussian curvature",
     measures="How the surface bends at a point: like a bump or tip, flat or rolled, or like a saddle.",
     dimensions=1,
-    edges=tuple(float(x) for x in np.linspace(-0.05, 0.05, 11)),
+    edges=tuple(float(x) for x in np.linspace(-0.1, 0.1, 11)),
     compute=compute,
 )

@@ -37,6 +37,6 @@ POINT_FEATURE_HISTOGRAM = Descriptor(
     title="Point feature histogram",
     measures="How the surface curves in a small patch, from how the directions of every two points in it differ.",
     dimensions=125,
-    edges=tuple(float(x) for x in np.linspace(0.0, 1.0, 11) ** 2),
+    edges=tuple(float(x) for x in np.linspace(0.0, 0.8, 11) ** 2),
     compute=compute,
 )

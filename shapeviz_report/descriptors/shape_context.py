@@ -45,6 +45,6 @@ SHAPE_CONTEXT = Descriptor(
     title="Shape context",
     measures="How the rest of the shape lies around a point: how much of it is near or far, in front or behind.",
     dimensions=24,
-    edges=tuple(float(x) for x in np.linspace(0.0, 1.0, 11) ** 2),
+    edges=tuple(float(x) for x in np.linspace(0.0, 0.8, 11) ** 2),
     compute=compute,
 )

@@ -114,7 +114,9 @@ class Surface:
 
     def _bridges(self) -> IntArray:
         count = len(self.vertices)
-        links = coo_matrix((np.ones(len(self.edges), np.int8), (self.edges[:, 0], self.edges[:, 1])), (count, count))
+        links = coo_matrix(
+            (np.ones(len(self.edges), np.int8), (self.edges[:, 0], self.edges[:, 1])), (count, count)
+        )
         parts, part = connected_components(links, directed=False)
         if parts == 1:
             return np.empty((0, 2), np.int32)

@@ -1,0 +1,8 @@
+"""From a mesh file to the mesh that is measured: read, clean, remesh, normalise, check."""
+
+from shapeviz_report.mesh.clean import clean
+from shapeviz_report.mesh.prepare import deviation, normalise, prepare
+from shapeviz_report.mesh.read import content_hash, read_mesh
+from shapeviz_report.mesh.remesh import remesh
+
+__all__ = ["clean", "content_hash", "deviation", "normalise", "prepare", "read_mesh", "remesh"]

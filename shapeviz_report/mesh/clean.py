@@ -64,7 +64,9 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
     low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
     diagonal = 2 * float(np.linalg.norm(high / 2 - low / 2))
     if not np.isfinite(diagonal) or diagonal <= np.abs(vertices[used]).max() * 1e-12:
-        raise MeshError("all its vertices lie in one point, or its coordinates exceed what can be computed with")
+        raise MeshError(
+            "all its vertices lie in one point, or its coordinates exceed what can be computed with"
+        )
     scaled = np.zeros_like(vertices)
     scaled[used] = (vertices[used] - low) / diagonal
 
@@ -108,7 +110,9 @@ def is_watertight(faces: IntArray) -> bool:
 def count_components(vertex_count: int, faces: IntArray) -> int:
     """Number of connected parts among ``vertex_count`` vertices joined by ``faces`` (m, 3)."""
     edges = _sorted_edges(faces)
-    graph = coo_matrix((np.ones(len(edges), np.int8), (edges[:, 0], edges[:, 1])), (vertex_count, vertex_count))
+    graph = coo_matrix(
+        (np.ones(len(edges), np.int8), (edges[:, 0], edges[:, 1])), (vertex_count, vertex_count)
+    )
     return int(connected_components(graph, directed=False)[0])
 
 
@@ -194,9 +198,7 @@ def _orient(faces, pairs):  # pragma: no cover - compiled
                 g = neighbour[e]
                 p = through[e]
                 # Two faces agree when they run along their common edge in opposite directions.
-                same = (
-                    faces[pairs[p, 0] // 3, pairs[p, 0] % 3] == faces[pairs[p, 1] // 3, pairs[p, 1] % 3]
-                )
+                same = faces[pairs[p, 0] // 3, pairs[p, 0] % 3] == faces[pairs[p, 1] // 3, pairs[p, 1] % 3]
                 wanted = flip[f] != same
                 if part[g] < 0:
                     part[g] = parts
@@ -225,7 +227,9 @@ def _face_outward(
     signed = np.where(flips, -1.0, 1.0) * np.einsum("ij,ij->i", middle - centre[parts], cross)
     outward = np.bincount(parts, signed, count)
     majority = np.bincount(parts, np.where(flips, -weight, weight), count)
-    manifold = np.bincount(parts[pairs[:, 0] // 3], minlength=count) * 2 == np.bincount(parts, minlength=count) * 3
+    manifold = (
+        np.bincount(parts[pairs[:, 0] // 3], minlength=count) * 2 == np.bincount(parts, minlength=count) * 3
+    )
     # How strongly a part faces away from its own centre: 1 for a ball, 0 for a flat sheet.
     reach = np.bincount(parts, weight * np.linalg.norm(middle - centre[parts], axis=1), count)
     decided = manifold | (np.abs(outward) > 0.2 * reach)

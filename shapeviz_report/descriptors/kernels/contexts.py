@@ -39,7 +39,11 @@ def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover -
         angle = 0.5 * np.arctan2(2.0 * uv, uu - vv)
         cos, sin = np.cos(angle), np.sin(angle)
         first[i, 0], first[i, 1], first[i, 2] = cos * ux + sin * vx, cos * uy + sin * vy, cos * uz + sin * vz
-        second[i, 0], second[i, 1], second[i, 2] = cos * vx - sin * ux, cos * vy - sin * uy, cos * vz - sin * uz
+        second[i, 0], second[i, 1], second[i, 2] = (
+            cos * vx - sin * ux,
+            cos * vy - sin * uy,
+            cos * vz - sin * uz,
+        )
         away = vertices[i] - centre
         if first[i, 0] * away[0] + first[i, 1] * away[1] + first[i, 2] * away[2] > 0.0:
             first[i] *= -1.0

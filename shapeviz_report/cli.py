@@ -1,0 +1,280 @@
+"""The command line: arguments in, messages and an exit code out."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import logging
+import signal
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from tqdm import tqdm
+
+from shapeviz_report import __version__
+from shapeviz_report.config import FILE_NAME, Config, load_config
+from shapeviz_report.errors import ShapevizError
+from shapeviz_report.types import Database, Failure, Report
+
+EXIT_CODES = """\
+exit codes:
+  0    done; files that had to be left out are listed on the About page
+  1    nothing was built: the message says why
+  2    the command line is wrong
+  130  stopped by Ctrl-C (143: by a termination signal); the same command continues where it stopped
+"""
+
+STAGES = {
+    "read": "Reading the database",
+    "generate": "Generating shapes",
+    "check": "Checking meshes",
+    "prepare": "Preparing meshes",
+    "sample": "Finding value ranges",
+    "describe": "Describing shapes",
+    "render": "Drawing thumbnails",
+    "project": "Projecting",
+    "score": "Scoring",
+    "write": "Writing the site",
+}
+"""What a person reads of each stage."""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code."""
+    options = _parser().parse_args(arguments)
+    logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
+    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        return int(options.command(options))
+    except ShapevizError as error:
+        print(f"shapeviz-report: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("\nStopped. What was computed is kept: the same command continues from here.", file=sys.stderr)
+        return 130
+    except BrokenPipeError:
+        # The reader of our output has gone, as in `... | head`.
+        sys.stderr.close()
+        return 1
+
+
+def _terminate(number: int, frame: FrameType | None) -> None:
+    raise SystemExit(128 + number)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="shapeviz-report",
+        description="Turn a folder of 3D meshes into a static web site that shows the whole shape database, and "
+        "why its shapes group as they do. The site needs no server: it opens by double-click.",
+        epilog=EXIT_CODES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"shapeviz-report {__version__}")
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    build = commands.add_parser(
+        "build",
+        help="build the site of a shape database",
+        description="Build the site of a shape database. What was computed before and has not changed is reused.",
+        epilog=f"Every option may also stand in {FILE_NAME} in the database's folder, with _ for -; flags win.\n\n"
+        + EXIT_CODES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    _add_database(build)
+    _add_destination(build)
+    _add_options(build, [f.name for f in dataclasses.fields(Config)])
+    build.set_defaults(command=_build)
+
+    demo = commands.add_parser(
+        "demo",
+        help="build a site of shapes that are generated on the spot",
+        description="Generate the demo database, which needs no download, and build its site.",
+        epilog=EXIT_CODES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    _add_destination(demo)
+    _add_options(demo, ["preset", "seed", "jobs", "cache"])
+    demo.set_defaults(command=_demo)
+
+    check = commands.add_parser(
+        "check",
+        help="say what of a database would be read, and what is wrong with it",
+        description="Read a database and every mesh of it without building anything. The exit code is 1 if any "
+        "file cannot be used.",
+    )
+    _add_database(check)
+    check.add_argument(
+        "--list", action="store_true", help="print the id of every shape, in order, and no more"
+    )
+    _add_options(check, ["layout", "labeling", "external", "time_limit", "jobs"])
+    check.set_defaults(command=_check)
+    return parser
+
+
+def _add_database(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "database",
+        metavar="DATABASE",
+        type=Path,
+        help="a folder of meshes, a CSV or JSON table, or a .cla file",
+    )
+
+
+def _add_destination(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="OUT",
+        type=Path,
+        required=True,
+        help="folder of the site; an earlier site there is replaced when the new one is complete",
+    )
+
+
+def _add_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
+    """A flag for each of these options, as :class:`Config` describes them."""
+    for option in dataclasses.fields(Config):
+        if option.name not in names:
+            continue
+        kind = str(option.type)
+        parser.add_argument(
+            "--" + option.name.replace("_", "-"),
+            metavar=option.metadata["metavar"],
+            help=option.metadata["help"]
+            + (f" ({option.default})" if type(option.default) in (int, float) else ""),
+            type=int if kind.startswith("int") else float if kind.startswith("float") else str,
+            action="append" if kind.startswith("tuple") else "store",
+        )
+
+
+def _given(options: argparse.Namespace) -> dict[str, Any]:
+    """The options that were given as flags."""
+    return {f.name: getattr(options, f.name, None) for f in dataclasses.fields(Config)}
+
+
+def _build(options: argparse.Namespace) -> int:
+    from shapeviz_report.pipeline import build_report
+
+    config = load_config(options.database, _given(options))
+    report = build_report(options.database, options.output, config, TerminalProgress())
+    _print_summary(report, options.output)
+    return 0
+
+
+def _demo(options: argparse.Namespace) -> int:
+    from shapeviz_report.pipeline import build_demo
+
+    report = build_demo(options.output, load_config(None, _given(options)), TerminalProgress())
+    _print_summary(report, options.output)
+    return 0
+
+
+def _check(options: argparse.Namespace) -> int:
+    from shapeviz_report.database import read_database
+    from shapeviz_report.pipeline import check_database
+
+    config = load_config(options.database, _given(options))
+    if options.list:
+        database = read_database(options.database, layout=config.layout, labeling=config.labeling)
+        print("\n".join(shape.id for shape in database.shapes))
+        return 0
+    result = check_database(options.database, config, TerminalProgress())
+    _print_database(result.database)
+    mended = Counter(what for repairs in result.repairs.values() for what in repairs)
+    if mended:
+        print("\nWould be repaired, in so many files:")
+        for what, count in sorted(mended.items(), key=lambda item: (-item[1], item[0])):
+            print(f"  {count:6,}  {what}")
+    _print_failures(result.failures)
+    if not result.failures:
+        print("\nAll files can be used.")
+    return 1 if result.failures else 0
+
+
+def _print_database(database: Database) -> None:
+    print(f"{database.name}: {len(database.shapes):,} shapes, read as {database.layout} from {database.root}")
+    for labeling in database.labelings:
+        sizes = Counter(s.labels[labeling] for s in database.shapes if labeling in s.labels)
+        missing = len(database.shapes) - sum(sizes.values())
+        print(
+            f"\nLabeling {labeling!r}: {len(sizes)} classes"
+            + (f", {missing} shapes without" if missing else "")
+        )
+        for label, count in sorted(sizes.items()):
+            print(f"  {count:6,}  {_one_line(label)}")
+    if not database.labelings:
+        print("\nNo labels: the map will be drawn in one colour, and there is no neighbourhood hit.")
+    for warning in database.warnings:
+        print(f"\nNote: {warning}")
+
+
+def _print_failures(failures: Sequence[Failure]) -> None:
+    if not failures:
+        return
+    print(f"\nCannot be used: {len(failures)} {'file' if len(failures) == 1 else 'files'}")
+    for failure in failures:
+        print(f"  {_one_line(failure.path)}: {_one_line(failure.reason)}")
+
+
+def _print_summary(report: Report, destination: Path) -> None:
+    classes = len({label for label in report.labels if label is not None})
+    rows = [
+        ("shapes", f"{len(report.shapes):,}"),
+        ("classes", f"{classes:,}" if classes else "none: no labels"),
+        ("failures", f"{len(report.failures):,}"),
+    ]
+    for name, (_, quality) in report.projections.items():
+        if quality.nh_s is not None and quality.null_mean is not None:
+            rows.append((f"NH_s {name}", f"{quality.nh_s:.3f}  (random labels: {quality.null_mean:.3f})"))
+    total, total_cpu = sum(report.seconds.values()), sum(report.cpu_seconds.values())
+    stages = "  ".join(f"{name} {seconds:.1f}" for name, seconds in report.seconds.items())
+    rows.append(("seconds", f"{total:.1f}  ({stages})"))
+    rows.append(("CPU seconds", f"{total_cpu:.1f}"))
+    print()
+    for name, value in rows:
+        print(f"{name:>12}  {value}")
+    _print_failures(report.failures[:10])
+    if len(report.failures) > 10:
+        print(f"  ... and {len(report.failures) - 10} more: see the About page")
+    print(f"\nThe site is ready. Open {(destination / 'index.html').absolute()}")
+
+
+def _one_line(text: str) -> str:
+    """Text of a database as the terminal may show it: no line breaks, no control characters."""
+    return "".join(c if c.isprintable() else "?" for c in text)
+
+
+class TerminalProgress:
+    """A bar with the time left on a terminal; on anything else a line every ten seconds."""
+
+    @contextmanager
+    def stage(self, name: str, total: int) -> Iterator[Callable[[], None]]:
+        """See :class:`shapeviz_report.pipeline.Progress`."""
+        title = STAGES[name]
+        if total == 0:
+            print(title, file=sys.stderr, flush=True)
+            yield lambda: None
+            return
+        live = sys.stderr.isatty()
+        with tqdm(
+            total=total,
+            desc=f"{title:<22}",
+            bar_format="{desc} {bar:24} {n_fmt:>6} of {total_fmt}  {elapsed} gone, {remaining} left",
+            mininterval=0.2 if live else 10.0,
+            maxinterval=1.0 if live else 10.0,
+            smoothing=0.05,
+            ascii=not live,
+            file=sys.stderr,
+            dynamic_ncols=live,
+        ) as bar:
+            yield lambda: bar.update()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

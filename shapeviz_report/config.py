@@ -1,0 +1,142 @@
+"""Every option of a build, in one place: defaults, then ``shapeviz.toml``, then flags or arguments."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from shapeviz_report.errors import ConfigError
+
+FILE_NAME = "shapeviz.toml"
+"""The options' file; it lies in the database's folder."""
+
+PRESETS = ("default", "paper")
+
+
+def _option(default: Any, text: str, metavar: str | None = None) -> Any:
+    return field(default=default, metadata={"help": text, "metavar": metavar})
+
+
+@dataclass(frozen=True)
+class Config:
+    """The options of a build. Each is a key of ``shapeviz.toml``, a flag, and an argument of ``build``.
+
+    Raises
+    ------
+    ConfigError
+        A value is out of its range.
+    """
+
+    title: str | None = _option(None, "title of the site; by default the name of the database", "TEXT")
+    layout: str | None = _option(
+        None, "how the database is laid out; recognised by itself by default", "NAME"
+    )
+    labeling: str | None = _option(
+        None, "which of several labelings to analyse; by default the first", "NAME"
+    )
+    preset: str = _option(
+        "default",
+        "how descriptor values become features: 'default', or 'paper' for the reading closest to the publication",
+        "NAME",
+    )
+    external: tuple[Path, ...] = _option(
+        (),
+        "further features from FILE.npy, one row a shape in the order of `check --list`; may be repeated",
+        "FILE",
+    )
+    neighbours: int = _option(10, "k of the neighbourhood hit", "K")
+    edge_length: float = _option(
+        0.01, "edge length after remeshing, as a fraction of the diagonal", "FRACTION"
+    )
+    thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
+    seed: int = _option(0, "seed of everything random", "N")
+    time_limit: float = _option(300.0, "seconds that one mesh may take in one stage", "SECONDS")
+    jobs: int | None = _option(None, "number of worker processes; by default one a core", "N")
+    cache: Path | None = _option(None, "where results are kept between builds", "FOLDER")
+
+    def __post_init__(self) -> None:
+        if self.preset not in PRESETS:
+            raise ConfigError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset!r}")
+        for name, low, high in (
+            ("neighbours", 1, 10_000),
+            ("edge_length", 0.002, 0.1),
+            ("thumbnail_size", 32, 2048),
+            ("seed", 0, 2**32 - 1),
+            ("time_limit", 1, 1e6),
+            ("jobs", 1, 10_000),
+        ):
+            value = getattr(self, name)
+            if value is not None and not low <= value <= high:
+                raise ConfigError(f"{name} must be from {low:g} to {high:g}, not {value:g}")
+
+    @property
+    def worker_count(self) -> int:
+        """Number of worker processes: as asked for, or as many as this process may use cores."""
+        return self.jobs or len(os.sched_getaffinity(0))
+
+    def as_parameters(self) -> dict[str, object]:
+        """The options that shape the result, as JSON values; not where and how fast it was computed."""
+        left_out = {"title", "jobs", "cache", "time_limit"}
+        values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
+        return values | {"external": [path.name for path in self.external]}
+
+
+def load_config(database: Path | None, options: Mapping[str, Any]) -> Config:
+    """The options for a database: those given, else those of its ``shapeviz.toml``, else the defaults.
+
+    Parameters
+    ----------
+    database : Path or None
+        The database's folder, or a table in it; None for no file.
+    options : mapping
+        Named as the fields of :class:`Config`; None means not given.
+
+    Raises
+    ------
+    ConfigError
+        The file is not TOML, or an option is unknown, of the wrong type or out of range.
+    """
+    values: dict[str, Any] = {}
+    if database is not None:
+        folder = database if database.is_dir() else database.parent
+        file = folder / FILE_NAME
+        for key, value in _read_file(file).items():
+            values[key] = _convert(key, value, f"in {file}", folder)
+    for key, value in options.items():
+        if value is not None:
+            values[key] = _convert(key, value, "as an option", Path())
+    return Config(**values)
+
+
+def _read_file(file: Path) -> dict[str, Any]:
+    if not file.is_file():
+        return {}
+    try:
+        return tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise ConfigError(f"{file} cannot be read as TOML: {error}") from error
+
+
+def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
+    """A value as the field wants it; relative paths start at ``folder``."""
+    fields = {f.name: str(f.type) for f in dataclasses.fields(Config)}
+    if key not in fields:
+        raise ConfigError(f"there is no option {key!r} ({where}); there are: {', '.join(fields)}")
+    kind = fields[key]
+    if kind.startswith("tuple"):
+        paths = value if isinstance(value, list | tuple) else [value]
+        if all(isinstance(path, str | os.PathLike) for path in paths):
+            return tuple(folder / path for path in paths)
+    elif kind.startswith("Path") and isinstance(value, str | os.PathLike):
+        return folder / value
+    elif (kind.startswith("str") and isinstance(value, str)) or (kind.startswith("int") and isinstance(value, int) and not isinstance(value, bool)):
+        return value
+    elif kind.startswith("float") and isinstance(value, int | float) and not isinstance(value, bool):
+        return float(value)
+    wanted = {"t": "a list of file names", "P": "a path", "s": "text", "i": "a whole number", "f": "a number"}
+    raise ConfigError(f"{key} must be {wanted[kind[0]]}, not {value!r} ({where})")

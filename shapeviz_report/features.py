@@ -1,0 +1,175 @@
+"""From values at vertices to one row of features a shape (paper, 3.4), and their scaling for projections."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from shapeviz_report.descriptors import DESCRIPTORS, Surface
+from shapeviz_report.errors import ConfigError
+from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, Mesh
+
+BINS = 10
+"""Bins a dimension (paper, 3.4)."""
+
+QUANTILES = (0.01, 0.99)
+"""Ends of the data-driven histogram ranges: wide enough for the values, closed to stray ones."""
+
+BLOCKS = tuple(FeatureBlock(d.name, d.dimensions, BINS) for d in DESCRIPTORS)
+"""The features of Table 1: 187 dimensions, 1870 columns."""
+
+
+@dataclass(frozen=True)
+class Preset:
+    """How descriptor values become features.
+
+    Attributes
+    ----------
+    name : str
+    explanation : str
+    fixed_ranges : bool
+        Whether histogram ranges come from the descriptors' definitions, or from quantiles of all shapes.
+    by_area : bool
+        Whether a vertex counts with its area, or as one.
+    balanced : bool
+        Whether projections see square roots with equal weight a feature, or the plain fractions.
+    """
+
+    name: str
+    explanation: str
+    fixed_ranges: bool
+    by_area: bool
+    balanced: bool
+
+
+PRESETS = {
+    preset.name: preset
+    for preset in (
+        Preset(
+            "default",
+            "Histogram ranges come from each descriptor's definition, vertices count with their area, and "
+            "projections compare square roots (Hellinger distance) with equal weight for each feature.",
+            fixed_ranges=True,
+            by_area=True,
+            balanced=True,
+        ),
+        Preset(
+            "paper",
+            "Histogram ranges run from the 1st to the 99th percentile of all shapes, vertices count equally, "
+            "and projections compare the plain fractions.",
+            fixed_ranges=False,
+            by_area=False,
+            balanced=False,
+        ),
+    )
+}
+
+
+def fixed_edges() -> FloatArray:
+    """The (187, 11) bin edges of every dimension that the descriptors define."""
+    return np.concatenate([np.tile(d.edges, (d.dimensions, 1)) for d in DESCRIPTORS])
+
+
+def quantile_edges(samples: Sequence[FloatArray]) -> FloatArray:
+    """The (187, 11) bin edges from values at some vertices of every shape, each shape of equal weight.
+
+    Parameters
+    ----------
+    samples : sequence of (s, 187) arrays
+        As :func:`sample_values` gives them.
+    """
+    low, high = np.quantile(np.concatenate(samples), QUANTILES, axis=0)
+    # Where all values agree any width does: they all fall into one bin.
+    high = np.where(high > low, high, low + 1)
+    return low[:, None] + (high - low)[:, None] * np.linspace(0, 1, BINS + 1)
+
+
+def compute_values(surface: Surface) -> FloatArray:
+    """The (n, 187) values of all descriptors at every vertex, in the order of ``DESCRIPTORS``."""
+    return np.concatenate([descriptor.compute(surface) for descriptor in DESCRIPTORS], axis=1)
+
+
+def sample_values(mesh: Mesh, count: int) -> FloatArray:
+    """Values of all descriptors at ``count`` vertices spread over a mesh's numbering; (count, 187) float32."""
+    values = compute_values(Surface(mesh))
+    chosen = (np.arange(count) + 0.5) / count * len(values)
+    return values[chosen.astype(int)].astype(np.float32)
+
+
+def compute_histograms(mesh: Mesh, edges: FloatArray, *, by_area: bool) -> FloatArray:
+    """The features of a shape: a histogram of 10 bins for every descriptor dimension.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Prepared.
+    edges : (187, 11) array
+        Rising along each row. Bin b takes ``edges[b] <= value < edges[b + 1]``; the first and last bin also take
+        what lies beyond.
+    by_area : bool
+        Weight each vertex with its area instead of equally.
+
+    Returns
+    -------
+    (1870,) float64 array
+        Fractions; each dimension's ten add up to 1.
+    """
+    surface = Surface(mesh)
+    values = compute_values(surface)
+    weights = surface.areas if by_area else np.ones(len(values))
+    bins = np.zeros(values.shape, dtype=np.int64)
+    for edge in edges[:, 1:-1].T:
+        bins += values >= edge
+    bins += np.arange(len(edges)) * BINS
+    totals = np.bincount(bins.ravel(), np.repeat(weights, len(edges)), len(edges) * BINS)
+    return totals / weights.sum()
+
+
+def load_external(path: Path, shape_count: int) -> FloatArray:
+    """A user's own feature: (n, d) float64 values, one row a shape.
+
+    Raises
+    ------
+    ConfigError
+        The file is not a .npy array of that many rows of finite numbers.
+    """
+    try:
+        values = np.load(path, allow_pickle=False)
+    except (OSError, ValueError) as error:
+        raise ConfigError(f"the feature file {path} cannot be read: {error}") from error
+    if not isinstance(values, np.ndarray) or values.ndim not in (1, 2) or values.dtype.kind not in "fiub":
+        raise ConfigError(f"the feature file {path} must hold one array of numbers with one row a shape")
+    if len(values) != shape_count:
+        raise ConfigError(
+            f"the feature file {path} has {len(values)} rows, but the database has {shape_count} shapes; "
+            "`shapeviz-report check DATABASE --list` prints them in the order of the rows"
+        )
+    values = values.reshape(len(values), -1).astype(np.float64)
+    if values.shape[1] == 0 or not np.isfinite(values).all():
+        raise ConfigError(f"the feature file {path} must hold finite numbers only")
+    return values
+
+
+def scale(table: FeatureTable, preset: Preset) -> FloatArray:
+    """The values that projections compare, by Euclidean distance; (n, w).
+
+    Balanced: square roots of the fractions, whose distance is the Hellinger distance of the histograms, each
+    feature then centred and divided by its root mean square norm over the database, so that every feature
+    contributes equally to the mean squared distance. A feature that is the same for all shapes becomes zero.
+    External features are taken as they are instead of their square roots.
+    """
+    if not preset.balanced:
+        return table.values
+    scaled = np.empty_like(table.values)
+    for block in table.blocks:
+        columns = table.slice_of(block.name)
+        values = table.values[:, columns]
+        if block.bins > 1:
+            values = np.sqrt(values)
+        centred = values - values.mean(axis=0)
+        size = np.sqrt((centred**2).sum(axis=1).mean())
+        scaled[:, columns] = centred / size if size > 1e-12 else 0.0
+    return scaled

@@ -1,0 +1,332 @@
+"""The stages of a build, in order: read, prepare, describe, project, score, render, write."""
+
+from __future__ import annotations
+
+import logging
+import platform
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from shapeviz_report import demo, stages
+from shapeviz_report.cache import default_root
+from shapeviz_report.config import Config
+from shapeviz_report.database import read_database
+from shapeviz_report.errors import ConfigError, DatabaseError
+from shapeviz_report.executor import LocalExecutor
+from shapeviz_report.features import (
+    BLOCKS,
+    PRESETS,
+    fixed_edges,
+    load_external,
+    quantile_edges,
+    scale,
+)
+from shapeviz_report.projections import PROJECTIONS, align
+from shapeviz_report.quality import score
+from shapeviz_report.render import check_renderer
+from shapeviz_report.site import check_destination, write_site
+from shapeviz_report.types import (
+    Database,
+    Failure,
+    FeatureBlock,
+    FeatureTable,
+    FloatArray,
+    Projection,
+    Quality,
+    Report,
+    ShapeEntry,
+    ShapeFacts,
+)
+
+logger = logging.getLogger(__name__)
+
+SAMPLED_VERTICES = 400_000
+"""Vertices behind data-driven histogram ranges, over all shapes; at least 16 and at most 1000 of each."""
+
+LIBRARIES = (
+    "numpy", "scipy", "numba", "scikit-learn", "umap-learn", "mmgpy", "trimesh", "pyrender-maintained", "altair",
+    "vl-convert-python",
+)  # fmt: skip
+"""The libraries whose versions the site states."""
+
+
+class Progress(Protocol):
+    """Told how far a build is."""
+
+    def stage(self, name: str, total: int) -> AbstractContextManager[Callable[[], None]]:
+        """Enter a stage of ``total`` steps (0: unknown); the function it gives is called after each."""
+        ...
+
+
+class QuietProgress:
+    """Progress as log records: one when a stage begins."""
+
+    @contextmanager
+    def stage(self, name: str, total: int) -> Iterator[Callable[[], None]]:
+        """See :class:`Progress`."""
+        logger.info("%s (%d)", name, total) if total else logger.info("%s", name)
+        yield lambda: None
+
+
+@dataclass
+class Clock:
+    """Wall-clock and CPU seconds a stage, in order of the stages."""
+
+    progress: Progress
+    seconds: dict[str, float] = field(default_factory=dict)
+    cpu_seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def stage(self, name: str, total: int = 0) -> Iterator[Callable[[float], None]]:
+        """Time a stage; the function it gives takes the CPU seconds of a worker, once for each step done."""
+        wall, cpu, workers = time.perf_counter(), time.process_time(), 0.0
+        with self.progress.stage(name, total) as advance:
+
+            def step(worker_cpu: float) -> None:
+                nonlocal workers
+                workers += worker_cpu
+                advance()
+
+            yield step
+        self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - wall
+        spent = time.process_time() - cpu + workers
+        self.cpu_seconds[name] = self.cpu_seconds.get(name, 0.0) + spent
+
+
+@dataclass(frozen=True)
+class CheckResult:
+    """What a build would read.
+
+    Attributes
+    ----------
+    database : Database
+        As it is laid out.
+    repairs : mapping of str to dict
+        Shape id -> what would be mended, for shapes that can be used.
+    failures : tuple of Failure
+        Files that cannot be used.
+    """
+
+    database: Database
+    repairs: dict[str, dict[str, int]]
+    failures: tuple[Failure, ...]
+
+
+def build_report(
+    database_path: Path, destination: Path, config: Config, progress: Progress | None = None
+) -> Report:
+    """Build the site of a shape database.
+
+    Parameters
+    ----------
+    database_path : Path
+        Folder or table; see ``docs/databases.md``.
+    destination : Path
+        Folder of the site: absent, empty, or a site of ours, which is replaced at once when all is done.
+    config : Config
+    progress : Progress, optional
+
+    Returns
+    -------
+    Report
+        What the site shows.
+
+    Raises
+    ------
+    ShapevizError
+        Nothing could be built; an existing site is left as it is.
+    """
+    check_destination(destination)
+    check_renderer()
+    clock = Clock(progress or QuietProgress())
+    with clock.stage("read"):
+        database = read_database(
+            database_path, layout=config.layout, labeling=config.labeling, name=config.title
+        )
+        external = _load_external(config.external, len(database.shapes))
+    cache_root = (config.cache or default_root()).absolute()
+    failures = list(database.failures)
+    preset = PRESETS[config.preset]
+
+    with LocalExecutor(config.worker_count, config.time_limit) as executor:
+        run = _Runner(executor, clock, database, failures)
+        prepared: dict[str, tuple[str, ShapeFacts]] = run(
+            "prepare",
+            stages.prepare_shape,
+            {s.id: (s.path.absolute(), config.edge_length, cache_root) for s in database.shapes},
+        )
+        if preset.fixed_ranges:
+            edges = fixed_edges()
+        else:
+            share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), 16, 1000))
+            samples = run(
+                "sample",
+                stages.sample_shape,
+                {shape: (key, share, cache_root) for shape, (key, _) in prepared.items()},
+            )
+            edges = quantile_edges(list(samples.values())) if samples else fixed_edges()
+        described: dict[str, FloatArray] = run(
+            "describe",
+            stages.describe_shape,
+            {shape: (key, edges, preset.by_area, cache_root) for shape, (key, _) in prepared.items()},
+        )
+        pictures: dict[str, bytes] = run(
+            "render",
+            stages.render_shape,
+            {shape: (prepared[shape][0], config.thumbnail_size, cache_root) for shape in described},
+        )
+        shapes = tuple(s for s in database.shapes if s.id in pictures)
+        if not shapes:
+            raise DatabaseError(_nothing_usable(database_path, failures))
+        rows = [i for i, s in enumerate(database.shapes) if s.id in pictures]
+        features = FeatureTable(
+            tuple(s.id for s in shapes),
+            BLOCKS + tuple(block for block, _ in external),
+            np.column_stack([[described[s.id] for s in shapes], *(values[rows] for _, values in external)]),
+        )
+        projections = _project(run, features, scale(features, preset), config.seed)
+
+    labeling = database.labelings[0] if database.labelings else None
+    labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)
+    with clock.stage("score"):
+        maps: dict[str, tuple[Projection, Quality]] = {
+            name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
+            for name, projection in projections.items()
+        }
+    report = Report(
+        database=database,
+        shapes=shapes,
+        facts=tuple(prepared[s.id][1] for s in shapes),
+        thumbnails=tuple(pictures[s.id] for s in shapes),
+        labeling=labeling,
+        labels=labels,
+        features=features,
+        projections=maps,
+        failures=tuple(failures),
+        parameters=config.as_parameters(),
+        versions={name: version(name) for name in ("shapeviz-report", *LIBRARIES)}
+        | {"python": platform.python_version()},
+        seconds=clock.seconds,
+        cpu_seconds=clock.cpu_seconds,
+    )
+    with clock.stage("write"):
+        write_site(report, destination)
+    return report
+
+
+def build_demo(destination: Path, config: Config, progress: Progress | None = None) -> Report:
+    """Generate the demo database below the cache and build its site; see :func:`build_report`."""
+    check_destination(destination)
+    check_renderer()
+    progress = progress or QuietProgress()
+    folder = f"{stages.demo_version()}-{config.seed}"
+    root = (config.cache or default_root()).absolute() / "demo" / folder
+    tasks = [(root, c.name, i, config.seed) for c in demo.CLASSES for i in range(demo.PER_CLASS)]
+    with (
+        LocalExecutor(config.worker_count, config.time_limit) as executor,
+        progress.stage("generate", len(tasks)) as advance,
+    ):
+        for outcome in executor.run(stages.generate_shape, tasks):
+            if outcome.reason is not None:
+                raise DatabaseError(
+                    f"The demo shape {tasks[outcome.index][1:]} cannot be made: {outcome.reason}."
+                )
+            advance()
+    config = replace(config, title=config.title or "Demo shapes")
+    return build_report(root, destination, config, progress)
+
+
+def check_database(database_path: Path, config: Config, progress: Progress | None = None) -> CheckResult:
+    """Read a database and every mesh of it, without computing or writing anything."""
+    clock = Clock(progress or QuietProgress())
+    with clock.stage("read"):
+        database = read_database(
+            database_path, layout=config.layout, labeling=config.labeling, name=config.title
+        )
+        _load_external(config.external, len(database.shapes))
+    failures = list(database.failures)
+    with LocalExecutor(config.worker_count, config.time_limit) as executor:
+        run = _Runner(executor, clock, database, failures)
+        repairs = run("check", stages.examine_shape, {s.id: (s.path.absolute(),) for s in database.shapes})
+    return CheckResult(database, repairs, tuple(failures))
+
+
+class _Runner:
+    """Runs one stage for many shapes and turns what goes wrong into failures."""
+
+    def __init__(
+        self, executor: LocalExecutor, clock: Clock, database: Database, failures: list[Failure]
+    ) -> None:
+        self.executor = executor
+        self.clock = clock
+        self._paths = {s.id: _relative(s, database.root) for s in database.shapes}
+        self._failures = failures
+
+    def __call__(
+        self, name: str, function: Callable[..., Any], tasks: dict[str, tuple[Any, ...]]
+    ) -> dict[str, Any]:
+        """Call ``function`` once a shape; the results by shape id, in the order of ``tasks``."""
+        ids = list(tasks)
+        results: dict[str, Any] = {}
+        failed: dict[str, Failure] = {}
+        with self.clock.stage(name, len(ids)) as step:
+            for outcome in self.executor.run(function, list(tasks.values())):
+                shape = ids[outcome.index]
+                if outcome.reason is None:
+                    results[shape] = outcome.value
+                else:
+                    failed[shape] = Failure(self._paths[shape], name, outcome.reason)
+                step(outcome.cpu_seconds)
+        # Workers finish in any order; the report must not show which.
+        self._failures.extend(failed[shape] for shape in ids if shape in failed)
+        return {shape: results[shape] for shape in ids if shape in results}
+
+
+def _project(run: _Runner, features: FeatureTable, values: FloatArray, seed: int) -> dict[str, Projection]:
+    """The map of every method, turned to agree with the first."""
+    names = tuple(block.name for block in features.blocks)
+    tasks = [(method.name, values, names, seed) for method in PROJECTIONS]
+    found: dict[str, Projection] = {}
+    with run.clock.stage("project", len(tasks)) as step:
+        for outcome in run.executor.run(stages.project_features, tasks):
+            if outcome.reason is not None:
+                raise DatabaseError(
+                    f"The projection {tasks[outcome.index][0]} failed: {outcome.reason}. A larger time_limit may help."
+                )
+            found[outcome.value.method] = outcome.value
+            step(outcome.cpu_seconds)
+    reference = found[PROJECTIONS[0].name]
+    return {m.name: align(found[m.name], reference) for m in PROJECTIONS}
+
+
+def _load_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:
+    taken = {block.name for block in BLOCKS}
+    result = []
+    for path in paths:
+        name = path.stem
+        if name in taken:
+            raise ConfigError(f"there is already a feature named {name!r}; rename the file {path}")
+        taken.add(name)
+        values = load_external(path, shape_count)
+        result.append((FeatureBlock(name, values.shape[1], 1), values))
+    return result
+
+
+def _relative(shape: ShapeEntry, root: Path) -> str:
+    try:
+        return shape.path.relative_to(root).as_posix()
+    except ValueError:
+        return shape.path.as_posix()
+
+
+def _nothing_usable(path: Path, failures: Sequence[Failure]) -> str:
+    first = "".join(f"\n  {failure.path}: {failure.reason}" for failure in failures[:5])
+    more = f"\n  and {len(failures) - 5} more" if len(failures) > 5 else ""
+    return f"None of the files in {path} can be used:{first}{more}"

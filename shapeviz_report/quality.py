@@ -1,0 +1,120 @@
+"""Neighbourhood hit: how well a map keeps shapes of one class together (paper, Eq. 7 and 8)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from shapeviz_report.types import FloatArray, Quality
+
+NEIGHBOURS = 10
+"""k of the paper (3.5)."""
+
+PERMUTATIONS = 1000
+"""Number of random labelings behind the null's mean and standard deviation."""
+
+TIE = 1e-9
+"""Distances that differ by less than this fraction are equal."""
+
+
+def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, seed: int = 0) -> Quality:
+    r"""Neighbourhood hit of every shape, class and the whole map, and what random labels would reach.
+
+    .. math:: NH(m) = \frac{1}{k} |\{ p \in N_k(m) : c(p) = c(m) \}|
+
+    Where several points are equally far at the k-th place, each counts with the same fraction, so that the
+    value does not depend on the order of the shapes. A neighbour without a label is a miss. NH of a shape
+    without a label is undefined, and such shapes have no part in the averages.
+
+    The null keeps the map and deals the labels out anew, ``PERMUTATIONS`` times.
+
+    Parameters
+    ----------
+    xy : (n, d) float array
+        Points; of a map d = 2.
+    labels : n labels
+        None for a shape without one.
+    k : int
+        Number of neighbours; less where there are fewer other shapes.
+    seed : int
+        Of the permutations.
+
+    Returns
+    -------
+    Quality
+    """
+    count = len(labels)
+    k = min(k, count - 1)
+    classes = sorted({label for label in labels if label is not None})
+    number = {label: i for i, label in enumerate(classes)}
+    codes = np.array([-1 if label is None else number[label] for label in labels])
+    labelled = codes >= 0
+    nh = np.full(count, np.nan)
+    if k < 1 or not classes:
+        return Quality(max(k, 0), nh, {}, None, None, None)
+
+    weights = neighbour_weights(xy, k)
+    hits = _hits(weights, codes)
+    nh[labelled] = hits[labelled]
+    nh_c = {label: float(nh[codes == i].mean()) for i, label in enumerate(classes)}
+    # A canonical order of the points makes the same permutations meet the same shapes in any input order.
+    order = np.lexsort((*xy.T, codes))
+    order = order[labelled[order]]
+    random = np.random.default_rng(seed)
+    null = np.empty(PERMUTATIONS)
+    shuffled = codes.copy()
+    for i in range(PERMUTATIONS):
+        shuffled[order] = random.permutation(codes[order])
+        null[i] = _hits(weights, shuffled)[labelled].mean()
+    return Quality(
+        k=k,
+        nh=nh,
+        nh_c=dict(sorted(nh_c.items(), key=lambda item: (-item[1], item[0]))),
+        nh_s=float(nh[labelled].mean()),
+        null_mean=float(null.mean()),
+        null_std=float(null.std()),
+    )
+
+
+def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
+    """The k nearest neighbours of every point, as weights that add up to 1 in every row.
+
+    Parameters
+    ----------
+    points : (n, d) float array
+    k : int
+        From 1 to n - 1.
+
+    Returns
+    -------
+    (n, n) sparse matrix
+        1 / k for a neighbour; those that tie for the last places share them equally. Zero on the diagonal.
+    """
+    count = len(points)
+    rows, columns, values = [], [], []
+    chunk = max(1, 4_000_000 // count)
+    for start in range(0, count, chunk):
+        block = points[start : start + chunk]
+        squared = np.zeros((len(block), count))
+        for dimension in range(points.shape[1]):
+            squared += (block[:, dimension, None] - points[None, :, dimension]) ** 2
+        squared[np.arange(len(block)), np.arange(start, start + len(block))] = np.inf
+        last = np.partition(squared, k - 1, axis=1)[:, k - 1, None]
+        nearer = squared < last * (1 - TIE)
+        tied = (squared <= last * (1 + TIE)) & ~nearer
+        share = (k - nearer.sum(axis=1)) / tied.sum(axis=1)
+        row, column = np.nonzero(nearer | tied)
+        rows.append(row + start)
+        columns.append(column)
+        values.append(np.where(nearer[row, column], 1.0, share[row]) / k)
+    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+    return csr_matrix(entries, shape=(count, count))
+
+
+def _hits(weights: csr_matrix, codes: np.ndarray) -> FloatArray:
+    """Per row: the weight of the neighbours with the row's own code."""
+    own = np.repeat(codes, np.diff(weights.indptr))
+    same = weights.data * (own == codes[weights.indices])
+    return np.add.reduceat(same, weights.indptr[:-1])
