@@ -134,9 +134,9 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
             return tuple(folder / path for path in paths)
     elif kind.startswith("Path") and isinstance(value, str | os.PathLike):
         return folder / value
-    elif (kind.startswith("str") and isinstance(value, str)) or (kind.startswith("int") and isinstance(value, int) and not isinstance(value, bool)):
-        return value
     elif kind.startswith("float") and isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
+    elif isinstance(value, {"str": str, "int": int}.get(kind[:3], ())) and not isinstance(value, bool):
+        return value
     wanted = {"t": "a list of file names", "P": "a path", "s": "text", "i": "a whole number", "f": "a number"}
     raise ConfigError(f"{key} must be {wanted[kind[0]]}, not {value!r} ({where})")

@@ -38,7 +38,6 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """
     count, size = neighbours.shape
     result = np.zeros((count, 125), np.float32)
-    share = np.float32(1.0 / (size * (size - 1)))
     points = np.empty((size, 6))
     for i in range(count):
         for s in range(size):
@@ -63,7 +62,8 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
                     c = 3 if y > 0.0 else 1
                 else:
                     c = 4 if y > 0.0 else 0
-                row[25 * a + 5 * p + c] += share
+                row[25 * a + 5 * p + c] += np.float32(1.0)
+    result /= np.float32(size * (size - 1))
     return result
 
 
@@ -72,7 +72,6 @@ def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """Share of the pairs (vertex, neighbour) in 11 bins each of alpha, phi and theta: (n, 33)."""
     count, size = neighbours.shape
     result = np.zeros((count, 33), np.float32)
-    share = np.float32(1.0 / size)
     for i in range(count):
         for s in range(size):
             j = neighbours[i, s]
@@ -81,9 +80,10 @@ def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
                 vertices[j, 0], vertices[j, 1], vertices[j, 2], normals[j, 0], normals[j, 1], normals[j, 2],
             )  # fmt: skip
             theta = np.arctan2(y, x)
-            result[i, min(10, max(0, int((alpha + 1.0) * 5.5)))] += share
-            result[i, 11 + min(10, max(0, int((phi + 1.0) * 5.5)))] += share
-            result[i, 22 + min(10, max(0, int((theta / np.pi + 1.0) * 5.5)))] += share
+            result[i, min(10, max(0, int((alpha + 1.0) * 5.5)))] += np.float32(1.0)
+            result[i, 11 + min(10, max(0, int((phi + 1.0) * 5.5)))] += np.float32(1.0)
+            result[i, 22 + min(10, max(0, int((theta / np.pi + 1.0) * 5.5)))] += np.float32(1.0)
+    result /= np.float32(size)
     return result
 
 
