@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import ClassVar
 
 from shapeviz_report.types import Database, ShapeEntry
@@ -54,7 +55,7 @@ def shape_ids(relative_paths: Sequence[str]) -> list[str]:
     relative_paths : sequence of str
         With ``/`` between folders.
     """
-    stems = [str(PurePosixPath(path).with_suffix("")) for path in relative_paths]
+    stems = [os.path.splitext(path)[0] for path in relative_paths]
     times = Counter(stems)
     times.update(set(relative_paths))
     taken: Counter[str] = Counter()

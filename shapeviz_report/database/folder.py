@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from shapeviz_report.database.formats import is_read, is_unread_mesh, why_not_read
 from shapeviz_report.database.text import readable
@@ -18,18 +18,23 @@ _NEVER_SHAPES = ("__MACOSX",)
 class MeshFile:
     """A mesh below the scanned folder; ``relative`` is its path from there as text, ``/`` between folders."""
 
-    path: Path
+    location: str
     relative: str
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return Path(self.location)
 
     @property
     def folders(self) -> tuple[str, ...]:
         """The folders between the root and the file."""
-        return PurePosixPath(self.relative).parts[:-1]
+        return tuple(self.relative.split("/")[:-1])
 
     @property
     def stem(self) -> str:
         """The file's name without suffix."""
-        return PurePosixPath(self.relative).stem
+        return os.path.splitext(self.relative.rpartition("/")[2])[0]
 
 
 @dataclass(frozen=True)
@@ -94,17 +99,22 @@ def scan_folder(root: Path) -> Found:
             if entry.name.startswith(".") or entry.name in _NEVER_SHAPES:
                 continue
             relative = prefix + readable(entry.name)
-            if entry.is_dir():
+            try:
+                is_folder, is_file = entry.is_dir(), entry.is_file()
+            except OSError as error:
+                fail(relative, f"this link leads nowhere: {error.strerror}")
+                continue
+            if is_folder:
                 waiting.append((entry.path, relative + "/", above | {identity}))
-            elif is_unread_mesh(entry.name):
-                fail(relative, why_not_read(entry.name))
-            elif is_read(entry.name):
-                if entry.is_file():
-                    files.append(MeshFile(Path(entry.path), relative))
-                elif entry.is_symlink():
-                    fail(relative, "this is a link to a file that is not there")
-                else:
-                    fail(relative, "this is not a regular file")
-    files.sort(key=lambda file: (file.relative, os.fsencode(file.path)))
+            elif not is_read(entry.name):
+                if is_unread_mesh(entry.name):
+                    fail(relative, why_not_read(entry.name))
+            elif is_file:
+                files.append(MeshFile(entry.path, relative))
+            elif entry.is_symlink():
+                fail(relative, "this is a link to a file that is not there")
+            else:
+                fail(relative, "this is not a regular file")
+    files.sort(key=lambda file: (file.relative, os.fsencode(file.location)))
     failures.sort(key=lambda failure: (failure.path, failure.reason))
     return Found(tuple(files), tuple(failures))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import PurePath
+import os
 
 MESH_FORMATS = {
     ".off": "OFF",
@@ -32,7 +32,8 @@ _COMPRESSED = frozenset({".7z", ".bz2", ".gz", ".lzma", ".rar", ".tar", ".tgz", 
 
 def suffix_of(name: str) -> str:
     """The last suffix of a file name, in lower case; empty if there is none."""
-    return PurePath(name).suffix.lower()
+    suffix = os.path.splitext(name)[1].lower()
+    return suffix if suffix != "." else ""
 
 
 def is_read(name: str) -> bool:
@@ -44,7 +45,7 @@ def is_unread_mesh(name: str) -> bool:
     """Whether a file of this name plainly is a 3D model, but of a format (or packed so) that is not read."""
     suffix = suffix_of(name)
     if suffix in _COMPRESSED:
-        inner = suffix_of(PurePath(name).stem)
+        inner = suffix_of(os.path.splitext(name)[0])
         return inner in MESH_FORMATS or inner in _UNREAD_FORMATS
     return suffix in _UNREAD_FORMATS
 

@@ -97,9 +97,12 @@ class Princeton(Layout):
         categories = {file: _read_cla(file, warnings) for file in files}
         classifications = _combine(categories, root, warnings)
         listed_in: dict[str, Path] = {}
+        splits: dict[str, str] = {}
         for file, found in categories.items():
             for model in (model for category in found for model in category.models):
                 listed_in.setdefault(model, file)
+                if split := _split_of(file)[1]:
+                    splits.setdefault(model, split)
         meshes, unlisted = _find_models(listed_in, root)
         if unlisted:
             warnings.append(f"{unlisted} mesh files below {root} are in no .cla file and are left out.")
@@ -114,7 +117,6 @@ class Princeton(Layout):
             for name, (classification, classes) in labelings.items()
             if (above := _parents_of(classification, set(classes.values())))
         }
-        splits = {model: split for model in models if (split := _split_of(listed_in[model])[1])}
         return Database(
             name=database_name(root),
             root=root,

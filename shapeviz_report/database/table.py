@@ -9,7 +9,8 @@ import os
 import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from itertools import zip_longest
+from pathlib import Path
 
 from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
 from shapeviz_report.database.formats import is_read, suffix_of, why_not_read
@@ -27,11 +28,24 @@ FEWEST_SHAPES_A_CLASS = 3
 
 @dataclass(frozen=True)
 class Row:
-    """One row as it was written: where it stands, its file, and its other non-empty cells by column."""
+    """One row: where it stands, its file, and its other cells by column, in the table's order, empty ones too."""
 
     place: str
     file: str
     cells: Mapping[str, str]
+
+    @property
+    def filled(self) -> dict[str, str]:
+        """The cells that say something."""
+        return {column: cell for column, cell in self.cells.items() if cell}
+
+
+@dataclass(frozen=True)
+class Listed:
+    """A file that a table lists, and the rows that do."""
+
+    path: Path
+    rows: list[Row]
 
 
 class Table(Layout):
@@ -56,17 +70,19 @@ class Table(Layout):
     def read(self, path: Path) -> Database:
         table = _the_table(path)
         rows, warnings = _read_rows(table)
+        if not rows:
+            raise DatabaseError(f"The table {table} names columns, but lists no files.")
         root = table.parent
         listed, failures = _sort_out(rows, table)
-        if repeated := sorted(relative for relative, same in listed.items() if len(same) > 1):
+        if repeated := sorted(relative for relative, file in listed.items() if len(file.rows) > 1):
             warnings.append(
                 f"{len(repeated)} files stand in {table.name} more than once with the same values and are "
                 f"taken once: {', '.join(repeated[:5])}{', ...' if len(repeated) > 5 else ''}."
             )
         relatives = sorted(listed)
-        cells = [dict(listed[relative][0].cells) for relative in relatives]
+        columns = dict.fromkeys(column for relative in relatives for column in listed[relative].rows[0].cells)
+        cells = [listed[relative].rows[0].filled for relative in relatives]
         labels = [cell.pop(LABEL_COLUMN, "") for cell in cells]
-        columns = list(dict.fromkeys(column for cell in cells for column in cell))
         groups = [column for column in columns if _names_groups([cell.get(column) for cell in cells])]
         if groups and not any(labels):
             warnings.append(
@@ -79,8 +95,8 @@ class Table(Layout):
             shapes=sorted_shapes(
                 ShapeEntry(
                     id,
-                    _mesh_path(root, listed[relative][0].file),
-                    PurePosixPath(relative).stem,
+                    listed[relative].path,
+                    os.path.splitext(relative.rpartition("/")[2])[0],
                     labels={
                         **({LABEL_COLUMN: label} if label else {}),
                         **{column: cell[column] for column in groups if column in cell},
@@ -183,7 +199,7 @@ def _csv_rows(text: str, table: Path) -> list[Row]:
                     f"A cell that contains '{delimiter}' belongs in double quotes."
                 )
             if any(cell.strip() for cell in cells):
-                rows.append(_row(f"line {reader.line_num}", dict(zip(columns, cells))))
+                rows.append(_row(f"line {reader.line_num}", dict(zip_longest(columns, cells, fillvalue=""))))
     except csv.Error as error:
         raise DatabaseError(f"{table}, line {reader.line_num}: this is not CSV: {error}.") from error
     return rows
@@ -220,43 +236,41 @@ def _as_text(value: object) -> str:
 
 
 def _row(place: str, cells: Mapping[str, str]) -> Row:
-    """A row without its empty cells, and without columns that have no name, as spreadsheets leave behind."""
+    """A row without the columns that have no name, as spreadsheets leave them behind."""
     kept = {column: clean(cell) for column, cell in cells.items() if column and column != FILE_COLUMN}
-    return Row(
-        place, cells.get(FILE_COLUMN, "").strip(), {column: cell for column, cell in kept.items() if cell}
-    )
+    return Row(place, cells.get(FILE_COLUMN, "").strip(), kept)
 
 
-def _sort_out(rows: Sequence[Row], table: Path) -> tuple[dict[str, list[Row]], tuple[Failure, ...]]:
-    """The rows of every file that can be taken, by its path below the table's folder, and the failures."""
+def _sort_out(rows: Sequence[Row], table: Path) -> tuple[dict[str, Listed], tuple[Failure, ...]]:
+    """What can be taken, by its path below the table's folder, and the failures."""
     root = table.parent
-    by_file: dict[str, list[Row]] = {}
+    by_file: dict[str, Listed] = {}
     failures = []
     for row in rows:
         if row.file:
             path = _mesh_path(root, row.file)
             relative = readable(os.path.relpath(path, root)).replace(os.sep, "/")
-            by_file.setdefault(relative, []).append(row)
+            by_file.setdefault(relative, Listed(path, [])).rows.append(row)
         else:
             failures.append(
                 Failure(f"{table.name}, {row.place}", "read", f"its column '{FILE_COLUMN}' is empty")
             )
-    listed = {}
-    for relative, same in by_file.items():
-        places = ", ".join(row.place for row in same)
-        path = _mesh_path(root, same[0].file)
-        if not path.is_file():
-            kind = "a folder, not a mesh" if path.is_dir() else "not there"
+    taken = {}
+    for relative, listed in by_file.items():
+        places = ", ".join(row.place for row in listed.rows)
+        if not listed.path.is_file():
+            kind = "a folder, not a mesh" if listed.path.is_dir() else "not there"
             reason = f"{table.name} lists it ({places}), but it is {kind}"
-        elif not is_read(path.name):
-            reason = why_not_read(path.name)
-        elif any(row.cells != same[0].cells for row in same):
-            reason = f"{table.name} lists it {len(same)} times with different values ({places}); keep one"
+        elif not is_read(listed.path.name):
+            reason = why_not_read(listed.path.name)
+        elif any(row.filled != listed.rows[0].filled for row in listed.rows):
+            times = len(listed.rows)
+            reason = f"{table.name} lists it {times} times with different values ({places}); keep one"
         else:
-            listed[relative] = same
+            taken[relative] = listed
             continue
         failures.append(Failure(relative, "read", reason))
-    return listed, tuple(sorted(failures, key=lambda failure: (failure.path, failure.reason)))
+    return taken, tuple(sorted(failures, key=lambda failure: (failure.path, failure.reason)))
 
 
 def _mesh_path(root: Path, file: str) -> Path:
@@ -265,17 +279,13 @@ def _mesh_path(root: Path, file: str) -> Path:
     A path that does not exist as written is also tried with Windows' separators turned, and in the other
     Unicode normal forms, which tables and file systems exchange behind their users' backs.
     """
-    written = Path(os.path.normpath(root / file))
-    for spelling in (file, file.replace("\\", "/")):
-        for form in (
-            spelling,
-            unicodedata.normalize("NFC", spelling),
-            unicodedata.normalize("NFD", spelling),
-        ):
-            path = Path(os.path.normpath(root / form))
-            if os.path.lexists(path):
-                return path
-    return written
+    spellings = (file, file.replace("\\", "/"))
+    forms = (unicodedata.normalize(form, spelling) for spelling in spellings for form in ("NFC", "NFD"))
+    for candidate in (*spellings, *forms):
+        path = os.path.normpath(os.path.join(root, candidate))
+        if os.path.lexists(path):
+            return Path(path)
+    return Path(os.path.normpath(os.path.join(root, file)))
 
 
 def _names_groups(values: Sequence[str | None]) -> bool:

@@ -1,0 +1,222 @@
+from __future__ import annotations
+
+import json
+import random
+from pathlib import Path
+
+import pytest
+
+from shapeviz_report.database import read_database
+from shapeviz_report.errors import DatabaseError
+
+
+@pytest.fixture
+def root(tmp_path) -> Path:
+    for name in ("a.off", "b.obj", "deep/c.ply", "d.off", "e.fbx"):
+        path = tmp_path / "db" / name
+        path.parent.mkdir(exist_ok=True, parents=True)
+        path.touch()
+    return tmp_path / "db"
+
+
+def table(root: Path, text: str | bytes, name: str = "shapes.csv") -> Path:
+    path = root / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def as_read(database):
+    return [(shape.id, dict(shape.labels), dict(shape.metadata)) for shape in database.shapes]
+
+
+EXPECTED = [
+    ("a", {"label": "cup"}, {"author": "Ada", "year": "1990"}),
+    ("b", {"label": "ant"}, {"year": "1991"}),
+    ("deep/c", {}, {"author": "Bob"}),
+]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "file,label,author,year\na.off,cup,Ada,1990\nb.obj,ant,,1991\ndeep/c.ply,,Bob,\n",
+        "file;label;author;year\na.off;cup;Ada;1990\nb.obj;ant;;1991\ndeep/c.ply;;Bob;\n",
+        "file\tlabel\tauthor\tyear\na.off\tcup\tAda\t1990\nb.obj\tant\t\t1991\ndeep/c.ply\t\tBob\t\n",
+        "\ufefffile,label,author,year\r\na.off,cup,Ada,1990\r\nb.obj,ant,,1991\r\ndeep/c.ply,,Bob\r\n",
+        ' File , LABEL ,author,year,\n" a.off ", cup ,Ada,1990,\n\n./b.obj,ant,,1991,\ndeep\\c.ply,,Bob,,\n,,,,\n',
+        "file,label,author,year\na.off,cup,Ada,1990\nb.obj,ant,,1991\ndeep/c.ply,,Bob,\n".encode("utf-16"),
+    ],
+)
+def test_csv(root, text):
+    database = read_database(table(root, text))
+    assert (database.layout, database.name, database.root) == ("table", "db", root)
+    assert as_read(database) == EXPECTED
+    assert database.labelings == ("label",)
+    assert not database.failures
+    assert not database.warnings
+    assert all(shape.path.is_file() for shape in database.shapes)
+    assert as_read(read_database(root)) == EXPECTED  # the folder as well
+
+
+def test_json(root):
+    rows = [
+        {"file": "deep/c.ply", "label": None, "author": "Bob"},
+        {"file": "a.off", "label": "cup", "year": 1990, "author": "Ada"},
+        {"year": 1991, "file": "b.obj", "label": " ant "},
+    ]
+    database = read_database(table(root, json.dumps(rows), "shapes.json"))
+    assert as_read(database) == EXPECTED
+    assert as_read(read_database(root)) == EXPECTED
+
+
+def test_json_values_become_text(root):
+    row = {
+        "file": "a.off",
+        "label": True,
+        "parts": [1, 2],
+        "size": 1.5,
+        "note": "\ud800",
+        "none": None,
+        "void": "",
+    }
+    (shape,) = read_database(table(root, json.dumps([row]), "shapes.json")).shapes
+    assert shape.labels == {"label": "true"}
+    assert shape.metadata == {"parts": "[1, 2]", "size": "1.5", "note": "\N{REPLACEMENT CHARACTER}" * 3}
+
+
+def test_latin_1_is_read_and_said(root):
+    database = read_database(table(root, "file,label\na.off,Flügel\n".encode("latin-1")))
+    assert database.shapes[0].labels == {"label": "Flügel"}
+    assert "not UTF-8" in database.warnings[0]
+
+
+def test_cells_are_data(root):
+    label = 'a "quoted" </script>\n🐙, second line; third'
+    quoted = '"' + label.replace('"', '""') + '"'
+    database = read_database(table(root, f"file,label,note\na.off,{quoted},{'x' * 100_000}\n"))
+    assert database.shapes[0].labels == {"label": label}
+    assert len(database.shapes[0].metadata["note"]) == 100_000
+
+
+def test_rows_that_cannot_be_taken(root):
+    database = read_database(
+        table(
+            root,
+            "file,label\na.off,cup\nmissing.off,cup\ne.fbx,cup\nm123,cup\ndeep,cup\n,cup\n"
+            "d.off,cup\nd.off,ant\nb.obj,ant\n./b.obj,ant\nhttp://example.org/x.off,cup\n",
+        )
+    )
+    assert [shape.id for shape in database.shapes] == ["a", "b"]
+    reasons = {failure.path: failure.reason for failure in database.failures}
+    assert set(reasons) == {
+        "missing.off", "e.fbx", "m123", "deep", "shapes.csv, line 7", "d.off", "http:/example.org/x.off"
+    }  # fmt: skip
+    assert "line 3), but it is not there" in reasons["missing.off"]
+    assert ".fbx are not read" in reasons["e.fbx"]
+    assert "a folder" in reasons["deep"]
+    assert "empty" in reasons["shapes.csv, line 7"]
+    assert "2 times with different values (line 8, line 9)" in reasons["d.off"]
+    assert "b.obj" in database.warnings[0]
+
+
+def test_all_rows_fail(root):
+    database = read_database(table(root, "file,label\nmissing.off,cup\n"))
+    assert not database.shapes
+    assert len(database.failures) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reason"),
+    [
+        ("t.csv", "path,label\na.off,cup\n", "no column 'file'"),
+        ("t.csv", "", "no column 'file'"),
+        ("t.csv", "file,label\n", "lists no files"),
+        ("t.csv", "file,label\na.off,cup,too,many\n", "line 2: there are more cells than the 2 columns"),
+        ("t.csv", "file,label,label\na.off,cup,ant\n", "two columns named 'label'"),
+        ("t.csv", f"file,label\na.off,{'x' * 200_000}\n", "line 2: this is not CSV"),
+        ("t.json", "{", "not JSON"),
+        ("t.json", "[" * 100_000, "not JSON"),
+        ("t.json", '{"file": "a.off"}', "not a list of objects"),
+        ("t.json", '["a.off"]', "not a list of objects"),
+        ("t.json", '[{"path": "a.off"}]', "no key 'file'"),
+    ],
+)
+def test_table_that_cannot_be_read(root, name, text, reason):
+    with pytest.raises(DatabaseError, match=reason):
+        read_database(table(root, text, name))
+
+
+def test_other_tables_in_the_folder_do_not_disturb(root):
+    table(root, "name,value\nx,1\n", "prices.csv")
+    table(root, '{"settings": {}}', "settings.json")
+    table(root, "not json at all", "broken.json")
+    assert read_database(root).layout == "class-folders"
+    table(root, "file,label\na.off,cup\n")
+    assert read_database(root).layout == "table"
+    table(root, "file,label\nb.obj,ant\n", "more.csv")
+    with pytest.raises(DatabaseError, match=r"several tables \(more\.csv, shapes\.csv\)"):
+        read_database(root)
+    assert [shape.id for shape in read_database(root / "more.csv").shapes] == ["b"]
+
+
+def test_folder_without_table_by_name(root):
+    with pytest.raises(DatabaseError, match="holds no table"):
+        read_database(root, layout="table")
+
+
+def test_paths_outside_the_tables_folder(root, tmp_path):
+    (tmp_path / "x.off").touch()
+    database = read_database(table(root, f"file\n../x.off\n{root}/a.off\n"))
+    assert [shape.id for shape in database.shapes] == ["../x", "a"]
+    assert database.labelings == ()
+
+
+def test_path_in_another_normal_form(root):
+    (root / "Mu\u0308nze.off").touch()
+    database = read_database(table(root, "file,label\nM\u00fcnze.off,coin\n"))
+    assert database.shapes[0].path.is_file()
+
+
+@pytest.fixture
+def many(tmp_path) -> tuple[Path, list[str]]:
+    """Forty shapes with columns of all kinds."""
+    rows = []
+    for number in range(40):
+        (tmp_path / f"{number:02}.off").touch()
+        rows.append(
+            f"{number:02}.off,{'ab'[number % 2]},{number % 5},same,{number},{'x' if number < 2 else ''}"
+        )
+    return tmp_path, rows
+
+
+def test_which_metadata_columns_are_labelings(many):
+    root, rows = many
+    rows[0] = "00.off,a"  # a short row, and first: the columns keep the order of the header
+    text = "\n".join(["file,label,group,constant,number,rare", *rows])
+    database = read_database(table(root, text))
+    assert database.labelings == ("label", "group")
+    assert database.shapes[7].labels == {"label": "b", "group": "2"}
+    assert database.shapes[7].metadata == {"group": "2", "constant": "same", "number": "7"}
+    assert read_database(table(root, text), labeling="group").labelings == ("group", "label")
+
+
+def test_table_without_labels_is_grouped_by_its_first_such_column(many):
+    root, rows = many
+    database = read_database(table(root, "\n".join(["file,side,group,constant,number,rare", *rows])))
+    assert database.labelings == ("side", "group")
+    assert "no labels; the shapes are grouped by its column 'side'" in database.warnings[0]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json"])
+def test_order_of_rows_does_not_matter(many, suffix):
+    root, rows = many
+    columns = ["file", "label", "group", "constant", "number", "rare"]
+    databases = []
+    for seed in range(3):
+        random.Random(seed).shuffle(rows)
+        if suffix == ".csv":
+            text = "\n".join([",".join(columns), *rows])
+        else:
+            text = json.dumps([dict(zip(columns, row.split(","))) for row in rows])
+        databases.append(read_database(table(root, text, f"shapes{suffix}")))
+    assert databases[0] == databases[1] == databases[2]
