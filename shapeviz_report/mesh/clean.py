@@ -60,9 +60,9 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
 
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
-    # Halving first keeps the extent of coordinates near the largest float finite.
     low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
-    diagonal = 2 * float(np.linalg.norm(high / 2 - low / 2))
+    with np.errstate(over="ignore"):
+        diagonal = float(np.linalg.norm(high - low))
     if not np.isfinite(diagonal) or diagonal <= np.abs(vertices[used]).max() * 1e-12:
         raise MeshError(
             "all its vertices lie in one point, or its coordinates exceed what can be computed with"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 from urllib.parse import unquote, urlsplit
 
 from shapeviz_report.errors import MeshError
@@ -14,18 +15,23 @@ _COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
 _TRIANGLE_FAN = 6
 
 
-def read_header(data: bytes) -> dict[str, object]:
-    """The JSON of a ``.gltf`` or ``.glb`` file. Raises ``MeshError`` or ``ValueError`` if there is none."""
-    if data.startswith(_BINARY_MAGIC):
+def read_header(data: bytes, *, binary: bool) -> dict[str, Any]:
+    """The JSON of a ``.gltf`` or (binary) ``.glb`` file. Raises ``MeshError`` if there is none."""
+    if binary:
+        if not data.startswith(_BINARY_MAGIC):
+            raise MeshError("it is not binary glTF")
         length = int.from_bytes(data[12:16], "little")
         data = data[20 : 20 + length]
-    header = json.loads(data)
+    try:
+        header = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise MeshError(f"it is not glTF, or cut off: its JSON is broken ({error})") from error
     if not isinstance(header, dict):
         raise MeshError("it is not glTF: its JSON is not an object")
     return header
 
 
-def buffer_files(header: Mapping[str, object], folder: Path) -> dict[str, Path]:
+def buffer_files(header: Mapping[str, Any], folder: Path) -> dict[str, Path]:
     """The files that hold a glTF's geometry: URI, as it is written -> path. Embedded buffers need none.
 
     Raises
@@ -46,7 +52,7 @@ def buffer_files(header: Mapping[str, object], folder: Path) -> dict[str, Path]:
     return files
 
 
-def check(header: Mapping[str, object]) -> None:
+def check(header: Mapping[str, Any]) -> None:
     """Refuse what trimesh would silently leave out or fill with zeros. Raises ``MeshError``."""
     for extension in header.get("extensionsRequired", []):
         if extension in _COMPRESSIONS:

@@ -105,7 +105,8 @@ def content_hash(path: Path) -> str:
     digest = hashlib.sha256(data)
     if MESH_FORMATS.get(suffix_of(path.name)) == "glTF":
         try:
-            buffers = gltf.buffer_files(gltf.read_header(data), path.parent)
+            header = gltf.read_header(data, binary=suffix_of(path.name) == ".glb")
+            buffers = gltf.buffer_files(header, path.parent)
             for buffer in buffers.values():
                 digest.update(_read_bytes(buffer))
         except (
@@ -163,25 +164,37 @@ def _load(data: bytes, suffix: str, path: Path) -> dict[str, Any]:
     """What trimesh's own loader makes of a file: the arguments of a scene or a mesh."""
     match suffix:
         case ".stl":
-            return load_stl(BytesIO(data))
+            return load_stl(BytesIO(_decoded_stl(data)))
         case ".3mf":
             return load_3MF(BytesIO(data))
         case ".dae":
             _check_collada(data)
             return load_collada(BytesIO(data))
         case _:
-            header = gltf.read_header(data)
+            binary = suffix == ".glb"
+            header = gltf.read_header(data, binary=binary)
             gltf.check(header)
             buffers = {uri: _read_bytes(file) for uri, file in gltf.buffer_files(header, path.parent).items()}
-            load = load_glb if suffix == ".glb" else load_gltf
+            load = load_glb if binary else load_gltf
             return load(BytesIO(data), resolver=buffers, skip_materials=True)
+
+
+def _decoded_stl(data: bytes) -> bytes:
+    """A binary STL as it is; a text STL, of which only names can be other than ASCII, as UTF-8."""
+    if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
+        return data
+    if b"facet" not in data.lower():
+        raise MeshError(
+            "it is neither text STL, nor binary STL of the length that it announces; it may be cut off"
+        )
+    return data.decode("latin-1").encode()
 
 
 def _check_collada(data: bytes) -> None:
     """Refuse what COLLADA never needs, before a parser meets it that has no limits of its own."""
     text = data.replace(b"\0", b"")  # UTF-16 and UTF-32 as well
-    if not text.lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n").startswith(b"<"):
-        raise MeshError("it is not COLLADA: it is no XML")
+    if not text.lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n").startswith(b"<") or b"COLLADA" not in text:
+        raise MeshError("it is not COLLADA")
     if b"<!DOCTYPE" in text:
         raise MeshError("it has a document type declaration, which COLLADA does not use")
     if _EXTERNAL_INSTANCE.search(text):

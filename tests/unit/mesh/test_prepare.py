@@ -1,0 +1,94 @@
+"""Preparing: an even, faithful, normalised mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from solids import ball, from_trimesh, rotation, sheet
+
+from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh import deviation, normalise, prepare, remesh
+from shapeviz_report.types import Mesh
+
+
+def edge_lengths(mesh: Mesh) -> np.ndarray:
+    pairs = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
+    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
+    return np.linalg.norm(mesh.vertices[pairs[:, 0]] - mesh.vertices[pairs[:, 1]], axis=1)
+
+
+def diagonal(mesh: Mesh) -> float:
+    return float(np.linalg.norm(np.ptp(mesh.vertices, axis=0)))
+
+
+@pytest.mark.parametrize("subdivisions", [2, 6])
+def test_remeshing_gives_even_edges_of_the_wanted_length(subdivisions) -> None:
+    coarse = ball(subdivisions)
+    result = remesh(coarse, 0.02)
+    lengths = edge_lengths(result) / diagonal(coarse)
+    assert lengths.mean() == pytest.approx(0.02, rel=0.1)
+    assert lengths.std() < 0.25 * lengths.mean()
+    assert deviation(coarse, result) < 0.01
+
+
+def test_prepared_file(tmp_path) -> None:
+    box = trimesh.creation.box(extents=(3, 2, 1))
+    path = tmp_path / "box.ply"
+    box.apply_translation([100, 0, 0]).export(path)
+    mesh, facts = prepare(path, 0.02)
+    assert np.abs(mesh.vertices).max() <= 1
+    assert np.linalg.norm(mesh.vertices, axis=1).max() == pytest.approx(1)
+    assert mesh.vertices.mean(axis=0) == pytest.approx(0, abs=1e-9)
+    assert mesh.faces.dtype == np.int32
+    assert (facts.faces_read, facts.watertight, facts.components) == (12, True, 1)
+    assert facts.faces == len(mesh.faces)
+    assert facts.deviation < 0.01
+    # Its sharp edges survive: the corners of the box are where they were.
+    corners = np.array(np.meshgrid([-1.5, 1.5], [-1, 1], [-0.5, 0.5])).reshape(3, -1).T
+    scale = np.linalg.norm(corners[0])
+    gaps = np.linalg.norm(mesh.vertices[:, None] - corners / scale, axis=2).min(axis=0)
+    assert gaps.max() < 0.03
+
+
+def test_preparing_is_deterministic(tmp_path) -> None:
+    path = tmp_path / "a.off"
+    trimesh.creation.torus(0.7, 0.3).export(path)
+    (first, _), (second, _) = prepare(path, 0.03), prepare(path, 0.03)
+    assert (first.vertices == second.vertices).all()
+    assert (first.faces == second.faces).all()
+
+
+def test_scale_does_not_depend_on_orientation() -> None:
+    mesh = from_trimesh(trimesh.creation.box(extents=(3, 2, 1)).subdivide())
+    turned = Mesh(mesh.vertices @ rotation(3).T * 7 + 2, mesh.faces)
+    assert normalise(turned).vertices == pytest.approx(normalise(mesh).vertices @ rotation(3).T)
+
+
+def test_deviation_sees_a_lost_limb() -> None:
+    body = ball(3)
+    limb = from_trimesh(trimesh.creation.icosphere(2, radius=0.1).apply_translation([2, 0, 0]))
+    both = Mesh(
+        np.concatenate([body.vertices, limb.vertices]),
+        np.concatenate([body.faces, limb.faces + len(body.vertices)]),
+    )
+    assert deviation(both, body) == pytest.approx(1.1 / diagonal(both), rel=0.15)
+    assert deviation(body, both) > 0.25
+    assert deviation(both, both) < 0.01
+
+
+def test_flat_sheet_is_prepared(tmp_path) -> None:
+    path = tmp_path / "sheet.off"
+    trimesh.Trimesh(sheet(3).vertices, sheet(3).faces).export(path)
+    mesh, facts = prepare(path, 0.05)
+    assert not facts.watertight
+    assert mesh.vertices[:, 2] == pytest.approx(0, abs=1e-9)
+
+
+def test_a_crumpled_surface_is_refused() -> None:
+    layer = sheet(3)
+    layers = 9000
+    vertices = np.concatenate([layer.vertices + np.array([0, 0, i * 1e-5]) for i in range(layers)])
+    faces = np.concatenate([layer.faces + i * len(layer.vertices) for i in range(layers)])
+    with pytest.raises(MeshError, match="many copies"):
+        remesh(Mesh(vertices, faces.astype(np.int32)), 0.002)

@@ -1,0 +1,84 @@
+"""Every projection: finds groups, is seeded, and does not depend on the order of the rows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from sklearn.decomposition import PCA
+
+from shapeviz_report.projections import PROJECTIONS, align, project
+from shapeviz_report.projections.base import principal_components
+from shapeviz_report.quality import score
+
+METHODS = pytest.mark.parametrize("method", PROJECTIONS, ids=lambda m: m.name)
+
+
+@pytest.fixture(scope="module")
+def groups() -> tuple[np.ndarray, list[str]]:
+    """Five groups of 15 in 30 dimensions."""
+    random = np.random.default_rng(0)
+    centres = random.normal(size=(5, 30))
+    values = np.repeat(centres, 15, axis=0) + 0.3 * random.normal(size=(75, 30))
+    return values, [f"class {i // 15}" for i in range(75)]
+
+
+@METHODS
+def test_groups_stay_together(method, groups) -> None:
+    values, labels = groups
+    projection = project(method, values, ("x",), 0)
+    assert projection.xy.shape == (75, 2)
+    assert np.abs(projection.xy).max() == pytest.approx(1)
+    assert score(projection.xy, labels).nh_s > (0.8 if method.name == "pca" else 0.97)
+
+
+@METHODS
+def test_the_order_of_rows_does_not_matter(method, groups) -> None:
+    values, _ = groups
+    order = np.random.default_rng(1).permutation(len(values))
+    first, second = (project(method, v, (), 3).xy for v in (values, values[order]))
+    assert (second == first[order]).all()
+
+
+@METHODS
+def test_the_seed_decides(method, groups) -> None:
+    values, _ = groups
+    first, same, other = (project(method, values, (), seed).xy for seed in (1, 1, 2))
+    assert (first == same).all()
+    assert (first == other).all() == (method.name == "pca")
+
+
+@METHODS
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5, 6])
+def test_few_shapes(method, count) -> None:
+    values = np.random.default_rng(0).random((count, 8))
+    xy = project(method, values, (), 0).xy
+    assert xy.shape == (count, 2)
+    assert np.isfinite(xy).all()
+    assert len(np.unique(xy, axis=0)) == count
+
+
+@METHODS
+def test_shapes_that_are_all_alike(method) -> None:
+    assert (project(method, np.ones((12, 4)), (), 0).xy == 0).all()
+
+
+@METHODS
+def test_some_shapes_alike(method, groups) -> None:
+    values = np.concatenate([groups[0], groups[0][:20]])
+    assert np.isfinite(project(method, values, (), 0).xy).all()
+
+
+def test_principal_components_against_scikit_learn(groups) -> None:
+    values, _ = groups
+    expected = PCA(2).fit_transform(values)
+    found = principal_components(values)
+    assert np.abs(found) == pytest.approx(np.abs(expected))
+
+
+def test_aligning_undoes_turns_and_mirrors(groups) -> None:
+    reference = project(PROJECTIONS[2], groups[0], (), 0)
+    turn = np.array([[np.cos(2), -np.sin(2)], [np.sin(2), np.cos(2)]]) @ np.diag([1, -1])
+    turned = type(reference)("pca", (), 0, 3 * reference.xy @ turn)
+    # The square that a map fits changes as it turns, and with it its place and size; its form does not.
+    ours, theirs = (p.xy - p.xy.mean(axis=0) for p in (align(turned, reference), reference))
+    assert ours / np.linalg.norm(ours) == pytest.approx(theirs / np.linalg.norm(theirs), abs=0.05)

@@ -1,0 +1,72 @@
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+from shapeviz_report.cache import Cache, code_version, default_root, make_key, write_atomically
+
+
+def test_an_entry_comes_back(tmp_path) -> None:
+    cache = Cache(tmp_path / "new" / "folder")
+    assert cache.load("stage", "abcdef") is None
+    cache.store("stage", "abcdef", b"content")
+    assert cache.load("stage", "abcdef") == b"content"
+    assert cache.load("other", "abcdef") is None
+
+
+def test_keys_tell_parts_apart() -> None:
+    keys = {
+        make_key(*parts)
+        for parts in [("a", "b"), ("ab",), ("a", "b", 1), ("a", "b", 1.0), ("a", "b", "1"), (b"a", "b")]
+    }
+    assert len(keys) == 6
+    assert make_key("a", 0.01) == make_key("a", 0.01)
+
+
+def test_code_version_follows_source_and_libraries(tmp_path, monkeypatch) -> None:
+    monkeypatch.syspath_prepend(tmp_path)
+    package = tmp_path / "some_stage"
+    package.mkdir()
+    (package / "__init__.py").write_text("")
+    (package / "part.py").write_text("x = 1\n")
+    first = code_version(("some_stage",), ("numpy",))
+    code_version.cache_clear()
+    assert code_version(("some_stage",), ("numpy",)) == first
+    assert code_version(("some_stage",), ("scipy",)) != first
+    (package / "part.py").write_text("x = 2\n")
+    code_version.cache_clear()
+    assert code_version(("some_stage",), ("numpy",)) != first
+    code_version.cache_clear()
+
+
+def test_a_writer_killed_half_way_leaves_the_old_content(tmp_path) -> None:
+    path = tmp_path / "entry"
+    write_atomically(path, b"old")
+    script = textwrap.dedent(
+        """
+        import os, signal, sys
+        from pathlib import Path
+        from shapeviz_report import cache
+        replace = os.replace
+        os.replace = lambda *a: os.kill(os.getpid(), signal.SIGKILL)
+        cache.write_atomically(Path(sys.argv[1]), b"new" * 100000)
+        """
+    )
+    assert subprocess.run([sys.executable, "-c", script, str(path)], check=False).returncode == -9
+    assert path.read_bytes() == b"old"
+
+
+def test_a_failed_write_leaves_nothing(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(os, "replace", lambda *a: (_ for _ in ()).throw(OSError("disk")))
+    with pytest.raises(OSError, match="disk"):
+        write_atomically(tmp_path / "entry", b"x")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_default_root(monkeypatch, tmp_path) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    assert default_root() == tmp_path / "shapeviz-report"

@@ -1,0 +1,122 @@
+"""Histograms, presets, scaling and external features."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from solids import ball, lump, tube
+
+from shapeviz_report.descriptors import Surface
+from shapeviz_report.errors import ConfigError
+from shapeviz_report.features import (
+    BLOCKS,
+    PRESETS,
+    compute_histograms,
+    compute_values,
+    fixed_edges,
+    load_external,
+    quantile_edges,
+    sample_values,
+    scale,
+)
+from shapeviz_report.types import FeatureBlock, FeatureTable
+
+
+def table(*meshes) -> FeatureTable:
+    values = np.array([compute_histograms(m, fixed_edges(), by_area=True) for m in meshes])
+    return FeatureTable(tuple(map(str, range(len(meshes)))), BLOCKS, values)
+
+
+def test_1870_columns_with_the_papers_names() -> None:
+    columns = table(ball(2)).columns
+    assert len(columns) == 1870
+    assert columns[0] == "Gc:1"
+    assert columns[15] == "Agd:6"
+    assert columns[-330 + 142] == "FPFH[14]:3"
+    assert len(set(columns)) == 1870
+
+
+def test_histograms_against_numpy() -> None:
+    mesh = lump()
+    surface = Surface(mesh)
+    values, edges = compute_values(surface), fixed_edges()
+    for by_area, weights in ((True, surface.areas), (False, np.ones(len(values)))):
+        found = compute_histograms(mesh, edges, by_area=by_area).reshape(187, 10)
+        for dimension in range(187):
+            inside = np.clip(values[:, dimension], edges[dimension, 0], edges[dimension, -1])
+            counts, _ = np.histogram(inside, edges[dimension], weights=weights)
+            assert found[dimension] == pytest.approx(counts / weights.sum(), abs=1e-9)
+
+
+def test_fractions_add_up_and_values_beyond_the_ends_count() -> None:
+    edges = np.tile(np.linspace(0.4, 0.6, 11), (187, 1))
+    found = compute_histograms(lump(), edges, by_area=True).reshape(187, 10)
+    assert found.sum(axis=1) == pytest.approx(1)
+    assert found[:, [0, 9]].sum() > 100
+
+
+def test_quantile_edges_cut_off_one_per_cent() -> None:
+    samples = [sample_values(mesh, 400) for mesh in (ball(3), lump(), tube())]
+    assert samples[0].shape == (400, 187)
+    edges = quantile_edges(samples)
+    assert edges.shape == (187, 11)
+    assert (np.diff(edges) > 0).all()
+    values = np.concatenate(samples)
+    assert np.mean(values[:, 1] < edges[1, 0]) == pytest.approx(0.01, abs=0.002)
+    assert np.mean(values[:, 1] > edges[1, -1]) == pytest.approx(0.01, abs=0.002)
+
+
+def test_balanced_scaling_gives_every_feature_the_same_say() -> None:
+    features = table(ball(3), lump(0), lump(1), tube())
+    scaled = scale(features, PRESETS["default"])
+    for block in features.blocks:
+        part = scaled[:, features.slice_of(block.name)]
+        assert (part**2).sum(axis=1).mean() == pytest.approx(1)
+    # Within a feature, distances are Hellinger distances of the histograms.
+    agd = features.slice_of("Agd")
+    roots = np.sqrt(features.values[:, agd])
+    ratios = np.linalg.norm(scaled[1:, agd] - scaled[0, agd], axis=1) / np.linalg.norm(
+        roots[1:] - roots[0], axis=1
+    )
+    assert ratios == pytest.approx(ratios[0])
+
+
+def test_the_papers_reading_is_not_scaled() -> None:
+    features = table(ball(2), lump())
+    assert scale(features, PRESETS["paper"]) is features.values
+
+
+def test_a_feature_without_differences_has_no_say() -> None:
+    features = FeatureTable(
+        ("a", "b"), (FeatureBlock("x", 1, 1), FeatureBlock("y", 1, 1)), np.array([[5.0, 1], [5, 2]])
+    )
+    assert scale(features, PRESETS["default"]).tolist() == [[0, -1], [0, 1]]
+
+
+def test_external_features(tmp_path) -> None:
+    np.save(tmp_path / "depth.npy", np.arange(6, dtype=np.int16).reshape(3, 2))
+    assert load_external(tmp_path / "depth.npy", 3).tolist() == [[0, 1], [2, 3], [4, 5]]
+    np.save(tmp_path / "flat.npy", np.arange(3.0))
+    assert load_external(tmp_path / "flat.npy", 3).shape == (3, 1)
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (np.zeros((4, 2)), "4 rows, but the database has 3"),
+        (np.array([1.0, np.nan, 2]), "finite"),
+        (np.array(["a", "b", "c"]), "numbers"),
+        (np.array([{}, [], 0], dtype=object), "cannot be read"),
+        (np.zeros((3, 2, 2)), "one array"),
+        (np.zeros((3, 0)), "finite"),
+    ],
+)
+def test_external_features_that_do_not_fit(tmp_path, content, reason) -> None:
+    np.save(tmp_path / "x.npy", content, allow_pickle=True)
+    with pytest.raises(ConfigError, match=reason):
+        load_external(tmp_path / "x.npy", 3)
+
+
+def test_external_file_that_is_not_there(tmp_path) -> None:
+    with pytest.raises(ConfigError, match=r"x\.npy cannot be read"):
+        load_external(tmp_path / "x.npy", 3)

@@ -1,0 +1,87 @@
+"""Neighbourhood hit: by hand, against brute force, with ties, and the null."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from shapeviz_report.quality import neighbour_weights, score
+
+
+def test_by_hand() -> None:
+    # Two tight groups on a line and one stray a among the b.
+    xy = np.array([[0, 0], [1, 0], [2.1, 0], [10, 0], [11, 0], [12.1, 0], [10.4, 0]])
+    quality = score(xy, ["a", "a", "a", "b", "b", "b", "a"], k=2)
+    assert quality.nh.tolist() == [1, 1, 1, 0.5, 0.5, 0.5, 0]
+    assert quality.nh_c == {"a": 0.75, "b": 0.5}
+    assert list(quality.nh_c) == ["a", "b"]
+    assert quality.nh_s == pytest.approx(4.5 / 7)
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10**6), st.integers(3, 60), st.integers(1, 12))
+def test_against_sorting(seed, count, k) -> None:
+    random = np.random.default_rng(seed)
+    xy, labels = random.random((count, 2)), random.choice(["x", "y", "z"], count)
+    used = min(k, count - 1)
+    expected = []
+    for i in range(count):
+        order = np.argsort(np.linalg.norm(xy - xy[i], axis=1))
+        expected.append(np.mean(labels[order[1 : used + 1]] == labels[i]))
+    assert score(xy, labels.tolist(), k=k).nh == pytest.approx(np.array(expected))
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10**6))
+def test_the_order_of_shapes_does_not_matter_even_with_ties(seed) -> None:
+    random = np.random.default_rng(seed)
+    xy = random.integers(0, 3, (40, 2)).astype(float)
+    labels = np.sort(random.choice(["x", "y"], 40))
+    order = random.permutation(40)
+    first, second = score(xy, labels.tolist(), k=5), score(xy[order], labels[order].tolist(), k=5)
+    assert second.nh == pytest.approx(first.nh[order])
+    assert second.nh_s == pytest.approx(first.nh_s)
+    assert (second.null_mean, second.null_std) == pytest.approx((first.null_mean, first.null_std))
+
+
+def test_points_in_one_place_share_the_hit() -> None:
+    # Sorting by index would give each shape neighbours of its own class.
+    labels = ["a"] * 10 + ["b"] * 10
+    quality = score(np.zeros((20, 2)), labels, k=5)
+    assert quality.nh == pytest.approx(9 / 19)
+
+
+def test_null_is_what_random_labels_reach() -> None:
+    random = np.random.default_rng(1)
+    xy = random.random((90, 2))
+    labels = ["a"] * 60 + ["b"] * 30
+    quality = score(xy, labels)
+    expected = (60 * 59 + 30 * 29) / (90 * 89)
+    assert quality.null_mean == pytest.approx(expected, abs=0.01)
+    assert abs(quality.nh_s - expected) < 4 * quality.null_std
+
+
+def test_shapes_without_labels_are_left_out() -> None:
+    xy = np.array([[0, 0], [1, 0], [2.1, 0], [3.3, 0]])
+    quality = score(xy, ["a", "a", None, "b"], k=1)
+    assert np.isnan(quality.nh[2])
+    assert quality.nh[[0, 1, 3]].tolist() == [1, 1, 0]
+    assert quality.nh_s == pytest.approx(2 / 3)
+
+
+@pytest.mark.parametrize("labels", [[None, None], ["a"], []])
+def test_nothing_to_score(labels) -> None:
+    quality = score(np.zeros((len(labels), 2)), labels)
+    assert quality.nh_s is None
+    assert quality.null_mean is None
+    assert quality.nh_c == {}
+    assert np.isnan(quality.nh).all()
+
+
+def test_weights_add_up() -> None:
+    points = np.random.default_rng(0).integers(0, 2, (30, 3)).astype(float)
+    weights = neighbour_weights(points, 7)
+    assert np.asarray(weights.sum(axis=1)).ravel() == pytest.approx(1)
+    assert (weights.diagonal() == 0).all()
