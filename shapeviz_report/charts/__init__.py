@@ -1,0 +1,29 @@
+"""Charts: data or a description of it in, an Altair chart out. The only package that imports altair."""
+
+from shapeviz_report.charts.bars import class_bars
+from shapeviz_report.charts.maps import class_map, hit_map, thumbnail_map
+from shapeviz_report.charts.palette import (
+    DARK,
+    LIGHT,
+    SYMBOLS,
+    THEMES,
+    Theme,
+    class_color_indices,
+    class_symbol_indices,
+)
+from shapeviz_report.charts.theme import theme_config
+
+__all__ = [
+    "DARK",
+    "LIGHT",
+    "SYMBOLS",
+    "THEMES",
+    "Theme",
+    "class_bars",
+    "class_color_indices",
+    "class_map",
+    "class_symbol_indices",
+    "hit_map",
+    "theme_config",
+    "thumbnail_map",
+]

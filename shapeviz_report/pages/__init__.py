@@ -1,0 +1,14 @@
+"""Pages: a report in, the frozen content of one page out.
+
+A new page is one file here with a class that follows :class:`~shapeviz_report.pages.base.Page`, one line in
+``PAGES``, and one template; a script ``site/scripts/pages/NAME.js`` if it needs one.
+"""
+
+from shapeviz_report.pages.about import AboutPage
+from shapeviz_report.pages.base import Page, PageContent
+from shapeviz_report.pages.overview import OverviewPage
+
+#: In the order of the navigation.
+PAGES: tuple[Page, ...] = (OverviewPage(), AboutPage())
+
+__all__ = ["PAGES", "Page", "PageContent"]

@@ -1,0 +1,65 @@
+"""Horizontal bars of a value a class, such as the neighbourhood hit NH_c of the paper's Fig. 2."""
+
+from __future__ import annotations
+
+import altair as alt
+
+
+def class_bars() -> alt.LayerChart:
+    """One bar a class with its value in three decimals, and a rule where random labels would end.
+
+    The page sets the data ``classes``, rows of ``row`` (0 on top), ``hit`` in [0, 1] or null, and ``present``
+    (false where the class is hidden). Its parameter ``chance`` is the value of random labels, -1 without one.
+    The names of the classes stand beside the bars as buttons of the page.
+    """
+    rows = alt.Y("row:O", axis=None, scale=alt.Scale(paddingInner=0.42, paddingOuter=0.21))
+    presence = alt.condition("datum.present", alt.value(1), alt.value(0.3))
+    bars = (
+        alt.Chart()
+        .mark_bar(cornerRadiusEnd=1.5)
+        .encode(
+            x=_unit("hit:Q"),
+            y=rows,
+            color=alt.Color("hit:Q", legend=None, scale=alt.Scale(domain=[0, 1], range="ramp")),
+            opacity=presence,
+        )
+    )
+    values = (
+        alt.Chart()
+        .mark_text(align="left", baseline="middle", dx=5, fontSize=12, color=alt.ExprRef("ink"))
+        .encode(
+            x=_unit("anchor:Q"),
+            y=rows,
+            text=alt.Text("label:N"),
+            opacity=presence,
+        )
+        .transform_calculate(
+            anchor="isValid(datum.hit) ? datum.hit : 0",
+            label="isValid(datum.hit) ? format(datum.hit, '.3f') : '–'",
+        )
+    )
+    chance = (
+        alt.Chart()
+        .transform_calculate(random="chance")
+        .transform_filter("datum.row == 0 && chance >= 0")
+        .mark_rule(strokeDash=[2, 2], color=alt.ExprRef("ink"), opacity=0.7)
+        .encode(x=_unit("random:Q"))
+    )
+    parameters = {"chance": -1, "ink": "#222222"}
+    return (
+        alt.layer(bars, chance, values, data=alt.NamedData("classes"))
+        .add_params(*(alt.param(name=name, value=value) for name, value in parameters.items()))
+        .properties(
+            width=200,
+            height=300,
+            padding=0,
+            description="Neighbourhood hit of every class",
+            autosize=alt.AutoSizeParams(type="none"),
+        )
+        .configure_view(stroke=None)
+    )
+
+
+def _unit(field: str) -> alt.X:
+    """The range [0, 1], with room on the right for the longest label."""
+    return alt.X(field, axis=None, scale=alt.Scale(domain=[0, 1.24], nice=False, zero=True))

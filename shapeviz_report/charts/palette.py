@@ -1,0 +1,137 @@
+"""The colours and symbols of the site, for light and for dark.
+
+Twenty class colours share their hues between the two themes, so that a class stays recognisable when the
+theme changes; only lightness moves. They are ordered so that the first few, which small databases use, lie
+farthest apart, with the two common colour-vision deficiencies simulated. Colour alone cannot carry more than
+about eight classes for every reader, so beyond that a symbol joins it: colours that some readers confuse never
+share a symbol, and a hundred classes keep a pair of their own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+#: Up to this many classes, circles of different colour suffice.
+PLAIN_CLASSES = 8
+
+#: Symbols as SVG paths in a square of side 2 around the origin, of about equal area.
+SYMBOLS: tuple[str, ...] = (
+    "M0.8,0A0.8,0.8,0,1,1,-0.8,0A0.8,0.8,0,1,1,0.8,0Z",
+    "M-0.71,-0.71L0.71,-0.71L0.71,0.71L-0.71,0.71Z",
+    "M0,-1L0.98,0.72L-0.98,0.72Z",
+    "M0,-1L1,0L0,1L-1,0Z",
+    "M-0.32,-0.95L0.32,-0.95L0.32,-0.32L0.95,-0.32L0.95,0.32L0.32,0.32L0.32,0.95L-0.32,0.95L-0.32,0.32"
+    "L-0.95,0.32L-0.95,-0.32L-0.32,-0.32Z",
+)
+
+
+@dataclass(frozen=True)
+class Theme:
+    """Colours of one theme, as ``#rrggbb``.
+
+    Attributes
+    ----------
+    name : str
+        ``light`` or ``dark``.
+    ground : str
+        What marks lie on.
+    ink : str
+        Text.
+    unlabelled : str
+        Shapes without a class, and without a neighbourhood hit.
+    outline : str
+        A thin edge that keeps light marks visible on a light ground.
+    classes : tuple of str
+    hit : tuple of str
+        Neighbourhood hit from 0 (red) to 1 (yellow), with rising lightness.
+    """
+
+    name: str
+    ground: str
+    ink: str
+    unlabelled: str
+    outline: str
+    classes: tuple[str, ...]
+    hit: tuple[str, ...]
+
+
+LIGHT = Theme(
+    name="light",
+    ground="#ffffff",
+    ink="#1c1d1f",
+    unlabelled="#8d8f93",
+    outline="#00000059",
+    classes=(
+        "#2f6db5",
+        "#c9a100",
+        "#8a1f45",
+        "#2fb0a6",
+        "#a98be0",
+        "#1d3f86",
+        "#585f12",
+        "#6f8f72",
+        "#0f5c66",
+        "#a8419a",
+        "#86a81f",
+        "#5fa8e6",
+        "#e07b1a",
+        "#b99463",
+        "#2e7d4f",
+        "#7a4a26",
+        "#d95f9e",
+        "#7d4fb3",
+        "#c8312f",
+        "#f0907a",
+    ),
+    hit=("#9c0824", "#c02a22", "#da5120", "#ec7a1c", "#f6a21d", "#fbc93a", "#fdec6b"),
+)
+
+DARK = Theme(
+    name="dark",
+    ground="#16181c",
+    ink="#e9e7e2",
+    unlabelled="#83868c",
+    outline="#00000066",
+    classes=(
+        "#63a2ee",
+        "#edc443",
+        "#cf607f",
+        "#5fd7cd",
+        "#cdb3ff",
+        "#587fcc",
+        "#909850",
+        "#9abc9d",
+        "#5498a2",
+        "#e075cf",
+        "#acd051",
+        "#92ccff",
+        "#ffa968",
+        "#e0ba88",
+        "#65b281",
+        "#b7835e",
+        "#ff91c6",
+        "#b184ed",
+        "#ff6f65",
+        "#febbab",
+    ),
+    hit=("#b5203a", "#cf3a2e", "#e05c28", "#ee8225", "#f6a628", "#fbcb42", "#fdec6b"),
+)
+
+THEMES: tuple[Theme, ...] = (LIGHT, DARK)
+
+
+def class_color_indices(count: int) -> tuple[int, ...]:
+    """Index into :attr:`Theme.classes` for each of ``count`` classes in sorted order."""
+    return tuple(index % len(LIGHT.classes) for index in range(count))
+
+
+def class_symbol_indices(count: int) -> tuple[int, ...]:
+    """Index into :data:`SYMBOLS` for each of ``count`` classes in sorted order.
+
+    Each further round through the colours shifts the symbols by one, so that pairs repeat only after
+    ``len(classes) * len(SYMBOLS)`` classes.
+    """
+    if count <= PLAIN_CLASSES:
+        return (0,) * count
+    rounds = len(LIGHT.classes)
+    return tuple((index + index // rounds) % len(SYMBOLS) for index in range(count))

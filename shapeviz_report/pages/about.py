@@ -1,0 +1,113 @@
+"""The About page: what was built from what, how long it took, and every file that failed and why."""
+
+from __future__ import annotations
+
+import json
+
+from shapeviz_report.pages.base import METHODS, PageContent, class_names
+from shapeviz_report.types import Report
+
+
+class AboutPage:
+    """Provenance: parameters, versions, times, hashes, failures and downloads, all of it plain HTML."""
+
+    name = "about"
+    title = "About"
+    file = "about.html"
+
+    def content(self, report: Report) -> PageContent:
+        return PageContent(
+            context={
+                "database": _database(report),
+                "failures": report.failures,
+                "warnings": report.database.warnings,
+                "projections": _projections(report),
+                "stages": _stages(report),
+                "parameters": [(name, _plain(value)) for name, value in report.parameters.items()],
+                "versions": list(report.versions.items()),
+                "meshes": _meshes(report),
+                "repaired": sum(bool(facts.repairs) for facts in report.facts),
+                "feature_blocks": [
+                    {"name": block.name, "dimensions": block.dimensions, "columns": block.width}
+                    for block in report.features.blocks
+                ],
+                "feature_columns": sum(block.width for block in report.features.blocks),
+                "downloads": _downloads(report),
+            }
+        )
+
+
+def _database(report: Report) -> dict[str, object]:
+    return {
+        "name": report.database.name,
+        "layout": report.database.layout,
+        "shapes": len(report.shapes),
+        "classes": len(class_names(report)),
+        "unlabelled": sum(label is None for label in report.labels),
+        "labeling": report.labeling,
+        "labelings": report.database.labelings,
+    }
+
+
+def _projections(report: Report) -> list[dict[str, object]]:
+    return [
+        {
+            "title": METHODS[method].title,
+            "features": ", ".join(projection.features),
+            "seed": projection.seed,
+            "k": quality.k,
+            "nh_s": quality.nh_s,
+            "null_mean": quality.null_mean,
+            "null_std": quality.null_std,
+        }
+        for method, (projection, quality) in report.projections.items()
+    ]
+
+
+def _stages(report: Report) -> dict[str, object]:
+    """Wall-clock and CPU seconds by stage, in the order they ran, and their sums."""
+    names = list(dict.fromkeys((*report.seconds, *report.cpu_seconds)))
+    return {
+        "rows": [
+            {"name": name, "seconds": report.seconds.get(name), "cpu_seconds": report.cpu_seconds.get(name)}
+            for name in names
+        ],
+        "seconds": sum(report.seconds.values()),
+        "cpu_seconds": sum(report.cpu_seconds.values()),
+    }
+
+
+def _plain(value: object) -> str:
+    """A parameter as a reader writes it: text as it is, anything else as JSON."""
+    return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+
+
+def _meshes(report: Report) -> list[dict[str, object]]:
+    return [
+        {
+            "id": shape.id,
+            "sha256": facts.sha256,
+            "faces_read": facts.faces_read,
+            "vertices_read": facts.vertices_read,
+            "faces": facts.faces,
+            "vertices": facts.vertices,
+            "components": facts.components,
+            "watertight": facts.watertight,
+            "deviation": facts.deviation,
+            "repairs": "; ".join(f"{repair}: {count}" for repair, count in facts.repairs.items()),
+        }
+        for shape, facts in zip(report.shapes, report.facts, strict=True)
+    ]
+
+
+def _downloads(report: Report) -> list[tuple[str, str]]:
+    """File below ``data/`` and what is in it."""
+    return [
+        ("summary.json", "counts, failures, quality of every projection, times, versions, parameters"),
+        ("shapes.csv", "one row a shape: labels, metadata, facts, neighbourhood hit, hash"),
+        ("features.npz", "the feature table, for numpy"),
+        *(
+            (f"projection-{method}.csv", f"coordinates of the {METHODS[method].title} map")
+            for method in report.projections
+        ),
+    ]

@@ -1,0 +1,56 @@
+"""The contract of a page, and what several pages say about shapes and classes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from shapeviz_report.projections import PROJECTIONS
+from shapeviz_report.types import Report
+
+#: The projections by name.
+METHODS = {method.name: method for method in PROJECTIONS}
+
+
+@dataclass(frozen=True)
+class PageContent:
+    """All that one page shows.
+
+    Attributes
+    ----------
+    context : mapping of str to object
+        What the page's template may use, beside what the site gives every template.
+    chunks : mapping of str to JSON value
+        Data that the page's scripts load, by name. Two pages may share a chunk when they agree on its content.
+    """
+
+    context: Mapping[str, object]
+    chunks: Mapping[str, object] = field(default_factory=dict)
+
+
+class Page(Protocol):
+    """One page of the site.
+
+    Attributes
+    ----------
+    name : str
+        Names the template ``NAME.html``, and the script ``scripts/pages/NAME.js``.
+    title : str
+        In the navigation.
+    file : str
+        File name in the site.
+    """
+
+    name: str
+    title: str
+    file: str
+
+    def content(self, report: Report) -> PageContent:
+        """Compute everything the page shows; the template only lays it out."""
+        ...
+
+
+def class_names(report: Report) -> tuple[str, ...]:
+    """The classes of the active labeling that have a shape, sorted."""
+    return tuple(sorted({label for label in report.labels if label is not None}))

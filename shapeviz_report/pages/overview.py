@@ -1,0 +1,132 @@
+"""The Overview: the whole database at a glance, on three linked maps (paper, Fig. 2)."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+
+import numpy as np
+
+from shapeviz_report import charts
+from shapeviz_report.pages.base import METHODS, PageContent, class_names
+from shapeviz_report.types import FloatArray, Projection, Quality, Report
+
+#: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
+COORDINATE_DECIMALS = 6
+
+
+class OverviewPage:
+    """Three linked maps, the classes with their neighbourhood hit, a tray for selections, a panel for one shape."""
+
+    name = "overview"
+    title = "Overview"
+    file = "index.html"
+
+    def content(self, report: Report) -> PageContent:
+        classes = class_names(report)
+        methods = [
+            _method(projection, quality, classes) for projection, quality in report.projections.values()
+        ]
+        return PageContent(
+            context={
+                "methods": [{"key": method["key"], "title": method["title"]} for method in methods],
+                "classes": len(classes),
+            },
+            chunks={
+                "overview": {
+                    "shapes": _shapes(report, classes),
+                    "classes": list(classes),
+                    "labeling": report.labeling,
+                    "methods": methods,
+                    "charts": {
+                        "class": charts.class_map(len(classes)).to_dict(),
+                        "hit": charts.hit_map().to_dict(),
+                        "thumbnail": charts.thumbnail_map().to_dict(),
+                        "bars": charts.class_bars().to_dict(),
+                    },
+                    "marks": _marks(len(classes)),
+                },
+                "details": _details(report),
+            },
+        )
+
+
+def thumbnail_name(thumbnail: bytes) -> str:
+    """File name of a picture below ``thumbnails/``: a hash, so it is safe, and no stale cache shows another."""
+    return sha256(thumbnail).hexdigest()[:20] + ".webp"
+
+
+def _shapes(report: Report, classes: tuple[str, ...]) -> dict[str, object]:
+    number = {name: index for index, name in enumerate(classes)}
+    return {
+        "ids": [shape.id for shape in report.shapes],
+        "names": [shape.name for shape in report.shapes],
+        "groups": [-1 if label is None else number[label] for label in report.labels],
+        "pictures": [thumbnail_name(thumbnail) for thumbnail in report.thumbnails],
+    }
+
+
+def _method(projection: Projection, quality: Quality, classes: tuple[str, ...]) -> dict[str, object]:
+    """One projection with its quality; missing values are None."""
+    return {
+        "key": projection.method,
+        "title": METHODS[projection.method].title,
+        "note": METHODS[projection.method].explanation,
+        "features": list(projection.features),
+        "x": _rounded(projection.xy[:, 0], COORDINATE_DECIMALS),
+        "y": _rounded(projection.xy[:, 1], COORDINATE_DECIMALS),
+        "hit": _rounded(quality.nh, COORDINATE_DECIMALS),
+        "neighbours": quality.k,
+        "hitOfClass": _rounded(
+            np.array([quality.nh_c.get(name, np.nan) for name in classes], dtype=float), COORDINATE_DECIMALS
+        ),
+        "hitOfAll": quality.nh_s,
+        "chance": quality.null_mean,
+        "chanceSpread": quality.null_std,
+    }
+
+
+def _rounded(values: FloatArray, decimals: int) -> list[float | None]:
+    # Adding zero turns -0.0 into 0.0, which would otherwise differ between equal builds.
+    return [float(value) + 0.0 if np.isfinite(value) else None for value in np.round(values, decimals)]
+
+
+def _marks(class_count: int) -> dict[str, object]:
+    """Colours and symbols, for what the page draws beside the charts; and the charts' configuration by theme."""
+    return {
+        "symbols": [charts.SYMBOLS[index] for index in charts.class_symbol_indices(class_count)],
+        "plain": charts.SYMBOLS[0],
+        "themes": {
+            theme.name: {
+                "config": charts.theme_config(theme, class_count),
+                "classes": [theme.classes[index] for index in charts.class_color_indices(class_count)],
+                "hit": list(theme.hit),
+                "unlabelled": theme.unlabelled,
+                "outline": theme.outline,
+                "ink": theme.ink,
+            }
+            for theme in charts.THEMES
+        },
+    }
+
+
+def _details(report: Report) -> dict[str, object]:
+    """What is known of every shape beyond its place: loaded when a reader opens one, or searches."""
+    return {
+        "labelings": list(report.database.labelings),
+        "shapes": [
+            {
+                "labels": [shape.labels.get(labeling) for labeling in report.database.labelings],
+                # Pairs, because a column may have any name, "__proto__" included.
+                "metadata": [[key, value] for key, value in shape.metadata.items()],
+                "repairs": [[repair, count] for repair, count in facts.repairs.items()],
+                "faces": facts.faces,
+                "vertices": facts.vertices,
+                "facesRead": facts.faces_read,
+                "verticesRead": facts.vertices_read,
+                "components": facts.components,
+                "watertight": facts.watertight,
+                "deviation": facts.deviation,
+            }
+            for shape, facts in zip(report.shapes, report.facts, strict=True)
+        ],
+    }

@@ -1,0 +1,223 @@
+"""Writes the site: pages, scripts, pictures and data, all of it at once. The only import of jinja2."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import os
+from collections.abc import Mapping
+from hashlib import sha256
+from importlib.metadata import version
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+from shapeviz_report.data_files import GENERATOR, json_text, write_data
+from shapeviz_report.errors import SiteError
+from shapeviz_report.joiner import join
+from shapeviz_report.pages import PAGES, Page, PageContent
+from shapeviz_report.pages.base import class_names
+from shapeviz_report.pages.overview import thumbnail_name
+from shapeviz_report.resources import site_folder, templates_folder
+from shapeviz_report.swap import replaced_folder
+from shapeviz_report.types import Report
+
+#: Nothing but the site's own files. ``file:`` stands beside ``'self'`` because a page opened by double-click has no
+#: origin that ``'self'`` could mean. Trusted Types, where a browser knows them, make it impossible that a script
+#: turns text from a database into markup; the one policy allowed is that of scripts/trusted.js.
+CONTENT_SECURITY_POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self' file:",
+        "style-src 'self' file:",
+        "img-src 'self' file: data: blob:",
+        "worker-src blob:",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "require-trusted-types-for 'script'",
+        "trusted-types default",
+    )
+)
+
+#: The style sheets that make up the site's one, in their order.
+STYLES = ("tokens.css", "page.css", "overview.css", "about.css")
+
+
+def check_destination(destination: Path) -> None:
+    """Refuse a place where a site cannot be written, or would replace something that is not a site of ours.
+
+    Raises
+    ------
+    SiteError
+        If ``destination`` is a file, a folder with other content, or cannot be written.
+    """
+    if destination.exists() and not destination.is_dir():
+        raise SiteError(f"{destination} is a file: choose a folder for the site")
+    if destination.is_dir() and any(destination.iterdir()) and not _is_site(destination):
+        raise SiteError(
+            f"{destination} holds files that are not a site of shapeviz-report, and would be replaced: "
+            "choose another folder, or empty this one"
+        )
+    ancestor = destination.resolve().parent
+    while not ancestor.exists():
+        ancestor = ancestor.parent
+    if not ancestor.is_dir() or not os.access(ancestor, os.W_OK):
+        raise SiteError(f"{destination} cannot be made: {ancestor} is not a folder that you may write to")
+
+
+def write_site(report: Report, destination: Path) -> None:
+    """Write the site of ``report`` into the folder ``destination``, which changes in one step at the end.
+
+    Parameters
+    ----------
+    report : Report
+    destination : Path
+        A folder that is not there yet, is empty, or holds an earlier site, which is replaced.
+
+    Raises
+    ------
+    SiteError
+        If ``destination`` must not be replaced or cannot be written, or no shape is left to show.
+    ValueError
+        If the parts of the report do not fit together: an error of the caller.
+    """
+    destination = Path(destination)
+    check_destination(destination)
+    _check_report(report)
+    contents = [(page, page.content(report)) for page in PAGES]
+    try:
+        with replaced_folder(destination) as folder:
+            _write_files(report, contents, folder)
+    except OSError as error:
+        raise SiteError(f"the site cannot be written to {destination}: {error}") from error
+
+
+def _write_files(report: Report, contents: list[tuple[Page, PageContent]], folder: Path) -> None:
+    for name in ("assets", "thumbnails", "data"):
+        (folder / name).mkdir()
+    for thumbnail in report.thumbnails:
+        (folder / "thumbnails" / thumbnail_name(thumbnail)).write_bytes(thumbnail)
+    write_data(report, folder / "data", version("shapeviz-report"))
+    chunks = _chunks(contents)
+    assets = {
+        **_scripts_and_styles([page for page, _ in contents]),
+        **{f"chunk-{name}.js": _chunk(name, value) for name, value in chunks.items()},
+    }
+    for name, content in assets.items():
+        (folder / "assets" / name).write_bytes(content)
+    environment = _environment(
+        {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
+    )
+    for page, content in contents:
+        html = environment.get_template(f"{page.name}.html").render(
+            page=page, pages=PAGES, site=_site_context(report), **content.context
+        )
+        (folder / page.file).write_bytes(html.encode("utf-8", "backslashreplace"))
+
+
+def _environment(addresses: Mapping[str, str]) -> jinja2.Environment:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates_folder()),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
+    environment.globals["asset"] = addresses.__getitem__
+    environment.globals["content_security_policy"] = CONTENT_SECURITY_POLICY
+    environment.globals["chunk_addresses"] = json.dumps(
+        {
+            name.removeprefix("chunk-").removesuffix(".js"): address
+            for name, address in addresses.items()
+            if name.startswith("chunk-")
+        }
+    )
+    return environment
+
+
+def _site_context(report: Report) -> dict[str, object]:
+    return {
+        "title": report.database.name,
+        "shapes": len(report.shapes),
+        "classes": len(class_names(report)),
+        "version": version("shapeviz-report"),
+    }
+
+
+def _scripts_and_styles(pages: list[Page]) -> dict[str, bytes]:
+    source = site_folder()
+    styles = "\n".join((source / "styles" / name).read_text(encoding="utf-8") for name in STYLES)
+    files = {
+        "style.css": styles.encode(),
+        "icon.svg": (source / "icon.svg").read_bytes(),
+        "first.js": join(source / "scripts" / "first.js").encode(),
+        # Unwrapped, Vega would leave thousands of names on the window.
+        "vega.js": b"(() => {\n" + (source / "vendor" / "vega.js").read_bytes() + b"\n})();\n",
+        "vega-licenses.txt": (source / "vendor" / "LICENSES.txt").read_bytes(),
+    }
+    for page in pages:
+        entry = source / "scripts" / "pages" / f"{page.name}.js"
+        if entry.exists():
+            files[f"{page.name}.js"] = join(entry).encode()
+    return files
+
+
+def _chunks(contents: list[tuple[Page, PageContent]]) -> dict[str, object]:
+    chunks: dict[str, object] = {}
+    for page, content in contents:
+        for name, value in content.chunks.items():
+            if name in chunks and chunks[name] != value:
+                raise ValueError(f"page {page.name!r} disagrees with an earlier page on chunk {name!r}")
+            chunks[name] = value
+    return chunks
+
+
+def _chunk(name: str, value: object) -> bytes:
+    """A script that hands compressed JSON to the page: the one way to load data from ``file://``."""
+    packed = base64.b64encode(gzip.compress(json_text(value).encode(), compresslevel=9, mtime=0)).decode()
+    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(packed)});\n".encode()
+
+
+def _is_site(folder: Path) -> bool:
+    try:
+        content = json.loads((folder / "data" / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    return isinstance(content, dict) and content.get("generator") == GENERATOR
+
+
+def _check_report(report: Report) -> None:
+    """Check once, here, what templates and scripts then take for granted."""
+    count = len(report.shapes)
+    if count == 0:
+        raise SiteError(
+            f"no shape of {report.database.name!r} could be used ({len(report.failures)} files failed): "
+            "there is nothing to show"
+        )
+    ids = tuple(shape.id for shape in report.shapes)
+
+    def require(holds: bool, what: str) -> None:
+        if not holds:
+            raise ValueError(f"inconsistent report: {what}")
+
+    require(len(set(ids)) == count, "two shapes share an id")
+    require(list(ids) == sorted(ids), "shapes are not sorted by id")
+    require(ids == report.features.shape_ids, "feature rows are not those of the shapes")
+    require(
+        report.features.values.shape == (count, len(report.features.columns)), "feature table of another size"
+    )
+    require(bool(np.isfinite(report.features.values).all()), "a feature is not finite")
+    for name in ("facts", "thumbnails", "labels"):
+        require(len(getattr(report, name)) == count, f"{name} do not match the shapes")
+    for thumbnail in report.thumbnails:
+        require(thumbnail[:4] == b"RIFF" and thumbnail[8:12] == b"WEBP", "a thumbnail is not a WebP image")
+    require(report.labeling is not None or not any(report.labels), "labels without a labeling")
+    require(bool(report.projections), "no projection")
+    for method, (projection, quality) in report.projections.items():
+        require(method.isidentifier() and method == projection.method, f"projection {method!r} is misnamed")
+        require(projection.xy.shape == (count, 2), f"projection {method} has another number of points")
+        require(bool(np.isfinite(projection.xy).all()), f"projection {method} has a point that is not finite")
+        require(quality.nh.shape == (count,), f"quality of {method} has another number of shapes")

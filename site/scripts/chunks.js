@@ -1,0 +1,37 @@
+// Data of a page: gzipped JSON in scripts that hand it over, because pages from file:// may not fetch.
+
+/** Called in the head: chunks may arrive before the scripts that want them. */
+export function openReception() {
+  const packed = new Map();
+  window.shapeviz = {
+    packed,
+    receive: (name, text) => packed.set(name, text),
+  };
+}
+
+const loaded = new Map();
+
+/** The content of a chunk, loaded when first asked for. */
+export function chunk(name) {
+  if (!loaded.has(name)) loaded.set(name, load(name));
+  return loaded.get(name);
+}
+
+async function load(name) {
+  const { packed } = window.shapeviz;
+  if (!packed.has(name)) await addScript(JSON.parse(document.body.dataset.chunks)[name]);
+  const bytes = Uint8Array.from(atob(packed.get(name)), (letter) => letter.charCodeAt(0));
+  packed.delete(name);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).json();
+}
+
+function addScript(address) {
+  return new Promise((resolve, reject) => {
+    const script = document.createElement("script");
+    script.src = address;
+    script.onload = resolve;
+    script.onerror = () => reject(new Error(`${address} is missing from the site`));
+    document.head.append(script);
+  });
+}

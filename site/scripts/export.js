@@ -1,0 +1,36 @@
+// The selection as a file.
+
+export function saveCsv(model, chosen) {
+  const header = ["id", "name", "class", ...model.methods.map(({ key }) => `nh:${key}`)];
+  const rows = chosen.map((index) => [
+    model.ids[index],
+    model.names[index],
+    model.groups[index] < 0 ? "" : model.className(model.groups[index]),
+    ...model.methods.map(({ hit }) => hit[index] ?? ""),
+  ]);
+  save("selection.csv", "text/csv", `${[header, ...rows].map((row) => row.map(quoted).join(",")).join("\n")}\n`);
+}
+
+export function saveJson(model, chosen) {
+  const shapes = chosen.map((index) => ({
+    id: model.ids[index],
+    name: model.names[index],
+    class: model.groups[index] < 0 ? null : model.className(model.groups[index]),
+    nh: Object.fromEntries(model.methods.map(({ key, hit }) => [key, hit[index]])),
+  }));
+  save("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
+}
+
+function quoted(value) {
+  const text = String(value);
+  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+function save(name, type, text) {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10000);
+}

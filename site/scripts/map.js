@@ -1,0 +1,270 @@
+// One of the linked maps: a chart, and above it names, rings and the brush.
+
+import { Labels } from "./labels.js";
+import { drawChart } from "./chart.js";
+import { element, svg } from "./dom.js";
+import { CHOSEN } from "./scene.js";
+
+/** Above this many shapes, maps that are not the large one wait until a movement has ended. */
+const PATIENT = 1500;
+
+export class MapView {
+  constructor(scene, figure) {
+    this.scene = scene;
+    this.model = scene.model;
+    this.state = scene.state;
+    this.figure = figure;
+    this.name = figure.dataset.view;
+    this.surface = figure.querySelector(".surface");
+    this.node = element("div", { class: "chart" });
+    this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
+    this.labels = new Labels(this.model, this.overlay);
+    this.opened = this.overlay.appendChild(svg("circle", { class: "ring opened" }));
+    this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
+    this.brush = this.overlay.appendChild(svg("rect", { class: "brush" }));
+    this.surface.append(this.node, this.overlay);
+    this.pictured = [];
+    this.sent = new Map();
+    this.measure();
+  }
+
+  get large() {
+    return this.figure.dataset.slot === "large";
+  }
+
+  /** Draw the chart with the colours of the theme in use; called again when the theme changes. */
+  async start() {
+    this.vega?.finalize();
+    this.vega = null;
+    this.sent.clear();
+    const spec = this.model.data.charts[this.name];
+    // Browsers scale SVG pictures down better than canvas does, and many dots are quicker on canvas.
+    const renderer = this.name === "thumbnail" ? "svg" : "canvas";
+    const vega = await drawChart(this.node, spec, this.model.marks.config, renderer);
+    this.vega = vega;
+    this.#choosePictures();
+    this.#send();
+    vega.data("shapes", this.model.rows());
+    await vega.runAsync();
+    this.settle();
+  }
+
+  measure() {
+    this.width = Math.max(this.surface.clientWidth, 10);
+    this.height = Math.max(this.surface.clientHeight, 10);
+    this.overlay.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
+  }
+
+  /** The size of the surface changed. */
+  resize() {
+    this.measure();
+    this.settle();
+  }
+
+  // Plane and screen
+
+  get scale() {
+    const { width, height } = this.scene.bounds;
+    const margin = this.large ? 36 : 12;
+    const room = (size) => Math.max(size - 2 * margin, 8);
+    return Math.min(room(this.width) / width, room(this.height) / height) * this.scene.camera().zoom;
+  }
+
+  screen(index) {
+    return this.toScreen(this.scene.x[index], this.scene.y[index]);
+  }
+
+  toScreen(x, y) {
+    const camera = this.scene.camera();
+    const scale = this.scale;
+    return [this.width / 2 + (x - camera.x) * scale, this.height / 2 - (y - camera.y) * scale];
+  }
+
+  toPlane(x, y) {
+    const camera = this.scene.camera();
+    const scale = this.scale;
+    return [camera.x + (x - this.width / 2) / scale, camera.y - (y - this.height / 2) / scale];
+  }
+
+  get markSize() {
+    const many = Math.min(Math.max(42000 / this.model.count, 26), 150);
+    return (this.large ? many : Math.max(many * 0.22, 9)) * Math.min(this.scene.camera().zoom, 4) ** 0.5;
+  }
+
+  get markRadius() {
+    return Math.sqrt(this.markSize) / 2;
+  }
+
+  get pictureSize() {
+    const room = Math.sqrt((this.width * this.height * 0.5) / this.model.count);
+    const size = Math.min(Math.max(room, this.large ? 44 : 15), this.large ? 110 : 40);
+    return Math.min(size * this.scene.camera().zoom ** 0.5, 180);
+  }
+
+  /** The visible shape at a place on the screen, or null. */
+  at(x, y, reach) {
+    const half = this.pictureSize / 2;
+    let [best, least] = [null, Infinity];
+    for (let index = 0; index < this.model.count; index += 1) {
+      if (!this.scene.visible(index)) continue;
+      const [px, py] = this.screen(index);
+      const near = this.pictured[index] ? half : this.markRadius + reach;
+      const distance = Math.hypot(px - x, py - y);
+      if (distance <= near && distance < least) [best, least] = [index, distance];
+    }
+    return best;
+  }
+
+  /** Visible shapes in a rectangle of the screen. */
+  inside(left, top, right, bottom) {
+    const found = [];
+    for (let index = 0; index < this.model.count; index += 1) {
+      if (!this.scene.visible(index)) continue;
+      const [x, y] = this.screen(index);
+      if (x >= left && x <= right && y >= top && y <= bottom) found.push(index);
+    }
+    return found;
+  }
+
+  // Drawing
+
+  draw() {
+    this.#drawRings();
+    this.labels.follow((index) => this.screen(index));
+    if (!this.vega || (!this.large && this.model.count > PATIENT)) return;
+    this.#send();
+    this.#run();
+  }
+
+  /** After the last of a series of changes: what would be too slow or too restless for every frame. */
+  settle() {
+    if (!this.vega) return;
+    this.#choosePictures();
+    this.#send();
+    this.#run();
+    this.#drawRings();
+    if (this.large) this.#name();
+    else this.labels.clear();
+  }
+
+  async #run() {
+    if (this.running) {
+      this.stale = true;
+      return;
+    }
+    this.running = true;
+    const vega = this.vega;
+    await vega.runAsync();
+    this.running = false;
+    if (this.stale && vega === this.vega) {
+      this.stale = false;
+      this.#run();
+    }
+  }
+
+  /** Tell the chart what changed since it was told last. */
+  #send() {
+    const { scene, vega } = this;
+    if (this.sent.get("width") !== this.width || this.sent.get("height") !== this.height) {
+      vega.width(this.width).height(this.height);
+      this.sent.set("width", this.width).set("height", this.height);
+    }
+    const [left, bottom] = this.toPlane(0, this.height);
+    const [right, top] = this.toPlane(this.width, 0);
+    const values = {
+      x_domain: [left, right],
+      y_domain: [bottom, top],
+      origin: scene.origin,
+      target: scene.target,
+      progress: scene.progress,
+      emphasis: scene.emphasis,
+      mark_size: this.markSize,
+      unlabelled: this.model.marks.unlabelled,
+      outline: this.model.marks.outline,
+    };
+    if (this.name === "thumbnail") Object.assign(values, { pictured: this.pictured, picture_size: this.pictureSize });
+    for (const [name, value] of Object.entries(values)) {
+      const before = this.sent.get(name);
+      if (before === value || (name.endsWith("_domain") && before?.[0] === value[0] && before[1] === value[1])) continue;
+      vega.signal(name, value);
+      this.sent.set(name, value);
+    }
+  }
+
+  #drawRings() {
+    const radius = (index) => (this.pictured[index] ? this.pictureSize / 2 + 2 : this.markRadius + 4);
+    for (const [ring, index] of [
+      [this.opened, this.state.get("opened")],
+      [this.pointed, this.state.get("pointed")],
+    ]) {
+      const shown = index !== null && this.scene.visible(index);
+      ring.classList.toggle("shown", shown);
+      if (!shown) continue;
+      const [x, y] = this.screen(index);
+      ring.setAttribute("cx", x);
+      ring.setAttribute("cy", y);
+      ring.setAttribute("r", radius(index));
+    }
+  }
+
+  /** Which shapes are drawn as pictures: as many as lie apart, chosen ones first; the rest are dots. */
+  #choosePictures() {
+    if (this.name !== "thumbnail") return;
+    const { emphasis } = this.scene;
+    const apart = this.pictureSize * (this.model.count > MOST_PICTURES ? 0.8 : 0.5);
+    const taken = new Map();
+    const free = (x, y) => {
+      const [column, row] = [Math.floor(x / apart), Math.floor(y / apart)];
+      for (let i = -1; i <= 1; i += 1) {
+        for (let j = -1; j <= 1; j += 1) {
+          for (const [px, py] of taken.get(`${column + i},${row + j}`) ?? []) {
+            if (Math.max(Math.abs(px - x), Math.abs(py - y)) < apart) return false;
+          }
+        }
+      }
+      const key = `${column},${row}`;
+      if (!taken.has(key)) taken.set(key, []);
+      taken.get(key).push([x, y]);
+      return true;
+    };
+    const half = this.pictureSize / 2;
+    const pictured = new Array(this.model.count).fill(false);
+    let room = MOST_PICTURES;
+    for (const chosen of [true, false]) {
+      for (const index of this.#scattered()) {
+        if (room === 0) break;
+        if (!this.scene.visible(index) || (emphasis[index] === CHOSEN) !== chosen) continue;
+        const [x, y] = this.screen(index);
+        if (x < -half || y < -half || x > this.width + half || y > this.height + half || !free(x, y)) continue;
+        pictured[index] = true;
+        room -= 1;
+      }
+    }
+    if (pictured.some((value, index) => value !== this.pictured[index])) this.pictured = pictured;
+  }
+
+  /** All shapes in an order that favours no class and is always the same, so that pictures stay when others come. */
+  #scattered() {
+    this.order ??= this.model.ids.map((_, index) => index).sort((a, b) => scatter(a) - scatter(b) || a - b);
+    return this.order;
+  }
+
+  #name() {
+    const points = [];
+    for (let index = 0; index < this.model.count; index += 1) {
+      if (!this.scene.visible(index)) continue;
+      const [x, y] = this.screen(index);
+      if (x < 0 || y < 0 || x > this.width || y > this.height) continue;
+      points.push({ index, group: this.model.groups[index], x, y });
+    }
+    this.labels.place(points, this.width, this.height, this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius);
+    this.labels.follow((index) => this.screen(index));
+  }
+}
+
+/** More pictures than this make a map slow, and none of them readable. */
+const MOST_PICTURES = 500;
+
+function scatter(index) {
+  return Math.imul(index + 1, 0x9e3779b1) >>> 0;
+}

@@ -1,0 +1,86 @@
+// The shapes, classes and projections of the database, as the views ask for them.
+
+export class Model {
+  constructor(data, theme) {
+    this.data = data;
+    this.theme = theme;
+    this.count = data.shapes.ids.length;
+    this.ids = data.shapes.ids;
+    this.names = data.shapes.names;
+    this.groups = data.shapes.groups;
+    this.classes = data.classes;
+    this.methods = data.methods;
+    this.indexOfId = new Map(this.ids.map((id, index) => [id, index]));
+    this.sizes = new Map();
+    for (const group of this.groups) this.sizes.set(group, (this.sizes.get(group) ?? 0) + 1);
+    this.bounds = this.methods.map(bounds);
+  }
+
+  /** Colours and chart configuration of the theme in use. */
+  get marks() {
+    return this.data.marks.themes[this.theme()];
+  }
+
+  get labelled() {
+    return this.classes.length > 0;
+  }
+
+  picture(index) {
+    return `thumbnails/${this.data.shapes.pictures[index]}`;
+  }
+
+  className(group) {
+    return group < 0 ? "no label" : this.classes[group];
+  }
+
+  color(group) {
+    return group < 0 ? this.marks.unlabelled : this.marks.classes[group];
+  }
+
+  symbol(group) {
+    return group < 0 ? this.data.marks.plain : this.data.marks.symbols[group];
+  }
+
+  /** Indices of the shapes nearest to one on a map, nearest first; as many as its neighbourhood hit counts. */
+  neighbours(index, methodIndex) {
+    const { x, y, neighbours } = this.methods[methodIndex];
+    const distances = x.map((value, other) => (value - x[index]) ** 2 + (y[other] - y[index]) ** 2);
+    return x
+      .map((_, other) => other)
+      .filter((other) => other !== index)
+      .sort((a, b) => distances[a] - distances[b] || a - b)
+      .slice(0, neighbours);
+  }
+
+  /** Classes among some shapes with their counts, most frequent first. */
+  census(indices) {
+    const counts = new Map();
+    for (const index of indices) counts.set(this.groups[index], (counts.get(this.groups[index]) ?? 0) + 1);
+    return [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+  }
+
+  /** One row a shape, as the map charts want them. */
+  rows() {
+    return this.ids.map((_, index) => ({
+      index,
+      group: this.groups[index],
+      x: this.methods.map((method) => method.x[index]),
+      y: this.methods.map((method) => method.y[index]),
+      hit: this.methods.map((method) => method.hit[index]),
+      picture: this.picture(index),
+    }));
+  }
+}
+
+/** The rectangle a projection fills; never empty, so that a single shape has a map too. */
+function bounds({ x, y }) {
+  const least = (values) => values.reduce((a, b) => Math.min(a, b));
+  const most = (values) => values.reduce((a, b) => Math.max(a, b));
+  const [left, right, bottom, top] = [least(x), most(x), least(y), most(y)];
+  return {
+    x: (left + right) / 2,
+    y: (bottom + top) / 2,
+    width: Math.max(right - left, 0.5),
+    height: Math.max(top - bottom, 0.5),
+  };
+}

@@ -1,0 +1,22 @@
+// Numbers and counts as a reader reads them.
+
+/** Three decimals, as all quality figures of the site; a dash for a missing value. */
+export function figure(value) {
+  return value === null || value === undefined ? "–" : value.toFixed(3);
+}
+
+/** "1 shape", "1 280 shapes". */
+export function count(number, one, many = `${one}s`) {
+  return `${grouped(number)} ${number === 1 ? one : many}`;
+}
+
+/** Thousands set apart by a thin space. */
+export function grouped(number) {
+  return String(number).replace(/\B(?=(\d{3})+$)/g, "\u2009");
+}
+
+/** At most `length` characters, the last one an ellipsis where something was cut. */
+export function shortened(text, length) {
+  const letters = Array.from(text);
+  return letters.length <= length ? text : `${letters.slice(0, length - 1).join("")}…`;
+}

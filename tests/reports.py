@@ -1,0 +1,123 @@
+"""Reports made from numbers alone, for tests of what shows them. Pictures are real, small and different."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping, Sequence
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from shapeviz_report import quality
+from shapeviz_report.types import (
+    Database,
+    Failure,
+    FeatureBlock,
+    FeatureTable,
+    Projection,
+    Report,
+    ShapeEntry,
+    ShapeFacts,
+)
+
+NASTY_LABELS = (
+    "</script><img src=x onerror=alert(1)>",
+    "__proto__",
+    "constructor",
+    'say "cheese", please',
+    "it's; a=trap&<b>",
+    "🦄 einhorn / 独角獣",
+    "עברית ימין",
+    "a class name that goes on and on and on until no legend in the world has room for the whole of it",
+)
+
+
+def make_report(
+    classes: Sequence[str | None] = ("ant", "bird", "cup"),
+    per_class: int = 8,
+    *,
+    name: str = "Test shapes",
+    root: Path = Path("/database"),
+    methods: Sequence[str] = ("tsne", "umap", "pca"),
+    failures: Sequence[Failure] = (),
+    metadata: Mapping[str, str] | None = None,
+    seed: int = 0,
+) -> Report:
+    """A report with one cluster of points a class; a class of None has no label.
+
+    The layouts are drawn from ``seed``. Neighbourhood hit is computed, not made up.
+    """
+    random = np.random.default_rng(seed)
+    shapes, labels = [], []
+    for number, label in enumerate(classes):
+        for index in range(per_class):
+            identifier = f"class{number:03}/{index:04}"
+            shapes.append(
+                ShapeEntry(
+                    id=identifier,
+                    path=root / f"{identifier}.off",
+                    name=f"{label or 'shape'} {index}",
+                    labels={} if label is None else {"folder": label},
+                    metadata=metadata or {},
+                )
+            )
+            labels.append(label)
+    labelled = any(label is not None for label in labels)
+    count = len(shapes)
+    blocks = (FeatureBlock("Gc", 1, 10), FeatureBlock("Sc", 2, 10))
+    features = FeatureTable(tuple(shape.id for shape in shapes), blocks, random.random((count, 30)))
+    projections = {}
+    for method in methods:
+        centres = random.uniform(-1, 1, (len(classes), 2))
+        xy = np.repeat(centres, per_class, axis=0) + random.normal(0, 0.1, (count, 2))
+        xy -= (xy.max(axis=0) + xy.min(axis=0)) / 2
+        xy /= max(np.abs(xy).max(), 1e-9)
+        projection = Projection(method, ("Gc", "Sc"), seed, xy)
+        projections[method] = (projection, quality.score(xy, labels))
+    return Report(
+        database=Database(name, root, "class folders", tuple(shapes), ("folder",) if labelled else ()),
+        shapes=tuple(shapes),
+        facts=tuple(_facts(index) for index in range(count)),
+        thumbnails=tuple(picture(index // per_class, index % per_class) for index in range(count)),
+        labeling="folder" if labelled else None,
+        labels=tuple(labels),
+        features=features,
+        projections=projections,
+        failures=tuple(failures),
+        parameters={"seed": seed, "edge_length": 0.01, "preset": "default"},
+        versions={"shapeviz-report": "0.1.0", "Python": "3.11"},
+        seconds={"read": 0.1, "prepare": 12.5, "project": 3.25},
+        cpu_seconds={"read": 0.1, "prepare": 24.0, "project": 3.0},
+    )
+
+
+def _facts(index: int) -> ShapeFacts:
+    return ShapeFacts(
+        sha256=f"{index:064x}",
+        faces_read=1000 + index,
+        vertices_read=502,
+        faces=9000,
+        vertices=4502,
+        components=1,
+        watertight=index % 5 != 0,
+        repairs={"duplicate faces removed": 4} if index % 3 == 0 else {},
+        deviation=0.0012,
+    )
+
+
+@cache
+def picture(kind: int, variant: int) -> bytes:
+    """A WebP image of a polygon: corners by kind, turned by variant."""
+    image = Image.new("RGBA", (256, 256), (0, 0, 0, 0))
+    corners = 3 + kind % 5
+    angles = 2 * np.pi * (np.arange(corners) / corners + variant / 31 + kind / 17)
+    points = [(128 + 90 * np.cos(angle), 128 + 90 * np.sin(angle)) for angle in angles]
+    shade = 110 + 25 * (kind % 4) + variant % 20
+    ImageDraw.Draw(image).polygon(
+        points, fill=(shade, shade - 5, shade - 20, 255), outline=(60, 60, 60, 255), width=4
+    )
+    file = io.BytesIO()
+    image.save(file, "WEBP", quality=60, method=0)
+    return file.getvalue()
