@@ -1,0 +1,103 @@
+"""The picture of a shape."""
+
+from __future__ import annotations
+
+import io
+
+import numba
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from shapeviz_report.render.camera import frame
+from shapeviz_report.render.normals import split_at_creases
+from shapeviz_report.render.rasteriser import rasterise
+from shapeviz_report.render.shading import CLAY, shade
+from shapeviz_report.render.viewpoint import choose_view
+from shapeviz_report.types import Mesh
+
+WEBP_QUALITY = 84
+WEBP_METHOD = 2  # 4 would save a fifth of the bytes for three times the time
+
+_SUPERSAMPLING = 2
+_TENT = (
+    np.array([1, 3, 3, 1], np.float32) / 8
+)  # over four rows and columns: edges finer than a box would give
+
+
+def render_thumbnail(mesh: Mesh, *, size: int = 320) -> bytes:
+    """Draw a shape in a three-quarter view, on nothing.
+
+    The same mesh gives the same bytes, in any process.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Not empty; closed or open, of any number of parts and with any up axis.
+    size : int
+        Width and height in pixels.
+
+    Returns
+    -------
+    bytes
+        A WebP image with transparency, for light and dark pages.
+
+    Raises
+    ------
+    RenderError
+        If this machine cannot draw; see :func:`shapeviz_report.render.check_renderer`.
+    """
+    surface = split_at_creases(mesh)
+    camera = frame(surface.positions, choose_view(mesh), size * _SUPERSAMPLING)
+    camera_normals = surface.normals @ camera.rotation.T
+    buffers = rasterise(surface.positions, surface.faces, (camera_normals + 1.0) / 2.0, camera)
+    albedo = np.broadcast_to(np.float32(CLAY), buffers.values.shape)
+    return encode_webp(shade(buffers.depth, buffers.values * 2.0 - 1.0, albedo, camera))
+
+
+def encode_webp(picture: npt.NDArray[np.float32]) -> bytes:
+    """Reduce a supersampled picture and write it as WebP.
+
+    Colours are averaged in linear light and over the surface alone, so that an outline has neither a light
+    nor a dark fringe on any page.
+
+    Parameters
+    ----------
+    picture : (h, w, 4) float32 array
+        As :func:`shapeviz_report.render.shading.shade` gives it.
+    """
+    pixels = _reduce(picture, _TENT)
+    file = io.BytesIO()
+    Image.fromarray(pixels, "RGBA").save(file, "WEBP", quality=WEBP_QUALITY, method=WEBP_METHOD)
+    return file.getvalue()
+
+
+@numba.njit(cache=True)
+def _reduce(picture: npt.NDArray[np.float32], weights: npt.NDArray[np.float32]) -> npt.NDArray[np.uint8]:
+    """Halve a picture and encode it in sRGB; every colour counts as much as it covers."""
+    height, width = picture.shape[0] // 2, picture.shape[1] // 2
+    pixels = np.zeros((height, width, 4), np.uint8)
+    for row in range(height):
+        for column in range(width):
+            red, green, blue, coverage = 0.0, 0.0, 0.0, 0.0
+            for i in range(max(0, 1 - 2 * row), min(4, picture.shape[0] + 1 - 2 * row)):
+                for j in range(max(0, 1 - 2 * column), min(4, picture.shape[1] + 1 - 2 * column)):
+                    weight = weights[i] * weights[j] * picture[2 * row - 1 + i, 2 * column - 1 + j, 3]
+                    if weight > 0.0:
+                        red += weight * picture[2 * row - 1 + i, 2 * column - 1 + j, 0]
+                        green += weight * picture[2 * row - 1 + i, 2 * column - 1 + j, 1]
+                        blue += weight * picture[2 * row - 1 + i, 2 * column - 1 + j, 2]
+                        coverage += weight
+            if coverage > 0.0:
+                pixels[row, column, 0] = _encode_srgb(red / coverage)
+                pixels[row, column, 1] = _encode_srgb(green / coverage)
+                pixels[row, column, 2] = _encode_srgb(blue / coverage)
+                pixels[row, column, 3] = round(255.0 * coverage)
+    return pixels
+
+
+@numba.njit(cache=True)
+def _encode_srgb(linear: float) -> int:
+    """IEC 61966-2-1, in steps of 1/255."""
+    encoded = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1.0 / 2.4) - 0.055
+    return round(255.0 * min(encoded, 1.0))
