@@ -307,6 +307,6 @@ def _find_models(models: Mapping[str, Path], root: Path) -> tuple[dict[str, Mesh
     by_stem: dict[str, MeshFile] = {}
     for file in sorted(files, key=lambda file: (suffixes.index(suffix_of(file.relative)), file.relative)):
         by_stem.setdefault(file.stem, file)
-    found = {model: file for model in models if (file := by_stem.get(f"m{model}") or by_stem.get(model))}
+    found = {model: mesh for model in models if (mesh := by_stem.get(f"m{model}") or by_stem.get(model))}
     taken = {file.stem for file in found.values()}
     return found, sum(file.stem not in taken for file in files)

@@ -169,9 +169,10 @@ def _csv_columns(text: str, table: Path) -> tuple[str, list[str]]:
     """The delimiter, which is the one that makes a column ``file`` appear, and the names of the columns."""
     for delimiter in DELIMITERS:
         try:
-            columns = [_column(cell) for cell in next(_csv_reader(text, delimiter), [])]
+            header = next(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter), [])
         except csv.Error as error:
             raise DatabaseError(f"The table {table} is not CSV: {error}.") from error
+        columns = [_column(cell) for cell in header]
         if FILE_COLUMN in columns:
             return delimiter, columns
     raise DatabaseError(
@@ -180,15 +181,11 @@ def _csv_columns(text: str, table: Path) -> tuple[str, list[str]]:
     )
 
 
-def _csv_reader(text: str, delimiter: str) -> csv.reader:
-    return csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
-
-
 def _csv_rows(text: str, table: Path) -> list[Row]:
     delimiter, columns = _csv_columns(text, table)
     if twice := sorted({column for column in columns if column and columns.count(column) > 1}):
         raise DatabaseError(f"The table {table} has two columns named '{twice[0]}'; rename one.")
-    reader = _csv_reader(text, delimiter)
+    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
     next(reader)
     rows = []
     try:

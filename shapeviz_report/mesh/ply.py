@@ -12,9 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.polygons import PolygonMesh, whole_numbers
+from shapeviz_report.mesh.polygons import Indices, PolygonMesh, whole_numbers
 
 Values = npt.NDArray[np.generic]
+Column = tuple[Indices, Values]
+"""What a property has in each row: the number of its values, and all values one after the other."""
 
 _KINDS = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "ushort": "u2",
@@ -152,8 +154,8 @@ def _read_header(header: str) -> tuple[str, list[Element]]:
     return encoding, elements
 
 
-def _read_element(body: TextBody | BinaryBody, element: Element) -> dict[str, tuple[Values, Values]]:
-    """All rows of an element: per property, the number of values of each row, and all values in a row."""
+def _read_element(body: TextBody | BinaryBody, element: Element) -> dict[str, Column]:
+    """All rows of an element, property by property."""
     start = body.position
     columns: list[tuple[str, int]] = []
     for listed in element.properties:
@@ -173,10 +175,10 @@ def _read_element(body: TextBody | BinaryBody, element: Element) -> dict[str, tu
 
 def _equal_rows(
     body: TextBody | BinaryBody, element: Element, columns: list[tuple[str, int]]
-) -> dict[str, tuple[Values, Values]]:
+) -> dict[str, Column]:
     """The quick way, for lists as long as in the first row. Raises ``MeshError`` if one is not."""
     rows = iter(zip(body.take_rows(columns, element.count), columns, strict=True))
-    contents = {}
+    contents: dict[str, Column] = {}
     for listed in element.properties:
         counts, _ = next(rows) if listed.count_kind else (None, None)
         values, (_, width) = next(rows)
@@ -186,7 +188,7 @@ def _equal_rows(
     return contents
 
 
-def _ragged_rows(body: TextBody | BinaryBody, element: Element) -> dict[str, tuple[Values, Values]]:
+def _ragged_rows(body: TextBody | BinaryBody, element: Element) -> dict[str, Column]:
     sizes: dict[str, list[int]] = {listed.name: [] for listed in element.properties}
     values: dict[str, list[Values]] = {listed.name: [] for listed in element.properties}
     for _ in range(element.count):

@@ -470,7 +470,9 @@ def test_stl_text(tmp_path):
     path = tmp_path / "mesh.stl"
     path.write_text(trimesh.exchange.stl.export_stl_ascii(CUBE))
     assert volume(read_mesh(path)) == pytest.approx(6)
-    path.write_text(path.read_text().replace("vertex 0.5", "vertex O.5", 1))
+    path.write_bytes(path.read_bytes().replace(b"solid ", "solid Flügel".encode("latin-1"), 1))
+    assert volume(read_mesh(path)) == pytest.approx(6)
+    path.write_bytes(path.read_bytes().replace(b"vertex 0.5", b"vertex O.5", 1))
     with pytest.raises(MeshError):
         read_mesh(path)
 
