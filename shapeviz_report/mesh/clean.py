@@ -81,7 +81,9 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
     if len(faces) == 0:
         raise MeshError("none of its faces has an area")
 
-    _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
+    order = np.lexsort(np.sort(faces, axis=1).T)
+    ordered = np.sort(faces[order], axis=1)
+    first = order[np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))]
     note("duplicate faces dropped", len(faces) - len(first))
     faces = faces[np.sort(first)]
 
@@ -103,7 +105,8 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
 
 def is_watertight(faces: IntArray) -> bool:
     """Whether every edge of ``faces`` (m, 3) belongs to exactly two faces."""
-    _, counts = np.unique(_sorted_edges(faces), axis=0, return_counts=True)
+    edges = _sorted_edges(faces.astype(np.int64))
+    _, counts = np.unique(edges[:, 0] * (int(faces.max()) + 1) + edges[:, 1], return_counts=True)
     return bool((counts == 2).all())
 
 

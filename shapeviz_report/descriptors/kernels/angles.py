@@ -16,31 +16,40 @@ def gather_angles(vertices, faces):  # pragma: no cover - compiled
     normals = np.zeros((count, 3))
     largest = np.zeros(count)
     fallback = np.zeros((count, 3))
-    fallback[:, 2] = 1.0
+    for v in range(count):
+        fallback[v, 2] = 1.0
     for f in range(len(faces)):
-        a, b, c = vertices[faces[f, 0]], vertices[faces[f, 1]], vertices[faces[f, 2]]
-        normal = np.cross(b - a, c - a)
-        twice_area = np.sqrt(normal[0] ** 2 + normal[1] ** 2 + normal[2] ** 2)
+        a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
+        nx, ny, nz, _ = _spread(vertices, a, b, c)
+        twice_area = np.sqrt(nx * nx + ny * ny + nz * nz)
         if twice_area == 0.0:
             continue
-        normal /= twice_area
+        nx, ny, nz = nx / twice_area, ny / twice_area, nz / twice_area
         for corner in range(3):
-            vertex = faces[f, corner]
-            here = vertices[vertex]
-            left = vertices[faces[f, (corner + 1) % 3]] - here
-            right = vertices[faces[f, (corner + 2) % 3]] - here
-            dot = left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
+            v, left, right = faces[f, corner], faces[f, (corner + 1) % 3], faces[f, (corner + 2) % 3]
             # atan2 of cross and dot is exact for slivers, where arccos loses half its digits.
-            angle = np.arctan2(twice_area, dot)
-            sums[vertex] += angle
-            normals[vertex] += angle * normal
-            if twice_area > largest[vertex]:
-                largest[vertex] = twice_area
-                fallback[vertex] = normal
-    for vertex in range(count):
-        length = np.sqrt(normals[vertex, 0] ** 2 + normals[vertex, 1] ** 2 + normals[vertex, 2] ** 2)
-        if length > 1e-12:
-            normals[vertex] /= length
-        else:
-            normals[vertex] = fallback[vertex]
+            angle = np.arctan2(twice_area, _spread(vertices, v, left, right)[3])
+            sums[v] += angle
+            normals[v, 0] += angle * nx
+            normals[v, 1] += angle * ny
+            normals[v, 2] += angle * nz
+            if twice_area > largest[v]:
+                largest[v] = twice_area
+                fallback[v, 0], fallback[v, 1], fallback[v, 2] = nx, ny, nz
+    for v in range(count):
+        length = np.sqrt(normals[v, 0] ** 2 + normals[v, 1] ** 2 + normals[v, 2] ** 2)
+        for x in range(3):
+            normals[v, x] = normals[v, x] / length if length > 1e-12 else fallback[v, x]
     return sums, normals
+
+
+@njit(cache=True)
+def _spread(vertices, origin, left, right):  # pragma: no cover - compiled
+    """Cross product (three numbers) and dot product of the ways from ``origin`` to two vertices."""
+    lx = vertices[left, 0] - vertices[origin, 0]
+    ly = vertices[left, 1] - vertices[origin, 1]
+    lz = vertices[left, 2] - vertices[origin, 2]
+    rx = vertices[right, 0] - vertices[origin, 0]
+    ry = vertices[right, 1] - vertices[origin, 1]
+    rz = vertices[right, 2] - vertices[origin, 2]
+    return ly * rz - lz * ry, lz * rx - lx * rz, lx * ry - ly * rx, lx * rx + ly * ry + lz * rz

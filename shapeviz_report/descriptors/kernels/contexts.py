@@ -15,19 +15,24 @@ def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover -
     first = np.empty((count, 3))
     second = np.empty((count, 3))
     for i in range(count):
-        n = normals[i]
+        nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
         # Any basis of the tangent plane; Duff et al. 2017, without a branch point at -z.
-        sign = 1.0 if n[2] >= 0.0 else -1.0
-        a = -1.0 / (sign + n[2])
-        b = n[0] * n[1] * a
-        ux, uy, uz = 1.0 + sign * n[0] * n[0] * a, sign * b, -sign * n[0]
-        vx, vy, vz = b, sign + n[1] * n[1] * a, -n[1]
+        sign = 1.0 if nz >= 0.0 else -1.0
+        a = -1.0 / (sign + nz)
+        b = nx * ny * a
+        ux, uy, uz = 1.0 + sign * nx * nx * a, sign * b, -sign * nx
+        vx, vy, vz = b, sign + ny * ny * a, -ny
         size = neighbours.shape[1]
         mean_u = mean_v = uu = uv = vv = 0.0
         for s in range(size):
-            d = vertices[neighbours[i, s]] - vertices[i]
-            p = d[0] * ux + d[1] * uy + d[2] * uz
-            q = d[0] * vx + d[1] * vy + d[2] * vz
+            j = neighbours[i, s]
+            dx, dy, dz = (
+                vertices[j, 0] - vertices[i, 0],
+                vertices[j, 1] - vertices[i, 1],
+                vertices[j, 2] - vertices[i, 2],
+            )
+            p = dx * ux + dy * uy + dz * uz
+            q = dx * vx + dy * vy + dz * vz
             mean_u += p
             mean_v += q
             uu += p * p
@@ -38,17 +43,13 @@ def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover -
         vv -= mean_v * mean_v / size
         angle = 0.5 * np.arctan2(2.0 * uv, uu - vv)
         cos, sin = np.cos(angle), np.sin(angle)
-        first[i, 0], first[i, 1], first[i, 2] = cos * ux + sin * vx, cos * uy + sin * vy, cos * uz + sin * vz
-        second[i, 0], second[i, 1], second[i, 2] = (
-            cos * vx - sin * ux,
-            cos * vy - sin * uy,
-            cos * vz - sin * uz,
-        )
-        away = vertices[i] - centre
-        if first[i, 0] * away[0] + first[i, 1] * away[1] + first[i, 2] * away[2] > 0.0:
-            first[i] *= -1.0
-        if second[i, 0] * away[0] + second[i, 1] * away[1] + second[i, 2] * away[2] > 0.0:
-            second[i] *= -1.0
+        px, py, pz = cos * ux + sin * vx, cos * uy + sin * vy, cos * uz + sin * vz
+        qx, qy, qz = cos * vx - sin * ux, cos * vy - sin * uy, cos * vz - sin * uz
+        ax, ay, az = vertices[i, 0] - centre[0], vertices[i, 1] - centre[1], vertices[i, 2] - centre[2]
+        turn_first = -1.0 if px * ax + py * ay + pz * az > 0.0 else 1.0
+        turn_second = -1.0 if qx * ax + qy * ay + qz * az > 0.0 else 1.0
+        first[i, 0], first[i, 1], first[i, 2] = turn_first * px, turn_first * py, turn_first * pz
+        second[i, 0], second[i, 1], second[i, 2] = turn_second * qx, turn_second * qy, turn_second * qz
     return first, second
 
 
@@ -82,7 +83,8 @@ def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: n
             code += np.uint8(squared > inner) << np.uint8(3)
             code += np.uint8(squared > outer) << np.uint8(3)
             codes[j] = code + (np.uint8(squared == zero) << np.uint8(5))
-        tally[:] = 0
+        for code in range(256):
+            tally[0, code] = tally[1, code] = tally[2, code] = tally[3, code] = 0
         # Four tallies in turn: consecutive equal codes would wait for each other in one.
         for j in range(0, size - 3, 4):
             tally[0, codes[j]] += 1

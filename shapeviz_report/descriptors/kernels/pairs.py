@@ -7,7 +7,7 @@ TAN_36 = np.tan(np.pi / 5)
 TAN_72 = np.tan(2 * np.pi / 5)
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@njit(cache=True, error_model="numpy")
 def _pair(px, py, pz, mx, my, mz, qx, qy, qz, nx, ny, nz):  # pragma: no cover - compiled
     """alpha, phi, and the two arguments of theta's arctangent, for source p with normal m and target q with n.
 
@@ -42,9 +42,9 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     for i in range(count):
         for s in range(size):
             j = neighbours[i, s]
-            points[s, :3] = vertices[j]
-            points[s, 3:] = normals[j]
-        row = result[i]
+            for x in range(3):
+                points[s, x] = vertices[j, x]
+                points[s, x + 3] = normals[j, x]
         for s in range(size):
             for t in range(size):
                 if s == t:
@@ -62,8 +62,9 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
                     c = 3 if y > 0.0 else 1
                 else:
                     c = 4 if y > 0.0 else 0
-                row[25 * a + 5 * p + c] += np.float32(1.0)
-    result /= np.float32(size * (size - 1))
+                result[i, 25 * a + 5 * p + c] += np.float32(1.0)
+        for cell in range(125):
+            result[i, cell] /= np.float32(size * (size - 1))
     return result
 
 
@@ -83,7 +84,8 @@ def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
             result[i, min(10, max(0, int((alpha + 1.0) * 5.5)))] += np.float32(1.0)
             result[i, 11 + min(10, max(0, int((phi + 1.0) * 5.5)))] += np.float32(1.0)
             result[i, 22 + min(10, max(0, int((theta / np.pi + 1.0) * 5.5)))] += np.float32(1.0)
-    result /= np.float32(size)
+        for b in range(33):
+            result[i, b] /= np.float32(size)
     return result
 
 
@@ -98,5 +100,6 @@ def average_spfh(spfh, neighbours, distances, floor):  # pragma: no cover - comp
     for i in range(count):
         for s in range(size):
             weight = np.float32(1.0 / (size * max(distances[i, s], floor)))
-            result[i] += weight * spfh[neighbours[i, s]]
+            for b in range(spfh.shape[1]):
+                result[i, b] += weight * spfh[neighbours[i, s], b]
     return result

@@ -28,7 +28,9 @@ def build_tree(vertices, faces):  # pragma: no cover - compiled
         for x in range(3):
             a, b, c = vertices[faces[f, 0], x], vertices[faces[f, 1], x], vertices[faces[f, 2], x]
             centres[f, x] = (a + b + c) / 3.0
-    order = np.arange(count).astype(np.int32)
+    order = np.empty(count, np.int32)
+    for f in range(count):
+        order[f] = f
     boxes = np.empty((2 * count + 1, 6))
     ranges = np.empty((2 * count + 1, 2), np.int32)
     stack_start = np.empty(DEPTH, np.int64)
@@ -41,23 +43,24 @@ def build_tree(vertices, faces):  # pragma: no cover - compiled
         start, end, parent = stack_start[depth], stack_end[depth], stack_parent[depth]
         if parent >= 0:
             ranges[parent, 1] = node
-        low, high = np.full(3, np.inf), np.full(3, -np.inf)
-        centre_low, centre_high = np.full(3, np.inf), np.full(3, -np.inf)
-        for position in range(start, end):
-            f = order[position]
-            for x in range(3):
+        axis, widest = 0, -1.0
+        for x in range(3):
+            low, high, centre_low, centre_high = np.inf, -np.inf, np.inf, -np.inf
+            for position in range(start, end):
+                f = order[position]
                 for corner in range(3):
                     value = vertices[faces[f, corner], x]
-                    low[x] = min(low[x], value)
-                    high[x] = max(high[x], value)
-                centre_low[x] = min(centre_low[x], centres[f, x])
-                centre_high[x] = max(centre_high[x], centres[f, x])
-        boxes[node, :3] = low
-        boxes[node, 3:] = high
+                    low = min(low, value)
+                    high = max(high, value)
+                centre_low = min(centre_low, centres[f, x])
+                centre_high = max(centre_high, centres[f, x])
+            boxes[node, x] = low
+            boxes[node, x + 3] = high
+            if centre_high - centre_low > widest:
+                axis, widest = x, centre_high - centre_low
         if end - start <= LEAF_SIZE:
             ranges[node, 0], ranges[node, 1] = start, end
         else:
-            axis = np.argmax(centre_high - centre_low)
             middle = (start + end) // 2
             _select(order, centres, axis, start, end - 1, middle)
             ranges[node, 0] = -1
@@ -65,7 +68,7 @@ def build_tree(vertices, faces):  # pragma: no cover - compiled
             stack_start[depth + 1], stack_end[depth + 1], stack_parent[depth + 1] = start, middle, -1
             depth += 2
         node += 1
-    return boxes[:node].copy(), ranges[:node].copy(), order
+    return boxes[:node], ranges[:node], order
 
 
 @njit(cache=True)
