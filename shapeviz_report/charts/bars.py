@@ -62,4 +62,4 @@ def class_bars() -> alt.LayerChart:
 
 def _unit(field: str) -> alt.X:
     """The range [0, 1], with room on the right for the longest label."""
-    return alt.X(field, axis=None, scale=alt.Scale(domain=[0, 1.24], nice=False, zero=True))
+    return alt.X(field, axis=None, scale=alt.Scale(domain=[0, 1.32], nice=False, zero=True))

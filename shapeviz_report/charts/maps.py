@@ -93,7 +93,7 @@ def _points(color: object, description: str) -> alt.Chart:
     chart = (
         _placed(alt.NamedData("shapes"))
         .transform_filter("emphasis[datum.index] > 0")
-        .mark_point(clip=True, filled=True, stroke=alt.ExprRef("outline"), strokeWidth=0.6, opacity=1)
+        .mark_point(clip=True, filled=True, invalid=None, stroke=alt.ExprRef("outline"), strokeWidth=0.6, opacity=1)
         .encode(
             **_position(),
             color=color,

@@ -11,7 +11,8 @@ export class Card {
     this.state = state;
     this.node = document.getElementById("card");
     state.listen((changed) => {
-      if (changed.has("pointed") || changed.has("camera") || changed.has("method")) this.#show();
+      if (changed.has("theme")) this.shown = null;
+      if (["pointed", "camera", "method", "theme"].some((name) => changed.has(name))) this.#show();
     });
   }
 

@@ -12,7 +12,8 @@ export class Detail {
     this.node = document.getElementById("detail");
     this.node.addEventListener("pointerleave", () => state.set({ pointed: null }));
     state.listen((changed) => {
-      if (changed.has("opened") || (changed.has("method") && state.get("opened") !== null)) this.show();
+      const redrawn = changed.has("method") || changed.has("theme");
+      if (changed.has("opened") || (redrawn && state.get("opened") !== null)) this.show();
     });
   }
 

@@ -64,7 +64,7 @@ export class Gestures {
     const [dx, dy] = [place[0] - drag.start[0], place[1] - drag.start[1]];
     if (drag.kind === "press" && Math.hypot(dx, dy) > CLICK) {
       drag.kind = drag.then;
-      this.state.set({ pointed: null });
+      this.state.set({ pointed: null, brushing: drag.kind === "select" });
     }
     if (drag.kind === "move") {
       const scale = this.view.scale;
@@ -92,6 +92,7 @@ export class Gestures {
     this.#pointers.delete(event.pointerId);
     this.#hideBrush();
     this.#drag = null;
+    this.state.set({ brushing: false });
   }
 
   #hideBrush() {
@@ -133,7 +134,7 @@ export class Gestures {
     const zoom = drag.camera.zoom * factor;
     const scale = (this.view.scale / this.scene.camera().zoom) * zoom;
     const old = (this.view.scale / this.scene.camera().zoom) * drag.camera.zoom;
-    const { width, height } = this.view;
+    const { width, clearHeight: height } = this.view;
     const x = drag.camera.x + (drag.middle[0] - width / 2) / old;
     const y = drag.camera.y - (drag.middle[1] - height / 2) / old;
     this.scene.look({ x: x - (middle[0] - width / 2) / scale, y: y + (middle[1] - height / 2) / scale, zoom });
@@ -149,7 +150,7 @@ export class Gestures {
   }
 
   /** Zoom by a factor with one place of the screen held still; the middle unless another is given. */
-  zoom(factor, place = [this.view.width / 2, this.view.height / 2]) {
+  zoom(factor, place = [this.view.width / 2, this.view.clearHeight / 2]) {
     const camera = this.scene.camera();
     const zoom = Math.min(Math.max(camera.zoom * factor, 1), 40);
     const [x, y] = this.view.toPlane(...place);
@@ -183,7 +184,7 @@ export class Gestures {
   #step([dx, dy]) {
     const { view, scene } = this;
     const from = this.state.get("pointed");
-    const [x, y] = from === null ? [view.width / 2, view.height / 2] : view.screen(from);
+    const [x, y] = from === null ? [view.width / 2, view.clearHeight / 2] : view.screen(from);
     let [best, least] = [null, Infinity];
     for (let index = 0; index < view.model.count; index += 1) {
       if (index === from || !scene.visible(index)) continue;
@@ -196,7 +197,7 @@ export class Gestures {
     }
     if (best === null) return;
     const [px, py] = view.screen(best);
-    if (px < 0 || py < 0 || px > view.width || py > view.height) {
+    if (px < 0 || py < 0 || px > view.width || py > view.clearHeight) {
       scene.look({ ...scene.camera(), x: scene.x[best], y: scene.y[best] });
     }
     this.state.set({ pointed: best, pointedFrom: view });

@@ -5,6 +5,7 @@ import { svg } from "./dom.js";
 
 const CELL = 8;
 const HEIGHT = 18;
+const CLOSE = 14;
 const LONGEST = 26;
 const DIRECTIONS = 12;
 const DISTANCES = [0, 16, 28, 42, 58];
@@ -30,7 +31,7 @@ export class Labels {
    * `points` are the visible shapes as {index, group, x, y} in pixels; `radius` is that of a mark.
    */
   place(points, width, height, radius) {
-    const crowd = new Crowd(points, width, height);
+    const crowd = new Crowd(points);
     const groups = new Map();
     for (const point of points) {
       if (point.group < 0) continue;
@@ -77,9 +78,11 @@ export class Labels {
         const box = { x, y, left: x - textWidth / 2, right: x + textWidth / 2, top: y - HEIGHT / 2, bottom: y + HEIGHT / 2 };
         if (box.left < 2 || box.right > width - 2 || box.top < 2 || box.bottom > height - 2) continue;
         if (boxes.some((other) => overlap(box, other))) continue;
-        const [own, others] = crowd.within(box, group);
-        // Covering a point costs most, a stranger's more than one's own; distance costs a little.
-        const cost = own * 2 + others * 5 + reach / 9;
+        const [own, others] = crowd.within(box, group, 0);
+        const [ownAround, othersAround] = crowd.within(box, group, CLOSE);
+        // Covering a point costs most, a stranger's more than one's own. A name that stands among strangers would be
+        // read as theirs. Distance costs a little.
+        const cost = own * 4 + others * 6 + (othersAround - others) * 1.5 + (ownAround === 0 ? 6 : 0) + reach / 10;
         if (best === null || cost < best.cost) best = { ...box, cost };
       }
     }
@@ -108,11 +111,12 @@ class Crowd {
     }
   }
 
-  /** How many of a group and how many others lie in a box. */
-  within(box, group) {
+  /** How many of a group and how many others lie in a box, or closer to it than a margin. */
+  within(box, group, margin) {
     let [own, others] = [0, 0];
-    for (let row = Math.floor(box.top / CELL); row <= Math.floor(box.bottom / CELL); row += 1) {
-      for (let column = Math.floor(box.left / CELL); column <= Math.floor(box.right / CELL); column += 1) {
+    const cell = (value) => Math.floor(value / CELL);
+    for (let row = cell(box.top - margin); row <= cell(box.bottom + margin); row += 1) {
+      for (let column = cell(box.left - margin); column <= cell(box.right + margin); column += 1) {
         for (const found of this.#cells.get(cellKey(column, row)) ?? []) {
           if (found === group) own += 1;
           else others += 1;

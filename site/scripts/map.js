@@ -3,10 +3,8 @@
 import { Labels } from "./labels.js";
 import { drawChart } from "./chart.js";
 import { element, svg } from "./dom.js";
-import { CHOSEN } from "./scene.js";
+import { CHOSEN, patient } from "./scene.js";
 
-/** Above this many shapes, maps that are not the large one wait until a movement has ended. */
-const PATIENT = 1500;
 
 export class MapView {
   constructor(scene, figure) {
@@ -46,6 +44,7 @@ export class MapView {
     this.#send();
     vega.data("shapes", this.model.rows());
     await vega.runAsync();
+    performance.mark(`drawn: ${this.name}`);
     this.settle();
   }
 
@@ -63,11 +62,16 @@ export class MapView {
 
   // Plane and screen
 
+  /** Height of the part that nothing covers. */
+  get clearHeight() {
+    return this.height - (this.large ? this.scene.covered : 0);
+  }
+
   get scale() {
     const { width, height } = this.scene.bounds;
-    const margin = this.large ? 36 : 12;
+    const margin = Math.max(this.large ? 36 : 12, this.name === "thumbnail" ? this.#wholeSize / 2 : 0);
     const room = (size) => Math.max(size - 2 * margin, 8);
-    return Math.min(room(this.width) / width, room(this.height) / height) * this.scene.camera().zoom;
+    return Math.min(room(this.width) / width, room(this.clearHeight) / height) * this.scene.camera().zoom;
   }
 
   screen(index) {
@@ -77,18 +81,19 @@ export class MapView {
   toScreen(x, y) {
     const camera = this.scene.camera();
     const scale = this.scale;
-    return [this.width / 2 + (x - camera.x) * scale, this.height / 2 - (y - camera.y) * scale];
+    return [this.width / 2 + (x - camera.x) * scale, this.clearHeight / 2 - (y - camera.y) * scale];
   }
 
   toPlane(x, y) {
     const camera = this.scene.camera();
     const scale = this.scale;
-    return [camera.x + (x - this.width / 2) / scale, camera.y - (y - this.height / 2) / scale];
+    return [camera.x + (x - this.width / 2) / scale, camera.y - (y - this.clearHeight / 2) / scale];
   }
 
   get markSize() {
     const many = Math.min(Math.max(42000 / this.model.count, 26), 150);
-    return (this.large ? many : Math.max(many * 0.22, 9)) * Math.min(this.scene.camera().zoom, 4) ** 0.5;
+    const size = this.large ? many * Math.min(Math.max(this.width / 800, 0.5), 1) : Math.max(many * 0.22, 9);
+    return size * Math.min(this.scene.camera().zoom, 4) ** 0.5;
   }
 
   get markRadius() {
@@ -96,9 +101,13 @@ export class MapView {
   }
 
   get pictureSize() {
+    return Math.min(this.#wholeSize * this.scene.camera().zoom ** 0.5, 180);
+  }
+
+  /** Size of a picture when the whole map is shown. */
+  get #wholeSize() {
     const room = Math.sqrt((this.width * this.height * 0.5) / this.model.count);
-    const size = Math.min(Math.max(room, this.large ? 44 : 15), this.large ? 110 : 40);
-    return Math.min(size * this.scene.camera().zoom ** 0.5, 180);
+    return Math.min(Math.max(room, this.large ? 44 : 15), this.large ? 110 : 40);
   }
 
   /** The visible shape at a place on the screen, or null. */
@@ -131,9 +140,22 @@ export class MapView {
   draw() {
     this.#drawRings();
     this.labels.follow((index) => this.screen(index));
-    if (!this.vega || (!this.large && this.model.count > PATIENT)) return;
-    this.#send();
-    this.#run();
+    if (!this.vega) return;
+    if (patient(this.model)) {
+      this.#stretch();
+    } else {
+      this.#send();
+      this.#run();
+    }
+  }
+
+  /** Move the picture drawn last to where its part of the plane is now: what a large map shows until it settles. */
+  #stretch() {
+    const { x_domain: x, y_domain: y, target } = Object.fromEntries(this.sent);
+    if (target !== this.scene.target) return;
+    const [left, top] = this.toScreen(x[0], y[1]);
+    const [right] = this.toScreen(x[1], y[1]);
+    this.node.style.transform = `translate(${left}px, ${top}px) scale(${(right - left) / this.width})`;
   }
 
   /** After the last of a series of changes: what would be too slow or too restless for every frame. */
@@ -142,6 +164,7 @@ export class MapView {
     this.#choosePictures();
     this.#send();
     this.#run();
+    this.node.style.transform = "";
     this.#drawRings();
     if (this.large) this.#name();
     else this.labels.clear();
@@ -254,10 +277,10 @@ export class MapView {
     for (let index = 0; index < this.model.count; index += 1) {
       if (!this.scene.visible(index)) continue;
       const [x, y] = this.screen(index);
-      if (x < 0 || y < 0 || x > this.width || y > this.height) continue;
+      if (x < 0 || y < 0 || x > this.width || y > this.clearHeight) continue;
       points.push({ index, group: this.model.groups[index], x, y });
     }
-    this.labels.place(points, this.width, this.height, this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius);
+    this.labels.place(points, this.width, this.clearHeight, this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius);
     this.labels.follow((index) => this.screen(index));
   }
 }

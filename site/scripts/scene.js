@@ -4,12 +4,19 @@
 import { calm } from "./dom.js";
 
 const DURATION = 650;
+const COVER_DURATION = 180;
 const LARGEST_ZOOM = 40;
+const PATIENT = 1500;
 
 export const HIDDEN = 0;
 export const FAINT = 1;
 export const NORMAL = 2;
 export const CHOSEN = 3;
+
+/** Whether there are so many shapes that charts are drawn anew only when a movement has ended. */
+export function patient(model) {
+  return model.count > PATIENT;
+}
 
 export class Scene {
   constructor(model, state) {
@@ -24,6 +31,7 @@ export class Scene {
     this.emphasis = [];
     this.matches = null;
     this.views = [];
+    this.covered = 0;
     this.#weigh();
     state.listen((changed) => {
       if (changed.has("method")) this.#travel(state.get("method"));
@@ -39,15 +47,40 @@ export class Scene {
       for (const view of this.views) view.draw();
     });
     clearTimeout(this.#settling);
-    this.#settling = setTimeout(() => this.views.forEach((view) => view.settle()), 160);
+    this.#settling = setTimeout(() => this.#settle(), 160);
   }
 
   #frame = null;
   #settling = null;
 
+  /** The large map first, each in a frame of its own, so that no frame takes long. */
+  #settle() {
+    const views = [...this.views].sort((a, b) => b.large - a.large);
+    const next = () => {
+      views.shift().settle();
+      if (views.length > 0) this.#settling = setTimeout(next, 0);
+    };
+    next();
+  }
+
   visible(index) {
     return this.emphasis[index] > HIDDEN;
   }
+
+  /** Keep the large map clear of `height` pixels at its bottom, where the tray lies; the map makes room, it does not jump. */
+  cover(height) {
+    this.#uncover?.abort();
+    this.#uncover = new AbortController();
+    const { signal } = this.#uncover;
+    const from = this.covered;
+    animate(COVER_DURATION, signal, (progress) => {
+      this.covered = from + eased(progress) * (height - from);
+      this.draw();
+    });
+  }
+
+  #uncover = null;
+  #voyage = null;
 
   /** Move all points to another projection, on a straight way; the camera goes back to showing all of it. */
   #travel(target) {
@@ -56,10 +89,9 @@ export class Scene {
     const from = this.bounds;
     const to = this.model.bounds[target];
     const camera = this.state.get("camera");
-    const started = performance.now();
-    const step = () => {
-      if (this.target !== target) return;
-      const linear = calm() ? 1 : Math.min(1, (performance.now() - started) / DURATION);
+    this.#voyage?.abort();
+    this.#voyage = new AbortController();
+    animate(patient(this.model) ? 0 : DURATION, this.#voyage.signal, (linear) => {
       this.#place(eased(linear));
       const mix = (a, b) => a + this.progress * (b - a);
       this.bounds = {
@@ -74,9 +106,7 @@ export class Scene {
         this.state.set({ camera: linear < 1 ? view : null });
       }
       this.draw();
-      if (linear < 1) requestAnimationFrame(step);
-    };
-    step();
+    });
   }
 
   #place(progress) {
@@ -93,7 +123,7 @@ export class Scene {
     const hidden = this.state.get("hidden");
     const selection = this.state.get("selection");
     const matches = this.state.get("matches");
-    const pointed = this.state.get("pointedGroup");
+    const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
     this.emphasis = this.model.groups.map((group, index) => {
       if (hidden.has(group)) return HIDDEN;
       if (pointed !== null) return group === pointed ? CHOSEN : FAINT;
@@ -118,6 +148,18 @@ export class Scene {
     const { x, y, width, height } = this.bounds;
     this.state.set({ camera: { x: within(camera.x, x, width), y: within(camera.y, y, height), zoom } });
   }
+}
+
+/** Call `step` with every frame, with the share of time gone, the last time with 1; once only for who wants calm. */
+function animate(duration, signal, step) {
+  const started = performance.now();
+  const frame = () => {
+    if (signal.aborted) return;
+    const share = calm() || duration === 0 ? 1 : Math.min(1, (performance.now() - started) / duration);
+    step(share);
+    if (share < 1) requestAnimationFrame(frame);
+  };
+  frame();
 }
 
 function eased(t) {

@@ -8,15 +8,17 @@ const PAGE = 200;
 const MOST_CLASSES = 8;
 
 export class Tray {
-  constructor(model, state, { open }) {
+  constructor(model, state, scene, { open }) {
     this.model = model;
+    this.scene = scene;
     this.state = state;
     this.open = open;
     this.node = document.getElementById("tray");
     state.listen((changed) => {
-      if (changed.has("selection")) this.#fillSoon();
+      if (["selection", "brushing", "theme"].some((name) => changed.has(name))) this.#fillSoon();
       if (changed.has("opened")) this.#markOpened();
     });
+    this.overlap = 0;
     this.#fill();
   }
 
@@ -32,12 +34,15 @@ export class Tray {
 
   #fill() {
     const chosen = [...this.state.get("selection")].sort((a, b) => this.model.groups[a] - this.model.groups[b] || a - b);
-    this.node.classList.toggle("filled", chosen.length > 0);
-    if (chosen.length === 0) {
-      this.node.replaceChildren(element("p", { class: "hint" }, "Drag a box on a map to collect shapes here. Click a shape to see what is known of it."));
-      return;
-    }
-    this.node.replaceChildren(this.#head(chosen), this.#strip(chosen));
+    // The tray unfolds when the brush is let go, not under it.
+    const unfolded = chosen.length > 0 && !this.state.get("brushing");
+    this.node.classList.toggle("filled", unfolded);
+    if (chosen.length === 0) this.node.replaceChildren(element("p", { class: "hint" }, hint()));
+    else this.node.replaceChildren(this.#head(chosen), unfolded ? this.#strip(chosen) : "");
+    const overlap = unfolded ? Math.max(-parseFloat(getComputedStyle(this.node).marginTop), 0) : 0;
+    if (overlap !== this.overlap) this.scene.cover(overlap);
+    this.overlap = overlap;
+    this.node.parentElement.style.setProperty("--covered", `${overlap}px`);
     this.#markOpened();
   }
 
@@ -112,4 +117,10 @@ export class Tray {
     const opened = String(this.state.get("opened"));
     for (const item of this.node.querySelectorAll(".shape")) item.classList.toggle("opened", item.dataset.index === opened);
   }
+}
+
+function hint() {
+  return window.matchMedia("(pointer: coarse)").matches
+    ? "Tap a shape to see what is known of it. With Select, drag a box to collect shapes here."
+    : "Drag a box on a map to collect shapes here. Click a shape to see what is known of it.";
 }

@@ -28,6 +28,8 @@ async function main() {
     pointed: null,
     pointedFrom: null,
     pointedGroup: null,
+    brushing: false,
+    theme: currentTheme(),
   });
   const scene = new Scene(model, state);
   const live = document.getElementById("live");
@@ -50,7 +52,7 @@ async function main() {
   const detail = new Detail(model, state);
   const search = new Search(model, state, announce);
   new Card(model, state);
-  new Tray(model, state, { open: (opened) => state.set({ opened }) });
+  new Tray(model, state, scene, { open: (opened) => state.set({ opened }) });
   watchTables(model, state);
   watchControls(model, state, scene, gestures);
   watchKeys(state, gestures);
@@ -71,11 +73,14 @@ async function main() {
     for (const view of scene.views) view.start();
     classes.start();
     readings();
-    state.set({ selection: new Set(state.get("selection")), pointed: null });
+    state.set({ theme: currentTheme() });
   });
 
   readings();
-  await Promise.all([...scene.views.map((view) => view.start()), classes.start()]);
+  // What is seen first is drawn first.
+  await views.get(state.get("view")).start();
+  await classes.start();
+  for (const view of scene.views) if (!view.large) await view.start();
   const observer = new ResizeObserver(() => {
     for (const view of scene.views) view.resize();
     classes.resize();
@@ -96,8 +101,10 @@ function arrange(figures, large) {
 /** The same, with a short movement that shows which map went where. */
 function swap(figures, large, scene) {
   const before = new Map([...figures].map(([name, node]) => [name, node.getBoundingClientRect()]));
+  const focused = document.activeElement.classList.contains("surface");
   arrange(figures, large);
   for (const view of scene.views) view.resize();
+  if (focused) figures.get(large).querySelector(".surface").focus({ preventScroll: true });
   if (calm()) return;
   for (const [name, node] of figures) {
     const [from, to] = [before.get(name), node.getBoundingClientRect()];
