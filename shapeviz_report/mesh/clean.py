@@ -240,27 +240,6 @@ def _face_outward(
     return flips ^ reverse[parts]
 
 
-@numba.njit(cache=True)
-def _join_corners(corner_count, joins):  # pragma: no cover - compiled
-    """Union-find over corners; the root of every corner, the lowest of its set."""
-    parent = np.arange(corner_count)
-    for j in range(len(joins)):
-        a, b = joins[j, 0], joins[j, 1]
-        while parent[a] != a:
-            parent[a] = parent[parent[a]]
-            a = parent[a]
-        while parent[b] != b:
-            parent[b] = parent[parent[b]]
-            b = parent[b]
-        if a < b:
-            parent[b] = a
-        else:
-            parent[a] = b
-    for c in range(corner_count):
-        parent[c] = parent[parent[c]]
-    return parent
-
-
 def _split_corners(faces: IntArray, pairs: IntArray) -> tuple[IntArray, IntArray]:
     """Rebuild the vertices so that corners are one vertex only where ``pairs`` joins them.
 
@@ -277,6 +256,13 @@ def _split_corners(faces: IntArray, pairs: IntArray) -> tuple[IntArray, IntArray
             np.stack([following[:, 0], pairs[:, 1]], axis=1),
         ]
     )
-    root = _join_corners(3 * len(faces), joins)
-    unique, new = np.unique(root, return_inverse=True)
-    return new.reshape(-1, 3).astype(np.int32), faces.ravel()[unique]
+    size = 3 * len(faces)
+    links = coo_matrix((np.ones(len(joins), np.int8), (joins[:, 0], joins[:, 1])), (size, size))
+    count, vertex = connected_components(links, directed=False)
+    origin = np.empty(count, dtype=np.int64)
+    origin[vertex] = faces.ravel()
+    # Numbered as in the input, copies side by side: the remesher's result follows the order of vertices.
+    order = np.argsort(origin, kind="stable")
+    rank = np.empty(count, dtype=np.int32)
+    rank[order] = np.arange(count, dtype=np.int32)
+    return rank[vertex].reshape(-1, 3), origin[order]

@@ -16,7 +16,7 @@ from shapeviz_report.types import FloatArray, Mesh, ShapeFacts
 MAX_DEVIATION = 0.03
 """A prepared surface farther than this fraction of the diagonal from its input is refused."""
 
-SAMPLES_PER_VERTEX = 4
+SAMPLES_PER_VERTEX = 2
 """How densely a surface is sampled to find the deviation, relative to the prepared mesh."""
 
 

@@ -16,7 +16,7 @@ def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover -
     second = np.empty((count, 3))
     for i in range(count):
         nx, ny, nz = normals[i, 0], normals[i, 1], normals[i, 2]
-        # Any basis of the tangent plane; Duff et al. 2017, without a branch point at -z.
+        # Any basis of the tangent plane; Duff et al. 2017.
         sign = 1.0 if nz >= 0.0 else -1.0
         a = -1.0 / (sign + nz)
         b = nx * ny * a

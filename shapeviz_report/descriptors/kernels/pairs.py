@@ -8,61 +8,80 @@ TAN_72 = np.tan(2 * np.pi / 5)
 
 
 @njit(cache=True, error_model="numpy")
-def _pair(px, py, pz, mx, my, mz, qx, qy, qz, nx, ny, nz):  # pragma: no cover - compiled
-    """alpha, phi, and the two arguments of theta's arctangent, for source p with normal m and target q with n.
+def _relate(vertices, normals, i, j):  # pragma: no cover - compiled
+    """What both directions of a pair need: m . d / |d|, n . d / |d|, m . n, (m x n) . d / |d|.
 
-    The frame is u = m, v = (q - p) x u / |.|, w = u x v (Eq. 4). Where q - p is parallel to u, v is taken as
-    zero, hence alpha = 0 and theta = atan2(0, u . n).
+    d leads from vertex i with normal m to vertex j with normal n.
     """
-    dx, dy, dz = qx - px, qy - py, qz - pz
+    dx, dy, dz = (
+        vertices[j, 0] - vertices[i, 0],
+        vertices[j, 1] - vertices[i, 1],
+        vertices[j, 2] - vertices[i, 2],
+    )
+    mx, my, mz = normals[i, 0], normals[i, 1], normals[i, 2]
+    nx, ny, nz = normals[j, 0], normals[j, 1], normals[j, 2]
     length = np.sqrt(dx * dx + dy * dy + dz * dz)
-    if length == 0.0:
-        return 0.0, 0.0, 0.0, mx * nx + my * ny + mz * nz
-    phi = (mx * dx + my * dy + mz * dz) / length
-    vx, vy, vz = dy * mz - dz * my, dz * mx - dx * mz, dx * my - dy * mx
-    size = np.sqrt(vx * vx + vy * vy + vz * vz)
-    if size > 1e-12 * length:
-        vx, vy, vz = vx / size, vy / size, vz / size
+    if length > 0.0:
+        dx, dy, dz = dx / length, dy / length, dz / length
+    volume = (my * nz - mz * ny) * dx + (mz * nx - mx * nz) * dy + (mx * ny - my * nx) * dz
+    along_m = mx * dx + my * dy + mz * dz
+    along_n = nx * dx + ny * dy + nz * dz
+    return along_m, along_n, mx * nx + my * ny + mz * nz, volume
+
+
+@njit(cache=True, error_model="numpy")
+def _angles(along_m, along_n, agreement, volume):  # pragma: no cover - compiled
+    """alpha, and the first argument of theta's arctangent; the second is ``agreement``, phi is ``along_m``.
+
+    With u = m, v = d x m / |d x m| and w = m x v (Eq. 4), |d x m|^2 = 1 - (m . d)^2 for unit d, and
+    alpha = v . n = (m x n) . d / |d x m|, w . n = (n . d - (m . d)(m . n)) / |d x m|. Where d is parallel to m, or
+    zero, v is taken as zero. From j to i, -n . d and -m . d change places and the rest stays.
+    """
+    squared = 1.0 - along_m * along_m
+    if squared < 1e-12 or (along_m == 0.0 and along_n == 0.0 and volume == 0.0):
+        return 0.0, 0.0
+    scale = 1.0 / np.sqrt(squared)
+    return volume * scale, (along_n - along_m * agreement) * scale
+
+
+@njit(cache=True, error_model="numpy")
+def _cell(along_m, along_n, agreement, volume):  # pragma: no cover - compiled
+    """The cell of PFH for one direction of a pair: ``25 * alpha + 5 * phi + theta``, fifths of each."""
+    alpha, y = _angles(along_m, along_n, agreement, volume)
+    a = min(4, max(0, int((alpha + 1.0) * 2.5)))
+    p = min(4, max(0, int((along_m + 1.0) * 2.5)))
+    # Fifths of the circle by comparing with tangents: no arctangent needed.
+    if abs(y) < agreement * TAN_36:
+        t = 2
+    elif agreement >= 0.0 or abs(y) > -agreement * TAN_72:
+        t = 3 if y > 0.0 else 1
     else:
-        vx, vy, vz = 0.0, 0.0, 0.0
-    wx, wy, wz = my * vz - mz * vy, mz * vx - mx * vz, mx * vy - my * vx
-    alpha = vx * nx + vy * ny + vz * nz
-    return alpha, phi, wx * nx + wy * ny + wz * nz, mx * nx + my * ny + mz * nz
+        t = 4 if y > 0.0 else 0
+    return 25 * a + 5 * p + t
 
 
 @njit(cache=True, error_model="numpy")
 def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """Share of the ordered pairs of each neighbourhood in 5 x 5 x 5 cells of (alpha, phi, theta).
 
-    Cell ``25 * a + 5 * p + t``; alpha and phi over [-1, 1], theta over [-pi, pi].
+    Alpha and phi over [-1, 1], theta over [-pi, pi].
     """
     count, size = neighbours.shape
     result = np.zeros((count, 125), np.float32)
-    points = np.empty((size, 6))
+    one = np.float32(1.0)
+    points = np.empty((size, 3))
+    directions = np.empty((size, 3))
     for i in range(count):
         for s in range(size):
             j = neighbours[i, s]
             for x in range(3):
                 points[s, x] = vertices[j, x]
-                points[s, x + 3] = normals[j, x]
+                directions[s, x] = normals[j, x]
         for s in range(size):
-            for t in range(size):
-                if s == t:
-                    continue
-                alpha, phi, y, x = _pair(
-                    points[s, 0], points[s, 1], points[s, 2], points[s, 3], points[s, 4], points[s, 5],
-                    points[t, 0], points[t, 1], points[t, 2], points[t, 3], points[t, 4], points[t, 5],
-                )  # fmt: skip
-                a = min(4, max(0, int((alpha + 1.0) * 2.5)))
-                p = min(4, max(0, int((phi + 1.0) * 2.5)))
-                # Fifths of the circle by comparing with tangents: no arctangent needed.
-                if abs(y) < x * TAN_36:
-                    c = 2
-                elif x >= 0.0 or abs(y) > -x * TAN_72:
-                    c = 3 if y > 0.0 else 1
-                else:
-                    c = 4 if y > 0.0 else 0
-                result[i, 25 * a + 5 * p + c] += np.float32(1.0)
+            for t in range(s):
+                along_m, along_n, agreement, volume = _relate(points, directions, s, t)
+                result[i, _cell(along_m, along_n, agreement, volume)] += one
+                result[i, _cell(-along_n, -along_m, agreement, volume)] += one
         for cell in range(125):
             result[i, cell] /= np.float32(size * (size - 1))
     return result
@@ -73,17 +92,15 @@ def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """Share of the pairs (vertex, neighbour) in 11 bins each of alpha, phi and theta: (n, 33)."""
     count, size = neighbours.shape
     result = np.zeros((count, 33), np.float32)
+    one = np.float32(1.0)
     for i in range(count):
         for s in range(size):
-            j = neighbours[i, s]
-            alpha, phi, y, x = _pair(
-                vertices[i, 0], vertices[i, 1], vertices[i, 2], normals[i, 0], normals[i, 1], normals[i, 2],
-                vertices[j, 0], vertices[j, 1], vertices[j, 2], normals[j, 0], normals[j, 1], normals[j, 2],
-            )  # fmt: skip
-            theta = np.arctan2(y, x)
-            result[i, min(10, max(0, int((alpha + 1.0) * 5.5)))] += np.float32(1.0)
-            result[i, 11 + min(10, max(0, int((phi + 1.0) * 5.5)))] += np.float32(1.0)
-            result[i, 22 + min(10, max(0, int((theta / np.pi + 1.0) * 5.5)))] += np.float32(1.0)
+            phi, along_n, agreement, volume = _relate(vertices, normals, i, neighbours[i, s])
+            alpha, y = _angles(phi, along_n, agreement, volume)
+            theta = np.arctan2(y, agreement)
+            result[i, min(10, max(0, int((alpha + 1.0) * 5.5)))] += one
+            result[i, 11 + min(10, max(0, int((phi + 1.0) * 5.5)))] += one
+            result[i, 22 + min(10, max(0, int((theta / np.pi + 1.0) * 5.5)))] += one
         for b in range(33):
             result[i, b] /= np.float32(size)
     return result
