@@ -13,19 +13,19 @@ from shapeviz_report.render.camera import frame
 from shapeviz_report.render.normals import split_at_creases
 from shapeviz_report.render.rasteriser import rasterise
 from shapeviz_report.render.shading import CLAY, shade
-from shapeviz_report.render.viewpoint import choose_view
+from shapeviz_report.render.viewpoint import UpAxis, choose_view
 from shapeviz_report.types import Mesh
 
 WEBP_QUALITY = 84
 WEBP_METHOD = 2  # 4 would save a fifth of the bytes for three times the time
 
 _SUPERSAMPLING = 2
-_TENT = (
+_TENT = np.array([1 / 8, 3 / 8, 3 / 8, 1 / 8], np.float32)  # over rows and columns: finer edges than a box
     np.array([1, 3, 3, 1], np.float32) / 8
 )  # over four rows and columns: edges finer than a box would give
 
 
-def render_thumbnail(mesh: Mesh, *, size: int = 320) -> bytes:
+def render_thumbnail(mesh: Mesh, *, size: int = 320, up: UpAxis | None = None) -> bytes:
     """Draw a shape in a three-quarter view, on nothing.
 
     The same mesh gives the same bytes, in any process.
@@ -36,6 +36,8 @@ def render_thumbnail(mesh: Mesh, *, size: int = 320) -> bytes:
         Not empty; closed or open, of any number of parts and with any up axis.
     size : int
         Width and height in pixels.
+    up : {"y", "z"} or None
+        The axis of the file that points up, where that is known; None to guess it from the shape.
 
     Returns
     -------
@@ -48,10 +50,10 @@ def render_thumbnail(mesh: Mesh, *, size: int = 320) -> bytes:
         If this machine cannot draw; see :func:`shapeviz_report.render.check_renderer`.
     """
     surface = split_at_creases(mesh)
-    camera = frame(surface.positions, choose_view(mesh), size * _SUPERSAMPLING)
+    camera = frame(surface.positions, choose_view(mesh, up), size * _SUPERSAMPLING)
     camera_normals = surface.normals @ camera.rotation.T
     buffers = rasterise(surface.positions, surface.faces, (camera_normals + 1.0) / 2.0, camera)
-    albedo = np.broadcast_to(np.float32(CLAY), buffers.values.shape)
+    albedo = np.broadcast_to(np.array(CLAY, np.float32), buffers.values.shape)
     return encode_webp(shade(buffers.depth, buffers.values * 2.0 - 1.0, albedo, camera))
 
 

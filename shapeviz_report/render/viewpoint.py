@@ -17,13 +17,14 @@ one that shows most of the surface is taken; where they show about the same, the
 front.
 
 The weights were tuned on 162 models from two public collections whose up is plain to see; 90 % of them
-come out upright. The others are mostly ants on their heads and people on their backs, whose files have
-them so.
+come out upright. The others are mostly things with no base of their own, fish and glasses, and teddies on
+their backs. Who knows which axis points up in a database can say so instead.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numba
 import numpy as np
@@ -31,17 +32,20 @@ from scipy.spatial import ConvexHull, QhullError, cKDTree
 
 from shapeviz_report.types import FloatArray, Mesh
 
+UpAxis = Literal["y", "z"]
+UP_AXES = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
+
 _POINTS = 2000
 _MIRROR_STRIDE = 2  # every second point is enough to tell a mirror image
 
 _FILE_AXES = np.array([[0, 1, 0], [0, 0, 1], [0, -1, 0], [0, 0, -1], [1, 0, 0], [-1, 0, 0]], np.float64)
-_FILE_WEIGHTS = np.array([1.05, 0.9, 0.0, 0.0, 0.0, 0.0])
-_STANDING_WEIGHT = 0.8
-_STANDS_FIRMLY = np.radians(12.0)
+_FILE_WEIGHTS = np.array([1.1, 1.0, 0.0, 0.0, 0.0, 0.0])
+_STANDING_WEIGHT = 0.85
+_STANDS_FIRMLY = np.radians(9.0)
 _PARALLEL_WEIGHT = 0.5
 _PARALLEL_ANGLE = np.radians(10.0)
-_ABOVE_WEIGHT = 1.6
-_SIDE_WEIGHT = 0.9
+_ABOVE_WEIGHT = 1.2
+_SIDE_WEIGHT = 1.0
 _NO_MIRROR = 1.6  # points this many spacings off their mirror image: no symmetry
 
 _HULL_FACETS = 6
@@ -53,7 +57,7 @@ _OFF_BROADSIDE = np.radians(35.0)
 _LOW_ELEVATION, _HIGH_ELEVATION = np.radians(20.0), np.radians(46.0)
 _FLAT, _TALL = 0.12, 0.5  # height over width between which the elevation falls from high to low
 _FRONT = np.array([-0.35, -0.60, 0.72])  # +z where y is up, -y where z is up, and rather the left
-_FRONT_WEIGHT = 0.04
+_FRONT_WEIGHT = 0.1
 _VISIBILITY_CELLS = 40
 
 
@@ -80,13 +84,15 @@ class _Mirrors:
     qualities: FloatArray
 
 
-def choose_view(mesh: Mesh) -> FloatArray:
+def choose_view(mesh: Mesh, up: UpAxis | None = None) -> FloatArray:
     """Find the rotation in which a shape is best seen.
 
     Parameters
     ----------
     mesh : Mesh
         At least one face with an area.
+    up : {"y", "z"} or None
+        The axis of the file that points up, where that is known; None to guess it from the shape.
 
     Returns
     -------
@@ -95,8 +101,8 @@ def choose_view(mesh: Mesh) -> FloatArray:
     """
     samples = _sample(mesh)
     mirrors = _measure_mirrors(samples)
-    up = _choose_up(samples, mirrors)
-    return _choose_side(samples, up, mirrors)
+    upward = _choose_up(samples, mirrors) if up is None else UP_AXES[up]
+    return _choose_side(samples, upward, mirrors)
 
 
 def _sample(mesh: Mesh) -> _Samples:

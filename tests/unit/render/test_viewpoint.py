@@ -62,6 +62,14 @@ def test_the_file_is_believed_where_the_shape_stands(make, rotation: np.ndarray)
     assert abs(view[0] @ rotation @ [0, 1, 0]) < 1e-9, "does not lean to a side"
 
 
+@pytest.mark.parametrize(("up", "axis"), [("y", 1), ("z", 2)])
+def test_an_axis_that_is_known_to_point_up_is_not_doubted(up: str, axis: int):
+    lying = Rotation.from_euler("z", 90, degrees=True).as_matrix()
+    view = choose_view(assemble(table(), lying), up)
+    assert view[0, axis] == pytest.approx(0.0, abs=1e-9)
+    assert view[1, axis] > 0.5
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_table_in_any_pose_is_put_on_its_legs(seed: int):
     rotation = Rotation.random(random_state=seed).as_matrix()
