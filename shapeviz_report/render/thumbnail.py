@@ -20,9 +20,8 @@ WEBP_QUALITY = 84
 WEBP_METHOD = 2  # 4 would save a fifth of the bytes for three times the time
 
 _SUPERSAMPLING = 2
-_TENT = np.array([1 / 8, 3 / 8, 3 / 8, 1 / 8], np.float32)  # over rows and columns: finer edges than a box
-    np.array([1, 3, 3, 1], np.float32) / 8
-)  # over four rows and columns: edges finer than a box would give
+# Weights over four rows, then over four columns: edges in finer steps than a box of two would give.
+_TENT = np.array([1 / 8, 3 / 8, 3 / 8, 1 / 8], np.float32)
 
 
 def render_thumbnail(mesh: Mesh, *, size: int = 320, up: UpAxis | None = None) -> bytes:
