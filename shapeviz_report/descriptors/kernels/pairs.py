@@ -21,8 +21,8 @@ def _relate(vertices, normals, i, j):  # pragma: no cover - compiled
     mx, my, mz = normals[i, 0], normals[i, 1], normals[i, 2]
     nx, ny, nz = normals[j, 0], normals[j, 1], normals[j, 2]
     length = np.sqrt(dx * dx + dy * dy + dz * dz)
-    if length > 0.0:
-        dx, dy, dz = dx / length, dy / length, dz / length
+    inverse = 1.0 / length if length > 0.0 else 0.0
+    dx, dy, dz = dx * inverse, dy * inverse, dz * inverse
     volume = (my * nz - mz * ny) * dx + (mz * nx - mx * nz) * dy + (mx * ny - my * nx) * dz
     along_m = mx * dx + my * dy + mz * dz
     along_n = nx * dx + ny * dy + nz * dz
@@ -38,9 +38,7 @@ def _angles(along_m, along_n, agreement, volume):  # pragma: no cover - compiled
     zero, v is taken as zero. From j to i, -n . d and -m . d change places and the rest stays.
     """
     squared = 1.0 - along_m * along_m
-    if squared < 1e-12 or (along_m == 0.0 and along_n == 0.0 and volume == 0.0):
-        return 0.0, 0.0
-    scale = 1.0 / np.sqrt(squared)
+    scale = 1.0 / np.sqrt(squared) if squared > 1e-12 else 0.0
     return volume * scale, (along_n - along_m * agreement) * scale
 
 
@@ -48,16 +46,14 @@ def _angles(along_m, along_n, agreement, volume):  # pragma: no cover - compiled
 def _cell(along_m, along_n, agreement, volume):  # pragma: no cover - compiled
     """The cell of PFH for one direction of a pair: ``25 * alpha + 5 * phi + theta``, fifths of each."""
     alpha, y = _angles(along_m, along_n, agreement, volume)
-    a = min(4, max(0, int((alpha + 1.0) * 2.5)))
-    p = min(4, max(0, int((along_m + 1.0) * 2.5)))
-    # Fifths of the circle by comparing with tangents: no arctangent needed.
-    if abs(y) < agreement * TAN_36:
-        t = 2
-    elif agreement >= 0.0 or abs(y) > -agreement * TAN_72:
-        t = 3 if y > 0.0 else 1
-    else:
-        t = 4 if y > 0.0 else 0
-    return 25 * a + 5 * p + t
+    a = np.int32(min(4.0, max(0.0, (alpha + 1.0) * 2.5)))
+    p = np.int32(min(4.0, max(0.0, (along_m + 1.0) * 2.5)))
+    # Fifths of the circle by comparing with tangents: no arctangent, and no branch to guess.
+    height = abs(y)
+    beyond_first = np.int32(height >= agreement * TAN_36)
+    beyond_second = np.int32(height <= -agreement * TAN_72)
+    t = np.int32(2) + (beyond_first + beyond_second) * (np.int32(2) * np.int32(y > 0.0) - np.int32(1))
+    return np.int32(25) * a + np.int32(5) * p + t
 
 
 @njit(cache=True, error_model="numpy")
@@ -68,22 +64,29 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """
     count, size = neighbours.shape
     result = np.zeros((count, 125), np.float32)
-    one = np.float32(1.0)
     points = np.empty((size, 3))
     directions = np.empty((size, 3))
+    forward = np.empty(size, np.int32)
+    backward = np.empty(size, np.int32)
+    tally = np.empty(125, np.int32)
     for i in range(count):
         for s in range(size):
             j = neighbours[i, s]
             for x in range(3):
                 points[s, x] = vertices[j, x]
                 directions[s, x] = normals[j, x]
+        for cell in range(125):
+            tally[cell] = 0
         for s in range(size):
             for t in range(s):
                 along_m, along_n, agreement, volume = _relate(points, directions, s, t)
-                result[i, _cell(along_m, along_n, agreement, volume)] += one
-                result[i, _cell(-along_n, -along_m, agreement, volume)] += one
+                forward[t] = _cell(along_m, along_n, agreement, volume)
+                backward[t] = _cell(-along_n, -along_m, agreement, volume)
+            for t in range(s):
+                tally[forward[t]] += 1
+                tally[backward[t]] += 1
         for cell in range(125):
-            result[i, cell] /= np.float32(size * (size - 1))
+            result[i, cell] = tally[cell] / (size * (size - 1))
     return result
 
 
