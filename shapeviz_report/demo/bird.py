@@ -27,22 +27,45 @@ _THICK = 0.042
 
 
 def _wing(
-    side: float, shoulder: FloatArray, span: float, chord: float, bend: FloatArray, sweep: float
+    side: float,
+    shoulder: FloatArray,
+    span: float,
+    chord: float,
+    bend: FloatArray,
+    sweep: float,
+    fingered: bool,
 ) -> Solid:
-    """A spread wing along a smooth arc; ``bend`` is its slope in degrees at the shoulder, wrist and tip."""
+    """A spread wing along a smooth arc.
+
+    ``bend`` is its slope in degrees at the shoulder, the wrist and the tip; a fingered one ends in feathers.
+    """
     s = np.linspace(0, 1, 9)
     slope = np.radians(np.interp(s, [0, 0.45, 1], bend))
-    # Forward to the wrist, then back: the leading edge of a living wing.
-    y = (
-        chord * 0.5 * (-0.55 * np.sin(np.pi * np.minimum(s / 0.8, 1)))
-        + sweep * np.clip((s - 0.4) / 0.6, 0, 1) ** 1.5
+    steps = (
+        (0.76 if fingered else 1.0)
+        * span
+        / 8
+        * np.stack([side * np.cos(slope), 0 * s, np.sin(slope)], axis=1)
     )
-    step = span / 8
-    x = np.concatenate([[0], np.cumsum(np.cos(slope[1:]) * step)])
-    z = np.concatenate([[0], np.cumsum(np.sin(slope[1:]) * step)])
-    points = shoulder + np.stack([side * x, y, z], axis=1)
-    width = 0.5 * chord * np.interp(s, [0, 0.3, 0.55, 0.8, 1.0], [1.0, 1.02, 0.88, 0.60, 0.26])
-    return blade(points, width, _THICK, (0, 0, 1), 16)
+    points = shoulder + np.cumsum(steps, axis=0) - steps[0]
+    # Forward to the wrist, then back: the leading edge of a living wing.
+    points[:, 1] -= 0.28 * chord * np.sin(np.pi * np.minimum(s / 0.8, 1))
+    points[:, 1] += sweep * np.clip((s - 0.4) / 0.6, 0, 1) ** 1.5
+    taper = [1.0, 1.04, 1.04, 0.98, 0.80] if fingered else [1.0, 1.02, 0.88, 0.60, 0.26]
+    width = 0.5 * chord * np.interp(s, [0, 0.3, 0.55, 0.8, 1.0], taper)
+    wing = blade(points, width, _THICK, (0, 0, 1), 16)
+    if not fingered:
+        return wing
+    out = steps[-1] / np.linalg.norm(steps[-1])
+    upright = np.cross(out, [0, 1.0, 0]) * side
+    feathers = []
+    for f in np.linspace(0, 1, 5):
+        way = turn(upright, side * (62 * f - 14)) @ out
+        base = points[-1] + [0, (f - 0.5) * 1.25 * width[-1], 0]
+        length = (0.46 - 0.12 * f) * span * 0.62
+        line = [base - 0.10 * out, base + 0.6 * length * way, base + length * way]
+        feathers.append(blade(line, [0.06, 0.062, 0.05], _THICK, upright, 4))
+    return blend(wing, unite(*feathers), radius=0.06)
 
 
 def _tail(root: FloatArray, pitch: float, length: float, half_width: float) -> Solid:
@@ -94,7 +117,7 @@ def _head(
 def _flying(rng: Generator, kind: str) -> Solid:
     span, chord, girth, neck, bill = {
         "gull": (1.55, 0.44, 0.25, 0.34, 0.75),
-        "eagle": (1.60, 0.66, 0.30, 0.34, 0.55),
+        "eagle": (1.66, 0.74, 0.33, 0.34, 0.55),
         "swallow": (1.25, 0.36, 0.22, 0.24, 0.35),
     }[kind]
     span, chord = span * rng.uniform(0.92, 1.08), chord * rng.uniform(0.94, 1.08)
@@ -112,28 +135,9 @@ def _flying(rng: Generator, kind: str) -> Solid:
     sweep = {"gull": 0.34, "eagle": 0.04, "swallow": 0.62}[kind] * rng.uniform(0.8, 1.2)
     wings = []
     for s in (1.0, -1.0):
-        root = np.array([0.35 * girth * s, -0.06, 0.08])
-        wing = _wing(s, root, span, chord, bend, sweep)
-        if kind == "eagle":  # fingered tips
-            slope = np.radians(bend[2] + 6)
-            out = np.array([s * np.cos(slope), 0, np.sin(slope)])
-            reach = np.radians(np.interp(np.linspace(0, 1, 9)[1:], [0, 0.45, 1], bend))
-            tip = root + np.array([s * np.cos(reach).sum(), 0, np.sin(reach).sum()]) * 0.82 * span / 8
-            feathers = []
-            for i in range(4):
-                way = turn((0, 0, 1), s * (6 + 22 * i)) @ out
-                base = tip + np.array([0, -0.10 + 0.13 * i, 0]) * chord
-                feathers.append(
-                    blade(
-                        [base - 0.1 * way, base + 0.22 * way, base + 0.46 * way],
-                        [0.055, 0.06, 0.045],
-                        0.04,
-                        (0, 0, 1),
-                        4,
-                    )
-                )
-            wing = blend(wing, unite(*feathers), radius=0.05)
-        wings.append(wing)
+        wings.append(
+            _wing(s, np.array([0.35 * girth * s, -0.06, 0.08]), span, chord, bend, sweep, kind == "eagle")
+        )
     if kind == "swallow":
         tail = unite(
             *(

@@ -232,7 +232,7 @@ def _chair(rng: Generator, kind: str) -> Solid:
         rest_z = seat + rng.uniform(0.28, 0.38)
         parts.append(
             tube(
-                [(s * 0.5 * width, -0.02, seat - 0.04), (x, -0.02, seat + 0.06), (x, 0, rest_z)],
+                [(s * 0.6 * width, -0.02, seat - 0.075), (x, -0.02, seat + 0.06), (x, 0, rest_z)],
                 [0.042, 0.042, 0.042],
                 8,
             )

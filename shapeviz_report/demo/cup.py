@@ -34,7 +34,7 @@ def _wall(rng: Generator, profile: FloatArray, thickness: float) -> FloatArray:
     t = np.linspace(0, 1, 7)[:-1, None]
     corner = np.array([bowl[0, 0] * (1 - 0.05), floor])
     curve = (1 - t) ** 2 * [0.45 * bowl[0, 0], floor] + 2 * t * (1 - t) * corner + t**2 * bowl[0]
-    angles = np.linspace(0, np.pi, 7)[1:-1, None]
+    angles = np.linspace(0, np.pi, 11)[1:-1, None]
     middle, half = (profile[-1] + inside[-1]) / 2, (inside[-1] - profile[-1]) / 2
     up = np.array([half[1], -half[0]])
     rim = middle - half * np.cos(angles) + up * np.sin(angles)
@@ -46,7 +46,7 @@ def _wall(rng: Generator, profile: FloatArray, thickness: float) -> FloatArray:
 def _cup(rng: Generator, kind: str) -> Solid:
     height = _HEIGHTS[kind] * rng.uniform(0.88, 1.12)
     radii = np.array(_PROFILES[kind]) * rng.uniform(0.94, 1.06) * (1 + rng.normal(0, 0.015, 5))
-    wall = rng.uniform(0.075, 0.09)
+    wall = rng.uniform(0.095, 0.115)
     profile = spline(np.stack([radii, np.linspace(0, height, 5)], axis=1), 20)
     vessel = revolve(_wall(rng, profile, wall))
 

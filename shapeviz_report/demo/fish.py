@@ -44,7 +44,7 @@ _BUILDS = {
         (0.34, 0.42, 0.5),
         (0.40, 0.60, 0.19, 0.12),
         (0.60, 0.76, 0.20, 0.10),
-        0.34,
+        0.28,
     ),
     "goldfish": _Build(
         (0.10, 0.32, 0.44, 0.46, 0.36, 0.21, 0.11),
@@ -68,7 +68,7 @@ _BUILDS = {
         (0.50, 0.34, 1.0),
         (0.34, 0.46, 0.24, 0.18),
         (0.58, 0.70, 0.26, 0.18),
-        0.42,
+        0.30,
     ),
     "puffer": _Build(
         (0.14, 0.42, 0.56, 0.56, 0.42, 0.22, 0.12),
@@ -84,7 +84,7 @@ _BUILDS = {
         (0.46, 0.42, 0.8),
         (0.34, 0.52, 0.40, 0.20),
         (0.70, 0.80, 0.16, 0.10),
-        0.56,
+        0.42,
     ),
 }
 _THICK = 0.042
@@ -109,7 +109,13 @@ def _fish(rng: Generator, kind: str) -> Solid:
 
     stations = np.linspace(-1, 1, 7)
     stations[0] = -1 + depth[0]
-    girth_at = PchipInterpolator(stations, depth)
+    dense = np.linspace(stations[0], stations[-1], 60)
+    radii = PchipInterpolator(stations, depth)(dense)
+
+    def girth_at(y: float) -> float:
+        """Half height of the body: the envelope of its balls."""
+        return float(np.sqrt(np.max(radii**2 - (dense - y) ** 2)))
+
     body = tube([spine(y) for y in stations], depth, 30, build.flat, (1, 0, 0))
 
     def plate(points: list[tuple[float, float]], y: float, z: float = 0.0) -> Solid:
@@ -141,7 +147,7 @@ def _fish(rng: Generator, kind: str) -> Solid:
         height = height * rng.uniform(0.85, 1.2)
         y0, y1 = 2 * start - 1, 2 * end - 1
         middle = (y0 + y1) / 2
-        at = girth_at([y0, middle, y1]) * sign
+        at = sign * np.array([girth_at(y) for y in (y0, middle, y1)])
         points = [
             (y0 - middle, 0.75 * at[0]),
             (y0 - middle + 0.3 * sweep + 0.05, at[1] + sign * 0.62 * height),
@@ -153,7 +159,7 @@ def _fish(rng: Generator, kind: str) -> Solid:
         fins.append(plate(points, middle))
     reach = build.pectoral * rng.uniform(0.9, 1.15)
     y = -0.36
-    girth = float(girth_at(y))
+    girth = girth_at(y)
     for side in (1.0, -1.0):
         droop, sweep = rng.uniform(0.35, 0.75), rng.uniform(0.75, 1.2)
         out = np.array([side * 0.9, sweep, -droop])
@@ -168,14 +174,15 @@ def _fish(rng: Generator, kind: str) -> Solid:
     figure = attach(body, *fins, radius=0.06)
 
     y_eye = -0.66
-    girth = float(girth_at(y_eye))
+    girth = girth_at(y_eye)
     eyes = [
-        ball(spine(y_eye) + [side * (0.92 * build.flat * girth - 0.03), 0, 0.34 * girth], 0.092)
+        ball(spine(y_eye) + [side * (0.95 * build.flat * girth - 0.035), 0, 0.34 * girth], 0.092)
         for side in (1, -1)
     ]
     nose = spine(-1.0 + 0.02)
     mouth = ellipsoid(nose + [0, -0.02, -0.05], (0.30, 0.13, 0.022))
-    lips = ellipsoid(nose + [0, 0.08, -0.04], (0.11, 0.11, 0.10))
+    snout = girth_at(-0.9)
+    lips = ellipsoid(nose + [0, 0.10, -0.03], (min(0.11, 0.9 * snout), 0.11, min(0.10, 0.8 * snout)))
     figure = blend(figure, lips, radius=0.08)
     return unite(carve(figure, mouth, radius=0.03), *eyes)
 

@@ -204,6 +204,7 @@ _BUILDS = {
         -0.4,
         (0.16, 0.075, 0.06),
         -50,
+        "wool",
     ),
     "bear": _Build(
         (0.30, 0.32, 0.32),
@@ -241,6 +242,19 @@ def _leg(start: FloatArray, length: float, radii: FloatArray, swing: float, fold
         points[-1] + np.array([0, -0.35 * radii[3], -0.1 * radii[3]]), radii[3] * np.array([1.2, 1.55, 0.85])
     )
     return blend(limb, foot, radius=0.5 * radii[3])
+
+
+def _fleece(centre: FloatArray, radii: FloatArray) -> list[Solid]:
+    """Curls of wool over the upper part of an ellipsoid, spread by the golden angle."""
+    count = 44
+    curls = []
+    for i in range(count):
+        height = 1 - 1.5 * (i + 0.5) / count
+        around = np.radians(137.508) * i
+        ring = np.sqrt(1 - height * height)
+        way = np.array([ring * np.cos(around), ring * np.sin(around), height])
+        curls.append(ball(centre + 0.90 * radii * way, 0.115))
+    return curls
 
 
 def _fourleg(rng: Generator, kind: str) -> Solid:
@@ -363,7 +377,7 @@ def _fourleg(rng: Generator, kind: str) -> Solid:
     curve = (
         np.array([0, 0.25, 0.0]) * tail_length
         if build.tail_up < 0
-        else np.array([0, 0.16, -0.05]) * tail_length
+        else np.array([0, 0.5, -0.12]) * tail_length
     )
     middle, end = root + 0.5 * tail_length * away + 0.5 * curve, root + tail_length * away + (0.3 * curve)
     start = root - [0, 0.10, 0]
@@ -373,10 +387,16 @@ def _fourleg(rng: Generator, kind: str) -> Solid:
         tail = tube([start, root, middle, end], [thick, thick, (thick + thin_end) / 2, thin_end], 12)
     figure = blend(body, neck, radius=0.14)
     if build.extra == "mane":
+        crest_way = np.array([0, up[2], -up[1]])
         crest = [
-            base + (poll - base) * t + np.array([0, 0.115 + 0.03 * (1 - t), 0.05]) for t in (0.25, 0.6, 1.0)
+            base + (poll - base) * t + crest_way * (np.interp(t, [0, 1], build.neck_radius) + 0.01)
+            for t in (0.2, 0.6, 1.0, 1.14)
         ]
-        figure = blend(figure, tube(crest, [0.055, 0.062, 0.055], 8), radius=0.03)
+        figure = blend(figure, blade(crest, [0.06, 0.10, 0.10, 0.06], 0.042, (1, 0, 0)), radius=0.03)
+    elif build.extra == "wool":
+        figure = blend(
+            figure, *_fleece(0.5 * (front + back), np.array([belly, 0.62 * long, belly])), radius=0.05
+        )
     return blend(figure, tail, head, radius=0.07)
 
 

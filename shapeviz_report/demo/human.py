@@ -40,7 +40,7 @@ def _leg(hip: FloatArray, side: float, angles: FloatArray, length: float, girth:
     foot_axes = lower @ flex
     heel = ankle + foot_axes @ np.array([0, 0.025, -0.035])
     toe = ankle + foot_axes @ np.array([0.015 * side, -0.155, -0.045])
-    foot = cone(heel, toe, 0.048, 0.046, 0.78, foot_axes @ np.array([0, 0, 1.0]))
+    foot = cone(heel, toe, 0.052, 0.054, 0.80, foot_axes @ np.array([0, 0, 1.0]))
     return blend(unite(thigh, calf), foot, radius=0.05)
 
 
@@ -56,7 +56,7 @@ def _arm(shoulder: FloatArray, side: float, angles: FloatArray, length: float, g
     forearm = tube([elbow, elbow + 0.3 * (wrist - elbow), wrist], np.array([0.043, 0.045, 0.033]) * girth, 6)
     palm = wrist + lower @ _DOWN * 0.075
     fingers = wrist + lower @ _DOWN * 0.150
-    hand = cone(palm, fingers, 0.047, 0.036, 0.62, lower @ np.array([1.0, 0, 0]))
+    hand = cone(palm, fingers, 0.053, 0.042, 0.60, lower @ np.array([1.0, 0, 0]))
     thumb = cone(wrist + lower @ _DOWN * 0.045, wrist + lower @ np.array([0, -0.062, -0.095]), 0.026, 0.022)
     return blend(unite(limb, forearm), hand, thumb, radius=0.035)
 
@@ -76,7 +76,7 @@ def _human(rng: Generator, kind: str) -> Solid:
     leg_length = 0.86 - 0.22 * age
     torso = 0.52 - 0.08 * age
     arm_length = 0.62 - 0.15 * age
-    head = 0.125 + 0.02 * age
+    head = 0.138 + 0.02 * age
     hip_z, shoulder_z = 0.0, torso
     shoulder_x = (0.185 - 0.02 * hips - 0.03 * age) * (1 + 0.06 * build)
     hip_x = (0.095 + 0.012 * hips) * (1 + 0.06 * build)
@@ -94,7 +94,7 @@ def _human(rng: Generator, kind: str) -> Solid:
         0.058 * girth,
     )
     trunk = blend(pelvis, belly, chest, yoke, radius=0.12)
-    nod = turn((1, 0, 0), rng.uniform(-8, 10)) @ turn((0, 0, 1), rng.uniform(-28, 28))
+    nod = turn((1, 0, 0), rng.uniform(-14, 4)) @ turn((0, 0, 1), rng.uniform(-28, 28))
     neck = np.array([0, 0.005, shoulder_z])
     centre = neck + np.array([0, 0, 0.09]) + nod @ np.array([0, -0.02, 0.6 * head + 0.03])
     axes = nod.T
@@ -103,13 +103,13 @@ def _human(rng: Generator, kind: str) -> Solid:
     face = blend(
         skull,
         ellipsoid(at(0, -0.30, -0.62), (0.55 * head, 0.55 * head, 0.48 * head), axes),
-        cone(at(0, -0.93, 0.02), at(0, -1.06, -0.20), 0.10 * head, 0.155 * head),
+        cone(at(0, -0.92, 0.12), at(0, -1.08, -0.10), 0.10 * head, 0.17 * head),
         ellipsoid(at(0.86, 0.05, -0.12), (0.13 * head, 0.20 * head, 0.27 * head), axes),
         ellipsoid(at(-0.86, 0.05, -0.12), (0.13 * head, 0.20 * head, 0.27 * head), axes),
         radius=0.25 * head,
     )
     style = rng.integers(3)
-    hair = ellipsoid(at(0, 0.13, 0.24), (0.94 * head, 0.98 * head, 0.98 * head), axes)
+    hair = ellipsoid(at(0, 0.13, 0.24), (0.97 * head, 1.02 * head, 1.0 * head), axes)
     if style == 1:
         hair = blend(hair, ball(at(0, 0.62, 1.12), 0.42 * head), radius=0.1 * head)
     elif style == 2:

@@ -10,7 +10,7 @@ from shapeviz_report.demo.solids import Solid, attach, ball, blend, cone, ellips
 from shapeviz_report.types import FloatArray
 
 _KINDS = ("rest", "swim", "curl", "reach")
-_STEPS = 26
+_STEPS = 20
 
 
 def _arm(rng: Generator, kind: str, azimuth: float, length: float) -> FloatArray:
