@@ -19,7 +19,7 @@ from shapeviz_report.render import render_thumbnail
 from shapeviz_report.types import FloatArray, Mesh, Projection, ShapeFacts
 
 _OURS = "shapeviz_report."
-_PREPARED_BY = ((_OURS + "mesh", _OURS + "types"), ("mmgpy", "numpy", "scipy", "trimesh"))
+_PREPARED_BY = ((_OURS + "mesh", _OURS + "types"), ("mmgpy", "numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml"))
 _DESCRIBED_BY = ((_OURS + "descriptors", _OURS + "features"), ("numba", "numpy", "scipy"))
 _RENDERED_BY = ((_OURS + "render",), ("pillow", "pyrender-maintained", "PyOpenGL", "numpy"))
 _GENERATED_BY = ((_OURS + "demo",), ("manifold3d", "numpy"))
