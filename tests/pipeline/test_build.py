@@ -1,0 +1,253 @@
+"""Whole builds of a small real database: complete, reproducible, resumable, and not stopped by strange files."""
+
+from __future__ import annotations
+
+import csv
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from small_database import OPTIONS, make_shape, read_site, write_database
+
+import shapeviz_report
+from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
+
+
+def entries(cache: Path, stage: str) -> dict[Path, int]:
+    """The cache entries of a stage and when they were written."""
+    return {p: p.stat().st_mtime_ns for p in (cache / stage).rglob("*") if p.is_file()}
+
+
+def test_a_site_is_complete(built) -> None:
+    site, report = built
+    summary = json.loads((site / "data/summary.json").read_text())
+    assert (summary["shapes"], summary["classes"], summary["failures"]) == (15, 3, [])
+    assert summary["database"] == "Some solids"
+    assert list(summary["projections"]) == ["tsne", "umap", "pca"]
+    for name, (_, quality) in report.projections.items():
+        assert summary["projections"][name]["nh_s"] == quality.nh_s
+        assert set(summary["projections"][name]["nh_c"]) == {"box", "ball", "ring"}
+    assert set(summary["seconds"]) >= {"read", "prepare", "describe", "render", "project", "score"}
+    assert summary["cpu_seconds"]["prepare"] > 0
+    assert (site / "index.html").is_file()
+    assert (site / "about.html").is_file()
+    assert len(list((site / "thumbnails").glob("*.webp"))) == 15
+    with np.load(site / "data/features.npz", allow_pickle=False) as features:
+        assert features["values"].shape == (15, 1870)
+        assert features["shape_ids"].tolist() == [s.id for s in report.shapes]
+    with open(site / "data/shapes.csv", newline="", encoding="utf-8") as file:
+        assert len(list(csv.DictReader(file))) == 15
+
+
+def test_groups_are_found(built) -> None:
+    _, report = built
+    # Four of the ten neighbours can be of the own class.
+    assert report.projections["tsne"][1].nh_s > 0.35
+    assert report.projections["tsne"][1].null_mean == pytest.approx(4 / 14, abs=0.02)
+
+
+def test_the_same_site_again_whatever_the_order_jobs_and_cache(built, database, tmp_path) -> None:
+    site, _ = built
+    copy = tmp_path / "Some solids"
+    for path in sorted(database.rglob("*.off"), reverse=True):
+        (copy / path.parent.name).mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, copy / path.parent.name)
+    shapeviz_report.build(copy, tmp_path / "site", cache=tmp_path / "cache", **OPTIONS | {"jobs": 1})
+    first, second = read_site(site), read_site(tmp_path / "site")
+    assert first.keys() == second.keys()
+    assert [name for name in first if first[name] != second[name]] == []
+
+
+def test_only_a_changed_mesh_is_computed_again(database, cache, built, tmp_path) -> None:
+    copy = Path(shutil.copytree(database, tmp_path / "Some solids"))
+    before = {stage: entries(cache, stage) for stage in ("prepared", "described", "rendered")}
+    make_shape("ring", 99).export(copy / "ring" / "0.off")
+    report = shapeviz_report.build(copy, tmp_path / "site", cache=cache, **OPTIONS)
+    assert len(report.shapes) == 15
+    for stage, old in before.items():
+        new = entries(cache, stage)
+        assert {p: new[p] for p in old} == old, "an entry was written again"
+        assert len(new) == len(old) + 1
+
+
+def test_killed_at_any_moment_a_second_run_continues(tmp_path) -> None:
+    database = write_database(tmp_path / "solids", per_class=8)
+    cache, site = tmp_path / "cache", tmp_path / "site"
+    command = [sys.executable, "-m", "shapeviz_report.cli", "build", str(database), "-o", str(site)]
+    command += ["--cache", str(cache), "--edge-length", "0.06", "--thumbnail-size", "64", "--jobs", "2"]
+    kept = 0
+    for moment in ("prepared", "described", "rendered"):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 120
+        while len(entries(cache, moment)) < 3 and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.005)
+        assert process.poll() is None, "the build ended before it could be killed"
+        process.kill()
+        process.wait()
+        assert not site.exists()
+        assert len(entries(cache, "prepared")) >= kept
+        kept = len(entries(cache, "prepared"))
+    time.sleep(1)  # A worker that outlived its parent finishes its one task.
+    before = entries(cache, "prepared")
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert {p: t for p, t in entries(cache, "prepared").items() if p in before} == before
+    assert "24" in done.stdout
+    # What three killed builds and one whole one made is what one whole build makes.
+    shapeviz_report.build(database, tmp_path / "again", cache=tmp_path / "other", **OPTIONS)
+    assert read_site(site) == read_site(tmp_path / "again")
+
+
+def test_termination_stops_the_workers(tmp_path) -> None:
+    database = write_database(tmp_path / "solids")
+    command = [
+        sys.executable,
+        "-m",
+        "shapeviz_report.cli",
+        "build",
+        str(database),
+        "-o",
+        str(tmp_path / "site"),
+    ]
+    process = subprocess.Popen([*command, "--cache", str(tmp_path / "cache")], stderr=subprocess.DEVNULL)
+    while not entries(tmp_path / "cache", "prepared"):
+        assert process.poll() is None
+        time.sleep(0.01)
+    workers = children_of(process.pid)
+    assert workers
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(timeout=20) == 143
+    assert not (tmp_path / "site").exists()
+    assert not [worker for worker in workers if Path(f"/proc/{worker}").exists()]
+
+
+def children_of(parent: int) -> list[int]:
+    """Process ids of the children of a process."""
+    found = []
+    for status in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = status.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[1]) == parent:
+            found.append(int(status.parent.name))
+    return found
+
+
+def test_strange_files_are_reported_and_stop_nothing(tmp_path, cache) -> None:
+    database = write_database(tmp_path / "mixed", per_class=2)
+    odd = database / "box"
+    (odd / "empty.off").write_bytes(b"")
+    (odd / "text.obj").write_text("this is not a mesh\n")
+    (odd / "cut.ply").write_bytes(make_shape("ball", 0).export(file_type="ply")[:200])
+    (odd / "points.ply").write_bytes(trimesh.PointCloud(np.eye(3)).export(file_type="ply"))
+    (odd / "flat.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
+    (odd / "nan.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 nan\n2 1 0\n3 0 1 2\n")
+    (odd / "huge.off").write_text("OFF\n3 1 0\n-1e308 0 0\n1e308 1e308 0\n0 -1e308 1e308\n3 0 1 2\n")
+    (odd / "old.3ds").write_bytes(b"MM")
+    (odd / "one triangle.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS)
+    names = {Path(f.path).name for f in report.failures}
+    assert names == {
+        "empty.off",
+        "text.obj",
+        "cut.ply",
+        "points.ply",
+        "flat.off",
+        "nan.off",
+        "huge.off",
+        "old.3ds",
+    }
+    assert all(len(f.reason) > 10 for f in report.failures)
+    assert "box/one triangle" in {s.id for s in report.shapes}
+    assert np.isfinite(report.features.values).all()
+    listed = json.loads((tmp_path / "site/data/summary.json").read_text())["failures"]
+    assert {Path(f["path"]).name for f in listed} == names
+
+
+def test_nothing_usable_is_an_error_and_keeps_the_old_site(tmp_path, built) -> None:
+    site = Path(shutil.copytree(built[0], tmp_path / "site"))
+    broken = tmp_path / "broken"
+    broken.mkdir()
+    (broken / "a.off").write_text("OFF\n")
+    with pytest.raises(DatabaseError, match=r"None of the files .* can be used:\n  a\.off: "):
+        shapeviz_report.build(broken, site, cache=tmp_path / "cache", **OPTIONS)
+    assert read_site(site) == read_site(built[0])
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_few_shapes_without_labels(tmp_path, cache, count) -> None:
+    database = tmp_path / "few"
+    database.mkdir()
+    for i in range(count):
+        make_shape("ball", i).export(database / f"{i}.stl")
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS)
+    assert len(report.shapes) == count
+    assert report.labeling is None
+    assert report.projections["tsne"][1].nh_s is None
+    assert np.isfinite(report.projections["umap"][0].xy).all()
+
+
+def test_one_class_and_names_that_are_hard_to_print(tmp_path, cache) -> None:
+    database = tmp_path / 'data"base'
+    label = "Tasse \U0001f375 \"a\" & 'b' <b>"
+    (database / label).mkdir(parents=True)
+    for i, name in enumerate(["x", "x'y\"z", "emoji \U0001f419", "&amp;"]):
+        make_shape("ring", i).export(database / label / f"{name}.off")
+    make_shape("ball", 1).export(database / label / "x.obj")
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS)
+    assert set(report.labels) == {label}
+    assert len({s.id for s in report.shapes}) == 5
+    assert [s.name for s in report.shapes].count("x") == 2
+    assert report.projections["pca"][1].nh_s == 1
+
+
+def test_external_features_join(tmp_path, database, cache, built) -> None:
+    values = np.random.default_rng(0).normal(size=(15, 3))
+    np.save(tmp_path / "depth.npy", values)
+    report = shapeviz_report.build(
+        database, tmp_path / "site", cache=cache, external=[tmp_path / "depth.npy"], **OPTIONS
+    )
+    assert [b.name for b in report.features.blocks][-1] == "depth"
+    assert report.features.columns[-3:] == ("depth[0]", "depth[1]", "depth[2]")
+    assert (report.features.values[:, -3:] == values).all()
+    assert "depth" in report.projections["tsne"][0].features
+    np.save(tmp_path / "PFH.npy", values)
+    with pytest.raises(ConfigError, match="already a feature named 'PFH'"):
+        shapeviz_report.build(
+            database, tmp_path / "s", cache=cache, external=[tmp_path / "PFH.npy"], **OPTIONS
+        )
+
+
+def test_the_papers_preset(tmp_path, database, cache, built) -> None:
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, preset="paper", **OPTIONS)
+    assert report.features.values.reshape(15, 187, 10).sum(axis=2) == pytest.approx(1)
+    assert not np.allclose(report.features.values, built[1].features.values)
+
+
+def test_a_folder_that_is_not_ours_is_never_replaced(tmp_path, database) -> None:
+    (tmp_path / "thesis").mkdir()
+    (tmp_path / "thesis" / "chapter.tex").write_text("years of work")
+    with pytest.raises(SiteError, match="thesis"):
+        shapeviz_report.build(database, tmp_path / "thesis", **OPTIONS)
+    assert (tmp_path / "thesis" / "chapter.tex").read_text() == "years of work"
+
+
+def test_a_plain_script_without_a_main_guard_can_build(tmp_path, database, cache, built) -> None:
+    script = tmp_path / "script.py"
+    script.write_text(
+        f"import shapeviz_report\n"
+        f"report = shapeviz_report.build({str(database)!r}, 'site', cache={str(cache)!r}, **{OPTIONS!r})\n"
+        f"print(len(report.shapes))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, script.name], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "15\n"
+    assert read_site(tmp_path / "site") == read_site(built[0])

@@ -1,0 +1,124 @@
+"""The command line as a person types it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from small_database import OPTIONS, write_database
+
+from shapeviz_report import __version__
+from shapeviz_report.cli import main
+
+
+def run(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "shapeviz_report.cli", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+@pytest.fixture
+def flags(cache) -> list[str]:
+    options = OPTIONS | {"cache": cache}
+    return [part for name, value in options.items() for part in ("--" + name.replace("_", "-"), str(value))]
+
+
+def test_version_and_help() -> None:
+    assert run("--version").stdout == f"shapeviz-report {__version__}\n"
+    text = run("build", "--help").stdout
+    for flag in (
+        "--output",
+        "--layout",
+        "--labeling",
+        "--preset",
+        "--seed",
+        "--cache",
+        "--time-limit",
+        "exit codes",
+    ):
+        assert flag in text
+    assert "shapeviz.toml" in text
+
+
+def test_build_tells_what_it_did(database, built, tmp_path, flags) -> None:
+    done = run("build", database, "-o", tmp_path / "site", *flags)
+    assert done.returncode == 0
+    summary = {
+        line.split("  ")[-2].strip(): line for line in done.stdout.splitlines() if "  " in line.strip()
+    }
+    assert "15" in done.stdout
+    assert "NH_s tsne" in done.stdout
+    assert "prepare" in done.stdout
+    assert done.stdout.rstrip().endswith(str(tmp_path / "site" / "index.html"))
+    assert "Preparing meshes" in done.stderr
+    assert "left" in done.stderr
+
+
+def test_failures_do_not_fail_the_build(tmp_path, flags) -> None:
+    database = write_database(tmp_path / "d", per_class=1)
+    (database / "box" / "bad\x1b[31m.off").write_text("OFF\n")
+    done = run("build", database, "-o", tmp_path / "site", *flags)
+    assert done.returncode == 0
+    assert "Cannot be used: 1 file" in done.stdout
+    assert "\x1b" not in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["build", "nowhere", "-o", "site"], "nowhere"),
+        (["build", "empty", "-o", "site"], "empty"),
+        (["build", "wrong", "-o", "site"], "no option 'colour'"),
+        (["build", "solids", "-o", "site", "--layout", "pyramid"], "pyramid"),
+        (["build", "solids", "-o", "site", "--labeling", "style"], "style"),
+        (["build", "solids", "-o", "site", "--edge-length", "5"], "edge_length must be from"),
+        (["build", "solids", "-o", "solids"], "solids"),
+        (["build", "solids", "-o", "solids/box/0.off"], "file"),
+        (["build", "solids", "-o", "site", "--external", "none.npy"], "none.npy"),
+        (["check", "nowhere"], "nowhere"),
+    ],
+)
+def test_what_cannot_be_done_says_why(tmp_path, monkeypatch, capsys, arguments, message) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_database(Path("solids"), per_class=1)
+    Path("empty").mkdir()
+    write_database(Path("wrong"), per_class=1)
+    Path("wrong/shapeviz.toml").write_text('colour = "red"\n')
+    assert main(arguments) == 1
+    error = capsys.readouterr().err
+    assert error.startswith("shapeviz-report: ")
+    assert message in error
+    assert "Traceback" not in error
+    assert not Path("site").exists()
+
+
+def test_wrong_usage_is_exit_code_2() -> None:
+    assert run("build").returncode == 2
+    assert run("paint").returncode == 2
+    assert run("build", "x", "-o", "y", "--seed", "many").returncode == 2
+
+
+def test_check_names_what_is_wrong(tmp_path) -> None:
+    database = write_database(tmp_path / "d", per_class=2)
+    good = run("check", database)
+    assert good.returncode == 0
+    assert "6 shapes" in good.stdout
+    assert "All files can be used" in good.stdout
+    (database / "ring" / "bad.off").write_text("OFF\n1 2")
+    bad = run("check", database)
+    assert bad.returncode == 1
+    assert "ring/bad.off: " in bad.stdout
+    assert not (tmp_path / "site").exists()
+
+
+def test_check_lists_ids_in_the_order_of_external_features(database) -> None:
+    done = run("check", database, "--list")
+    assert done.stdout.splitlines() == [f"{kind}/{i}" for kind in ("ball", "box", "ring") for i in range(5)]
+
+
+def test_a_reader_that_goes_away_is_no_error(database) -> None:
+    command = f"{sys.executable} -m shapeviz_report.cli check '{database}' --list | head -1"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
+    assert done.stdout == "ball/0\n"
+    assert "Traceback" not in done.stderr
