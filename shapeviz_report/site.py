@@ -8,12 +8,12 @@ import json
 import os
 from collections.abc import Mapping
 from hashlib import sha256
-from importlib.metadata import version
 from pathlib import Path
 
 import jinja2
 import numpy as np
 
+from shapeviz_report import __version__
 from shapeviz_report.data_files import GENERATOR, json_text, write_data
 from shapeviz_report.errors import SiteError
 from shapeviz_report.joiner import join
@@ -99,7 +99,7 @@ def _write_files(report: Report, contents: list[tuple[Page, PageContent]], folde
         (folder / name).mkdir()
     for thumbnail in report.thumbnails:
         (folder / "thumbnails" / thumbnail_name(thumbnail)).write_bytes(thumbnail)
-    write_data(report, folder / "data", version("shapeviz-report"))
+    write_data(report, folder / "data", __version__)
     chunks = _chunks(contents)
     assets = {
         **_scripts_and_styles([page for page, _ in contents]),
@@ -143,7 +143,7 @@ def _site_context(report: Report) -> dict[str, object]:
         "title": report.database.name,
         "shapes": len(report.shapes),
         "classes": len(class_names(report)),
-        "version": version("shapeviz-report"),
+        "version": __version__,
     }
 
 

@@ -49,7 +49,7 @@ def class_map(class_count: int) -> alt.Chart:
 def hit_map() -> alt.Chart:
     """Every shape as a dot from red (no neighbour of its class) to yellow (all neighbours of its class)."""
     color = alt.condition(
-        "isValid(datum.hit[target])",
+        "datum.shown_hit >= 0",
         alt.Color("shown_hit:Q", legend=None, scale=alt.Scale(domain=[0, 1], range="ramp")),
         alt.value(alt.ExprRef("unlabelled")),
     )
@@ -93,7 +93,7 @@ def _points(color: object, description: str) -> alt.Chart:
     chart = (
         _placed(alt.NamedData("shapes"))
         .transform_filter("emphasis[datum.index] > 0")
-        .mark_point(clip=True, filled=True, invalid=None, stroke=alt.ExprRef("outline"), strokeWidth=0.6, opacity=1)
+        .mark_point(clip=True, filled=True, stroke=alt.ExprRef("outline"), strokeWidth=0.6, opacity=1)
         .encode(
             **_position(),
             color=color,
@@ -114,7 +114,8 @@ def _placed(data: alt.NamedData | alt.utils.schemapi.UndefinedType = alt.Undefin
     return alt.Chart(data).transform_calculate(
         moved_x="datum.x[origin] + progress * (datum.x[target] - datum.x[origin])",
         moved_y="datum.y[origin] + progress * (datum.y[target] - datum.y[origin])",
-        shown_hit="datum.hit[target]",
+        # A number even where there is none: Vega-Lite would drop or recolour the shape otherwise.
+        shown_hit="isValid(datum.hit[target]) ? datum.hit[target] : -1",
         rank="emphasis[datum.index]",
     )
 

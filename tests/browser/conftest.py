@@ -1,0 +1,119 @@
+"""A real Chromium that opens real sites, and reports everything it should not see."""
+
+from __future__ import annotations
+
+import functools
+import http.server
+import shutil
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+from reports import NASTY_LABELS, make_report
+
+from shapeviz_report.site import write_site
+
+SITES = {
+    "plain": lambda: make_report(
+        [f"kind {letter}" for letter in "abcdefghijkl"], 10, name="Twelve kinds", metadata={"artist": "N. N."}
+    ),
+    "nasty": lambda: make_report([*NASTY_LABELS, None], 4, name='<img src=x onerror="alert(1)">'),
+    "one shape": lambda: make_report(["ant"], 1),
+    "one class": lambda: make_report(["ant"], 12),
+    "no labels": lambda: make_report([None, None], 12),
+    "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),
+    "large": lambda: make_report([f"class {number}" for number in range(8)], 250, methods=("tsne", "pca")),
+}
+
+
+@dataclass
+class Watch:
+    """What a page did that a reader would not see: requests, complaints of the browser, errors."""
+
+    requests: list[str] = field(default_factory=list)
+    complaints: list[str] = field(default_factory=list)
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    executable = shutil.which("chromium") or shutil.which("google-chrome")
+    assert executable, "the browser tests need Chromium: apt-get install chromium"
+    with sync_playwright() as playwright:
+        yield playwright.chromium.launch(executable_path=executable, args=["--no-sandbox"])
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory) -> Callable[[str], Path]:
+    """The folder of a site of ``SITES``, written when first asked for."""
+
+    @functools.cache
+    def folder(name: str) -> Path:
+        destination = tmp_path_factory.mktemp("sites") / name.replace(" ", "-")
+        write_site(SITES[name](), destination)
+        return destination
+
+    return folder
+
+
+@pytest.fixture
+def open_page(browser, site) -> Iterator[Callable[..., Page]]:
+    """Open a page of a site from ``file://`` and wait until it is drawn.
+
+    ``watch`` of the page collects its requests and complaints; a complaint nobody expects fails the test.
+    """
+    contexts = []
+    watches = []
+
+    def open_(name: str, file: str = "index.html", address: str | None = None, **options) -> Page:
+        context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **options})
+        contexts.append(context)
+        page = context.new_page()
+        page.watch = Watch()
+        watches.append(page.watch)
+        page.on("request", lambda request: page.watch.requests.append(request.url))
+        page.on("console", lambda message: page.watch.complaints.append(message.text))
+        page.on("pageerror", lambda error: page.watch.complaints.append(str(error)))
+        page.on("dialog", lambda dialog: page.watch.complaints.append(f"dialog: {dialog.message}"))
+        page.goto(address or f"{site(name).as_uri()}/{file}")
+        if file.startswith("index.html"):
+            page.wait_for_selector("html[data-ready]", state="attached")
+        return page
+
+    yield open_
+    for context in contexts:
+        context.close()
+    assert [watch.complaints for watch in watches if watch.complaints] == []
+
+
+@pytest.fixture
+def serve() -> Iterator[Callable[[Path, str], str]]:
+    """Serve a folder over HTTP below a path; returns the address of the folder."""
+    servers = []
+
+    def start(folder: Path, below: str) -> str:
+        class Handler(http.server.SimpleHTTPRequestHandler):
+            def translate_path(self, path):
+                prefix = f"/{below}/"
+                return (
+                    super().translate_path(path.removeprefix(prefix))
+                    if path.startswith(prefix)
+                    else "/nowhere"
+                )
+
+            def log_message(self, *_):
+                pass
+
+        server = http.server.ThreadingHTTPServer(
+            ("127.0.0.1", 0), functools.partial(Handler, directory=str(folder))
+        )
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        servers.append(server)
+        return f"http://127.0.0.1:{server.server_port}/{below}"
+
+    yield start
+    for server in servers:
+        server.shutdown()
+        server.server_close()

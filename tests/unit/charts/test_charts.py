@@ -1,0 +1,151 @@
+"""The charts, drawn by Vega-Lite itself: what a reader would see."""
+
+import io
+import json
+import re
+
+import numpy as np
+import pytest
+import vl_convert
+from PIL import Image
+
+from shapeviz_report import charts
+from shapeviz_report.charts import LIGHT, theme_config
+
+ROWS = [
+    {"index": 0, "group": 0, "x": [-0.5, 0.5], "y": [0.5, 0.5], "hit": [1.0, 0.0], "picture": "a.webp"},
+    {"index": 1, "group": 1, "x": [0.5, 0.5], "y": [0.5, -0.5], "hit": [0.0, 1.0], "picture": "b.webp"},
+    {"index": 2, "group": -1, "x": [0.0, -0.5], "y": [-0.5, 0.0], "hit": [None, None], "picture": "c.webp"},
+]
+
+
+def spec(chart, name, rows, class_count=2, **parameters) -> dict:
+    """The chart as JSON with data, the light theme, and some of its parameters set."""
+    value = chart.to_dict()
+    value["datasets"] = {name: rows}
+    value["config"] = {**theme_config(LIGHT, class_count), **value["config"]}
+    for parameter in value["params"]:
+        parameter["value"] = parameters.pop(parameter["name"], parameter["value"])
+    assert not parameters, "a parameter that the chart does not have"
+    return value
+
+
+def pixels(chart, **parameters) -> np.ndarray:
+    """The map as an image: 600 x 600, white ground."""
+    settings = {"emphasis": [2, 2, 2], "mark_size": 900, "unlabelled": LIGHT.unlabelled, **parameters}
+    png = vl_convert.vegalite_to_png(json.dumps(spec(chart, "shapes", ROWS, **settings)))
+    image = Image.open(io.BytesIO(png)).convert("RGBA")
+    white = Image.new("RGBA", image.size, "white")
+    return np.asarray(Image.alpha_composite(white, image).convert("RGB"))
+
+
+def color_at(image: np.ndarray, x: float, y: float) -> str:
+    """The colour of a map at a place in its plane."""
+    size = len(image)
+    red, green, blue = image[round((1 - y) / 2 * size), round((1 + x) / 2 * size)]
+    return f"#{red:02x}{green:02x}{blue:02x}"
+
+
+def near(one: str, other: str) -> bool:
+    """Equal up to the slight transparency of the marks."""
+    parts = [[int(color[i : i + 2], 16) for i in (1, 3, 5)] for color in (one, other)]
+    return max(abs(a - b) for a, b in zip(*parts, strict=True)) < 30
+
+
+def test_class_map_colors_shapes_by_class():
+    image = pixels(charts.class_map(2))
+    assert near(color_at(image, -0.5, 0.5), LIGHT.classes[0])
+    assert near(color_at(image, 0.5, 0.5), LIGHT.classes[1])
+    assert near(color_at(image, 0.0, -0.5), LIGHT.unlabelled)
+
+
+def test_hit_map_runs_from_red_to_yellow_and_leaves_the_unlabelled_grey():
+    image = pixels(charts.hit_map())
+    assert near(color_at(image, -0.5, 0.5), LIGHT.hit[-1])
+    assert near(color_at(image, 0.5, 0.5), LIGHT.hit[0])
+    assert near(color_at(image, 0.0, -0.5), LIGHT.unlabelled)
+
+
+def test_maps_move_between_projections():
+    chart = charts.class_map(2)
+    half = pixels(chart, origin=0, target=1, progress=0.5)
+    assert near(color_at(half, 0.0, 0.5), LIGHT.classes[0])
+    assert near(color_at(half, 0.5, 0.0), LIGHT.classes[1])
+    done = pixels(chart, origin=0, target=1, progress=1)
+    assert near(color_at(done, 0.5, -0.5), LIGHT.classes[1])
+
+
+def test_hit_is_that_of_the_projection_moved_to():
+    image = pixels(charts.hit_map(), origin=0, target=1, progress=1)
+    assert near(color_at(image, 0.5, 0.5), LIGHT.hit[0])
+    assert near(color_at(image, 0.5, -0.5), LIGHT.hit[-1])
+
+
+def test_domains_choose_the_part_in_view():
+    image = pixels(charts.class_map(2), x_domain=[-1, 0], y_domain=[0, 1])
+    assert near(color_at(image, 0.0, 0.0), LIGHT.classes[0])
+
+
+def test_emphasis_hides_and_fades():
+    image = pixels(charts.class_map(2), emphasis=[0, 1, 3])
+    assert color_at(image, -0.5, 0.5) == "#ffffff"
+    faint = color_at(image, 0.5, 0.5)
+    assert faint != "#ffffff"
+    assert not near(faint, LIGHT.classes[1])
+    assert near(color_at(image, 0.0, -0.5), LIGHT.unlabelled)
+
+
+@pytest.mark.parametrize("class_count", [0, 1, 45])
+def test_class_map_is_valid_for_any_number_of_classes(class_count):
+    chart = charts.class_map(class_count)
+    svg = vl_convert.vegalite_to_svg(json.dumps(spec(chart, "shapes", ROWS, class_count, emphasis=[2, 2, 2])))
+    assert "<svg" in svg
+
+
+def test_thumbnail_map_draws_pictures_where_asked_and_dots_elsewhere():
+    value = spec(
+        charts.thumbnail_map(),
+        "shapes",
+        ROWS,
+        emphasis=[2, 2, 0],
+        pictured=[True, False, True],
+        picture_size=50,
+    )
+    vega = vl_convert.vegalite_to_vega(json.dumps(value))
+    marks = {mark["type"] for mark in vega["marks"]}
+    assert marks == {"symbol", "image"}
+    svg = vl_convert.vegalite_to_svg(json.dumps(value), allowed_base_urls=[])
+    assert len(re.findall(r"<image", svg)) == 1
+    assert len(re.findall(r'aria-roledescription="circle"', svg)) == 1
+
+
+def test_bars_show_three_decimals_and_a_dash_for_no_value():
+    rows = [
+        {"row": 0, "hit": 0.98765, "present": True},
+        {"row": 1, "hit": 0.0, "present": False},
+        {"row": 2, "hit": None, "present": True},
+    ]
+    svg = vl_convert.vegalite_to_svg(json.dumps(spec(charts.class_bars(), "classes", rows, chance=0.07)))
+    texts = re.findall(r"<text[^>]*>([^<]*)</text>", svg)
+    assert texts == ["0.988", "0.000", "–"]
+    assert svg.count('aria-roledescription="rule mark"') + svg.count('"rule"') >= 1
+
+
+def test_bars_have_no_rule_without_a_chance_value():
+    rows = [{"row": 0, "hit": 0.5, "present": True}]
+    with_rule = vl_convert.vegalite_to_svg(json.dumps(spec(charts.class_bars(), "classes", rows, chance=0.1)))
+    without = vl_convert.vegalite_to_svg(json.dumps(spec(charts.class_bars(), "classes", rows, chance=-1)))
+    assert with_rule.count("<line") == without.count("<line") + 1
+
+
+def test_vendored_vega_is_what_its_readme_says_and_fits_altair():
+    """Altair writes specifications for one version of Vega-Lite; the vendored one must be of that line."""
+    import altair
+
+    from shapeviz_report.resources import site_folder
+
+    vendored = (site_folder() / "vendor" / "vega.js").read_text(encoding="utf-8")
+    assert vendored == vl_convert.javascript_bundle("window.vegaEmbed = vegaEmbed;")
+    readme = (site_folder() / "vendor" / "README.md").read_text(encoding="utf-8")
+    major, minor = altair.SCHEMA_VERSION.removeprefix("v").split(".")[:2]
+    assert f"Vega-Lite {major}.{minor}" in readme

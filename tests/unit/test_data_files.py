@@ -1,0 +1,93 @@
+"""What scripts read from ``data/``."""
+
+import csv
+import json
+
+import numpy as np
+import pytest
+from reports import NASTY_LABELS, make_report
+
+from shapeviz_report.data_files import json_text, summary, write_data
+from shapeviz_report.types import Failure
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """``data/`` of a small report with strange labels, and the report."""
+    report = make_report(
+        [*NASTY_LABELS[:3], None],
+        6,
+        failures=[Failure("bad.off", "read", "no faces")],
+        metadata={"artist": 'O"Neill, line\nbreak', "__proto__": "x"},
+    )
+    write_data(report, tmp_path, "1.2.3")
+    return tmp_path, report
+
+
+def rows_of(path):
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def test_summary_has_the_promised_keys(folder):
+    path, report = folder
+    content = json.loads((path / "summary.json").read_text())
+    assert content["generator"] == "shapeviz-report"
+    assert content["version"] == "1.2.3"
+    assert (content["shapes"], content["classes"], content["unlabelled"]) == (24, 3, 6)
+    assert content["failures"] == [{"path": "bad.off", "stage": "read", "reason": "no faces"}]
+    assert content["seconds"] == report.seconds
+    assert content["cpu_seconds"] == report.cpu_seconds
+    assert content["parameters"]["edge_length"] == 0.01
+    assert set(content["projections"]) == {"tsne", "umap", "pca"}
+    tsne = content["projections"]["tsne"]
+    quality = report.projections["tsne"][1]
+    assert tsne["features"] == ["Gc", "Sc"]
+    assert tsne["nh_s"] == quality.nh_s
+    assert tsne["nh_c"] == dict(quality.nh_c)
+    assert list(tsne["nh_c"]) == list(quality.nh_c)
+    assert tsne["null"] == {"mean": quality.null_mean, "std": quality.null_std}
+    assert content["repairs"]["class000/0000"] == {"duplicate faces removed": 4}
+    assert "class000/0001" not in content["repairs"]
+
+
+def test_summary_without_labels_has_nulls():
+    content = summary(make_report([None], 5), "1")
+    assert content["labeling"] is None
+    assert content["projections"]["pca"]["nh_s"] is None
+    assert content["projections"]["pca"]["null"] == {"mean": None, "std": None}
+    assert content["projections"]["pca"]["nh_c"] == {}
+
+
+def test_shapes_table_keeps_every_text_as_it_is(folder):
+    path, report = folder
+    rows = rows_of(path / "shapes.csv")
+    assert [row["id"] for row in rows] == [shape.id for shape in report.shapes]
+    assert [row["class"] for row in rows] == [label or "" for label in report.labels]
+    assert [row["label:folder"] for row in rows] == [label or "" for label in report.labels]
+    assert {row["metadata:artist"] for row in rows} == {'O"Neill, line\nbreak'}
+    assert rows[0]["file"] == "class000/0000.off"
+    assert rows[0]["sha256"] == report.facts[0].sha256
+    assert float(rows[0]["nh:umap"]) == report.projections["umap"][1].nh[0]
+    assert rows[-1]["nh:umap"] == ""
+
+
+def test_coordinates_read_back_exactly(folder):
+    path, report = folder
+    for method, (projection, _) in report.projections.items():
+        rows = rows_of(path / f"projection-{method}.csv")
+        assert [row["id"] for row in rows] == [shape.id for shape in report.shapes]
+        np.testing.assert_array_equal([[float(row["x"]), float(row["y"])] for row in rows], projection.xy)
+
+
+def test_features_need_no_pickle(folder):
+    path, report = folder
+    with np.load(path / "features.npz", allow_pickle=False) as content:
+        np.testing.assert_array_equal(content["values"], report.features.values)
+        assert tuple(content["columns"]) == report.features.columns
+        assert tuple(content["shape_ids"]) == report.features.shape_ids
+
+
+def test_json_refuses_what_is_not_json():
+    with pytest.raises(ValueError, match="not JSON compliant"):
+        json_text({"value": float("nan")})

@@ -1,0 +1,189 @@
+"""The site as files: what is there, what is refused, and that equal input gives equal bytes."""
+
+import base64
+import dataclasses
+import gzip
+import json
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from reports import NASTY_LABELS, make_report
+
+from shapeviz_report.errors import SiteError
+from shapeviz_report.site import check_destination, write_site
+from shapeviz_report.types import Failure, Projection
+
+
+def contents(folder) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def chunk(folder, name):
+    text = (folder / "assets" / f"chunk-{name}.js").read_text()
+    match = re.fullmatch(r'shapeviz\.receive\("([a-z]+)", "([A-Za-z0-9+/=]+)"\);\n', text)
+    assert match[1] == name
+    return json.loads(gzip.decompress(base64.b64decode(match[2])))
+
+
+class Markup(HTMLParser):
+    """Tags and attributes of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.tags = []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.append((tag, dict(attributes)))
+
+
+def test_a_site_has_its_pages_pictures_and_data(tmp_path):
+    write_site(make_report(), tmp_path / "site")
+    files = set(contents(tmp_path / "site"))
+    assert {"index.html", "about.html", "data/summary.json", "data/shapes.csv", "data/features.npz"} <= files
+    assert {"data/projection-tsne.csv", "data/projection-umap.csv", "data/projection-pca.csv"} <= files
+    assert len([name for name in files if re.fullmatch(r"thumbnails/[0-9a-f]+\.webp", name)]) == 24
+
+
+def test_pages_refer_only_to_files_of_the_site(tmp_path):
+    write_site(make_report(), tmp_path)
+    files = set(contents(tmp_path))
+    for page in ("index.html", "about.html"):
+        markup = Markup((tmp_path / page).read_text(encoding="utf-8"))
+        references = [value for _, a in markup.tags for key, value in a.items() if key in ("src", "href")]
+        assert references
+        for reference in references:
+            assert reference.startswith("#") or reference.split("?")[0] in files
+
+
+def test_a_chunk_holds_the_maps(tmp_path):
+    report = make_report(["ant", None, "bird"], 5)
+    write_site(report, tmp_path)
+    data = chunk(tmp_path, "overview")
+    assert data["classes"] == ["ant", "bird"]
+    assert data["shapes"]["groups"] == [0] * 5 + [-1] * 5 + [1] * 5
+    assert data["shapes"]["ids"] == [shape.id for shape in report.shapes]
+    assert [method["key"] for method in data["methods"]] == ["tsne", "umap", "pca"]
+    projection, quality = report.projections["tsne"]
+    np.testing.assert_allclose(data["methods"][0]["x"], projection.xy[:, 0], atol=1e-6)
+    assert data["methods"][0]["hit"][5] is None
+    assert data["methods"][0]["hitOfAll"] == quality.nh_s
+    for picture in data["shapes"]["pictures"]:
+        assert (tmp_path / "thumbnails" / picture).is_file()
+
+
+def test_equal_input_gives_equal_bytes_but_for_the_times(tmp_path):
+    report = make_report()
+    write_site(report, tmp_path / "one")
+    write_site(dataclasses.replace(report, seconds={"read": 9.0}), tmp_path / "two")
+    one, two = contents(tmp_path / "one"), contents(tmp_path / "two")
+    assert set(one) == set(two)
+    assert {name for name in one if one[name] != two[name]} == {"about.html", "data/summary.json"}
+
+
+def test_text_from_the_database_is_never_markup(tmp_path):
+    nasty = '</title></script><script>alert(1)</script><img src=x onerror="alert(2)">'
+    report = make_report(
+        NASTY_LABELS, 2, name=nasty, failures=[Failure(nasty, nasty, nasty)], metadata={nasty: nasty}
+    )
+    report = dataclasses.replace(report, parameters={nasty: nasty}, versions={nasty: nasty})
+    write_site(report, tmp_path)
+    for page in ("index.html", "about.html"):
+        text = (tmp_path / page).read_text(encoding="utf-8")
+        tags = Markup(text).tags
+        assert "<script>" not in text
+        assert not [tag for tag, _ in tags if tag == "img"]
+        assert not [a for _, a in tags if any(key.startswith("on") for key in a)]
+        assert all("src" in a for tag, a in tags if tag == "script")
+
+
+def test_a_file_name_that_is_no_text_does_not_stop_the_site(tmp_path):
+    report = make_report(["ant"], 1)
+    strange = dataclasses.replace(report.shapes[0], name="\udcff bad name")
+    report = dataclasses.replace(
+        report,
+        shapes=(strange,),
+        database=dataclasses.replace(report.database, name="db \udcff", shapes=(strange,)),
+    )
+    write_site(report, tmp_path)
+    assert "db \\udcff" in (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert chunk(tmp_path, "overview")["shapes"]["names"] == ["\udcff bad name"]
+
+
+def test_every_page_forbids_all_requests_elsewhere(tmp_path):
+    write_site(make_report(), tmp_path)
+    for page in ("index.html", "about.html"):
+        tags = Markup((tmp_path / page).read_text(encoding="utf-8")).tags
+        policy = next(a["content"] for tag, a in tags if a.get("http-equiv") == "Content-Security-Policy")
+        directives = dict(part.split(" ", 1) for part in policy.split("; "))
+        assert directives["default-src"] == "'none'"
+        assert directives["script-src"] == "'self' file:"
+        assert directives["style-src"] == "'self' file:"
+        assert "unsafe" not in policy
+        assert "http" not in policy
+
+
+def test_a_site_replaces_an_earlier_site(tmp_path):
+    destination = tmp_path / "site"
+    write_site(make_report(["ant"], 3), destination)
+    write_site(make_report(["bird", "cup"], 3), destination)
+    assert chunk(destination, "overview")["classes"] == ["bird", "cup"]
+
+
+def test_other_folders_are_not_replaced(tmp_path):
+    (tmp_path / "thesis.tex").write_text("years of work")
+    with pytest.raises(SiteError, match="would be replaced"):
+        write_site(make_report(), tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.tex"]
+
+
+def test_data_of_another_program_is_no_site(tmp_path):
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "summary.json").write_text('{"generator": "other"}')
+    with pytest.raises(SiteError, match="would be replaced"):
+        check_destination(tmp_path)
+
+
+def test_a_file_is_no_place_for_a_site(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SiteError, match="is a file"):
+        check_destination(tmp_path / "file")
+    with pytest.raises(SiteError, match="not a folder"):
+        check_destination(tmp_path / "file" / "site")
+
+
+def test_an_empty_or_missing_folder_is_welcome(tmp_path):
+    check_destination(tmp_path)
+    check_destination(tmp_path / "a" / "b")
+
+
+def test_a_report_without_shapes_is_refused_with_the_reason(tmp_path):
+    report = dataclasses.replace(make_report(), shapes=(), failures=(Failure("a.off", "read", "empty file"),))
+    with pytest.raises(SiteError, match="1 files failed"):
+        write_site(report, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("change", "complaint"),
+    [
+        (lambda r: {"labels": r.labels[1:]}, "labels do not match"),
+        (lambda r: {"thumbnails": (b"GIF89a", *r.thumbnails[1:])}, "not a WebP"),
+        (lambda r: {"shapes": r.shapes[::-1]}, "not sorted"),
+        (lambda r: {"projections": {}}, "no projection"),
+        (
+            lambda r: {
+                "projections": {
+                    "tsne": (Projection("tsne", (), 0, np.full((24, 2), np.nan)), r.projections["tsne"][1])
+                }
+            },
+            "not finite",
+        ),
+    ],
+)
+def test_parts_that_do_not_fit_are_a_bug_of_the_caller(tmp_path, change, complaint):
+    report = make_report()
+    with pytest.raises(ValueError, match=complaint):
+        write_site(dataclasses.replace(report, **change(report)), tmp_path / "site")
+    assert not (tmp_path / "site").exists()
