@@ -1,0 +1,79 @@
+# Everything from a bare Debian machine on: `make demo` and `make test` install what they miss, system packages with
+# apt (as root or through sudo), the rest into .venv. `make help` lists the targets.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+INSTALLED := $(VENV)/.installed
+CHECK := build/check-wheel
+
+.NOTPARALLEL:
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := help
+
+.PHONY: demo
+demo: drawing-library $(INSTALLED) ## build the demo site in demo-site/
+	$(BIN)/shapeviz-report demo -o demo-site
+
+.PHONY: test
+test: drawing-library browser $(INSTALLED) ## run every check and every test
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/lint-imports
+	$(BIN)/pytest
+
+.PHONY: wheel
+wheel: $(INSTALLED) ## build the wheel and the source distribution in dist/
+	$(BIN)/hatchling build
+
+.PHONY: check-wheel
+check-wheel: drawing-library $(INSTALLED) ## install the wheel on its own and compare its site with the checkout's
+	rm -rf $(CHECK)
+	$(BIN)/hatchling build -t wheel -d $(CHECK)
+	$(PYTHON) -m venv $(CHECK)/venv
+	$(CHECK)/venv/bin/pip install --quiet --constraint constraints.txt $(CHECK)/*.whl
+	$(BIN)/python -c 'from shapeviz_report.demo import write_shape; \
+	  [write_shape("$(CHECK)/shapes", name, index) for name in ("cup", "table") for index in range(3)]'
+	$(BIN)/shapeviz-report build $(CHECK)/shapes -o $(CHECK)/from-checkout --cache $(CHECK)/cache-checkout
+	$(CHECK)/venv/bin/shapeviz-report build $(CHECK)/shapes -o $(CHECK)/from-wheel --cache $(CHECK)/cache-wheel
+	# about.html and summary.json say how long the build took; all else is the same to the byte.
+	diff -r --exclude=about.html --exclude=summary.json $(CHECK)/from-checkout $(CHECK)/from-wheel
+	@echo "The wheel's site is the checkout's."
+
+.PHONY: clean
+clean: ## remove what make has made, and what the tools keep
+	rm -rf $(VENV) build dist demo-site .hypothesis .pytest_cache .ruff_cache .mypy_cache .import_linter_cache
+	find shapeviz_report tests benchmarks -name __pycache__ -prune -exec rm -rf {} +
+
+.PHONY: help
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+$(INSTALLED): pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { \
+	  echo "Python 3.11 or newer is needed. Name one: make PYTHON=python3.12" >&2; exit 1; }
+	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || \
+	  $(call apt_install,$$($(PYTHON) -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])'))
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[test]'
+	@touch $@
+
+.PHONY: drawing-library
+drawing-library:
+	@PATH="$$PATH:/sbin:/usr/sbin" ldconfig -p | grep -q 'libOSMesa\.so' || $(call apt_install,libosmesa6)
+
+.PHONY: browser
+browser:
+	@command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null || \
+	  $(call apt_install,chromium)
+
+# Install a Debian package. As a user without sudo, say what to ask for.
+define apt_install
+{ \
+  sudo=env; [ "$$(id -u)" = 0 ] || sudo=sudo; \
+  command -v apt-get >/dev/null && command -v $$sudo >/dev/null || \
+    { echo "Please have this installed: $(1)" >&2; exit 1; }; \
+  $$sudo apt-get update -q && \
+  $$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $(1); \
+}
+endef
