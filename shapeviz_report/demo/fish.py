@@ -176,15 +176,18 @@ def _fish(rng: Generator, kind: str) -> Solid:
     y_eye = -0.66
     girth = girth_at(y_eye)
     eyes = [
-        ball(spine(y_eye) + [side * (0.95 * build.flat * girth - 0.035), 0, 0.34 * girth], 0.092)
+        ball(
+            spine(y_eye) + [side * (0.95 * build.flat * girth - 0.035), 0, 0.34 * girth],
+            min(0.095, 0.32 * girth),
+        )
         for side in (1, -1)
     ]
     nose = spine(-1.0 + 0.02)
-    mouth = ellipsoid(nose + [0, -0.02, -0.05], (0.30, 0.13, 0.022))
+    mouth = ellipsoid(nose + [0, -0.02, -0.05], (0.30, 0.13, 0.036))
     snout = girth_at(-0.9)
     lips = ellipsoid(nose + [0, 0.10, -0.03], (min(0.11, 0.9 * snout), 0.11, min(0.10, 0.8 * snout)))
     figure = blend(figure, lips, radius=0.08)
-    return unite(carve(figure, mouth, radius=0.03), *eyes)
+    return unite(carve(figure, mouth, radius=0.05), *eyes)
 
 
 FISH = DemoClass("fish", tuple(_BUILDS), _fish)

@@ -82,7 +82,8 @@ def _hand(rng: Generator, kind: str) -> Solid:
         cone(second, third, 0.110 * thick, 0.092 * thick),
         radius=0.04,
     )
-    hand = attach(palm, *fingers, thumb, radius=0.07)
+    # Fingers that touch melt together a little: no slots that are too narrow to mesh.
+    hand = blend(attach(palm, blend(*fingers, radius=0.06), radius=0.07), thumb, radius=0.07)
     return unite(blend(hand, wrist, radius=0.14), cuff)
 
 

@@ -3,8 +3,9 @@
 The signed distance is sampled on a regular grid near the surface, the inside is taken as a set of voxels, and
 the mesh is the boundary of that set with its corners drawn onto the surface (surface nets, Gibson 1998).
 The boundary of a voxel set is a 2-manifold exactly if the set is well-composed (Latecki 1997: no two voxels
-meet only along an edge or at a corner), so voxels are added until it is. Tangential relaxation evens
-the triangles, and Newton steps along the gradient keep the vertices on the surface.
+meet only along an edge or at a corner), so voxels are added until it is, and where a gap is too narrow for
+the grid. Tangential relaxation evens the triangles, and Newton steps along the gradient put the vertices on
+the surface.
 """
 
 from __future__ import annotations
@@ -48,8 +49,8 @@ _ROUGH = 3
 _BLOCK = 4  # grid points a block edge; blocks far from the surface are sampled once
 _RELAXATIONS = 4
 _PROJECTIONS = 2
+_ADDED = 0.25  # depth given to voxels that the topology asked for, in grid spacings
 _STACK = 8  # deepest nesting of solids in a program
-_CORNERS = tuple(np.ndindex(2, 2, 2))
 _TETRAHEDRON = np.array([[1, -1, -1], [-1, -1, 1], [-1, 1, -1], [1, 1, 1]], dtype=np.float64)
 
 
@@ -224,11 +225,21 @@ def _sample(solid: Solid, spacing: float) -> _Grid:
     return _Grid(values.reshape(blocks * _BLOCK), low, spacing, reach)
 
 
+def _cell_corners(grid: BoolArray) -> list[BoolArray]:
+    """Views of the eight corners of all cells; opposite corners are ``n`` and ``7 - n``."""
+    return [grid[i : i - 1 or None, j : j - 1 or None, k : k - 1 or None] for i, j, k in np.ndindex(2, 2, 2)]
+
+
 def _compose_well(inside: BoolArray) -> None:
-    """Add voxels in place until none meet only along an edge or at a corner."""
+    """Add voxels in place until none meet only along an edge or at a corner, and no gap is one voxel wide.
+
+    Walls nearer to each other than a cell is wide would share its vertex, and cross.
+    """
     while True:
         before = np.count_nonzero(inside)
         for axis in range(3):
+            lines = np.moveaxis(inside, axis, 0)
+            lines[1:-1] |= lines[:-2] & lines[2:]
             # A 2 x 2 checkerboard in a plane across this axis: two voxels that meet along an edge.
             planes = np.moveaxis(inside, axis, 0)
             a, b = planes[:, :-1, :-1], planes[:, :-1, 1:]
@@ -237,7 +248,7 @@ def _compose_well(inside: BoolArray) -> None:
             for corner in (a, b, c, d):
                 corner |= crossed
         # Two opposite corners of a cell against the six others: they meet at a point.
-        cells = [inside[i : i - 1 or None, j : j - 1 or None, k : k - 1 or None] for i, j, k in _CORNERS]
+        cells = _cell_corners(inside)
         total = np.sum(cells, axis=0, dtype=np.int8)
         crossed = np.zeros(total.shape, dtype=bool)
         for corner in range(4):
@@ -249,9 +260,12 @@ def _compose_well(inside: BoolArray) -> None:
             return
 
 
-def _crossings(inside: BoolArray, values: FloatArray) -> tuple[FloatArray, IntArray]:
-    """Vertices (n, 3) in grid units, one a cell that the surface passes; quads (m, 4), one a crossed grid edge."""
-    cells = [inside[i : i - 1 or None, j : j - 1 or None, k : k - 1 or None] for i, j, k in _CORNERS]
+def _crossings(inside: BoolArray, values: FloatArray) -> tuple[BoolArray, FloatArray, IntArray]:
+    """The cells that the surface passes, a vertex in each, and a quad around each grid edge it crosses.
+
+    Returns a mask of the cells, vertices (n, 3) in grid units in the order of the cells, and quads (m, 4).
+    """
+    cells = _cell_corners(inside)
     mixed = np.logical_or.reduce(cells) & ~np.logical_and.reduce(cells)
     index = np.full(mixed.shape, -1, dtype=np.int32)
     index[mixed] = np.arange(np.count_nonzero(mixed), dtype=np.int32)
@@ -262,10 +276,7 @@ def _crossings(inside: BoolArray, values: FloatArray) -> tuple[FloatArray, IntAr
         far_side = np.moveaxis(np.moveaxis(inside, axis, 0)[1:], 0, axis)
         edges = np.argwhere(near_side != far_side)
         near, far = values[tuple(edges.T)], values[tuple((edges + unit).T)]
-        # A voxel that was added for the topology has no crossing of its own.
-        proper = near * far < 0
-        share = np.full(len(edges), 0.5)
-        share[proper] = near[proper] / (near[proper] - far[proper])
+        share = near / (near - far)
         second, third = np.roll(unit, 1), np.roll(unit, 2)
         ring = np.array([-second - third, -third, 0 * unit, -second])
         quad = index[tuple((edges[:, None] + ring).transpose(2, 0, 1))]
@@ -276,11 +287,13 @@ def _crossings(inside: BoolArray, values: FloatArray) -> tuple[FloatArray, IntAr
     crossing = np.repeat(np.concatenate(places), 4, axis=0)
     count = np.bincount(corners.ravel())
     vertices = [np.bincount(corners.ravel(), weights=crossing[:, axis]) / count for axis in range(3)]
-    return np.stack(vertices, axis=1), corners
+    return mixed, np.stack(vertices, axis=1), corners
 
 
-def _settle(vertices: FloatArray, quads: IntArray, solid: Solid, grid: _Grid) -> FloatArray:
-    """Relax vertices along the surface, then draw them onto it."""
+def _settle(
+    vertices: FloatArray, quads: IntArray, mended: BoolArray, solid: Solid, grid: _Grid
+) -> FloatArray:
+    """Relax vertices along the surface, then draw all but the mended ones onto it."""
     starts, ends = quads.ravel(), np.roll(quads, -1, axis=1).ravel()
     pull = coo_array((np.ones(len(starts)), (starts, ends)), shape=(len(vertices), len(vertices))).tocsr()
     pull = pull + pull.T
@@ -298,7 +311,10 @@ def _settle(vertices: FloatArray, quads: IntArray, solid: Solid, grid: _Grid) ->
         norm = np.maximum(np.linalg.norm(gradient, axis=1, keepdims=True), 0.1)
         normal = gradient / norm
         limit = 0.5 * grid.spacing
-        vertices = vertices - np.clip(samples.mean(axis=1, keepdims=True) / norm, -limit, limit) * normal
+        offset = np.clip(samples.mean(axis=1, keepdims=True) / norm, -limit, limit)
+        if step >= _RELAXATIONS:
+            offset[mended] = 0.0
+        vertices = vertices - offset * normal
         if step < _RELAXATIONS:
             move = (pull @ vertices) / valence - vertices
             vertices = vertices + 0.5 * (move - np.sum(move * normal, axis=1, keepdims=True) * normal)
@@ -326,8 +342,11 @@ def mesh_solid(solid: Solid) -> Mesh:
     grid = _sample(solid, spacing)
     inside = grid.values < 0.0
     _compose_well(inside)
-    vertices, quads = _crossings(inside, grid.values)
-    vertices = _settle(grid.low + spacing * vertices, quads, solid, grid)
+    added = inside & (grid.values >= 0.0)
+    grid.values[added] = -_ADDED * spacing
+    passed, vertices, quads = _crossings(inside, grid.values)
+    mended = np.logical_or.reduce(_cell_corners(added))[passed]
+    vertices = _settle(grid.low + spacing * vertices, quads, mended, solid, grid)
     # Cut every quad along its shorter diagonal.
     corners = vertices[quads]
     first = np.linalg.norm(corners[:, 0] - corners[:, 2], axis=1)
