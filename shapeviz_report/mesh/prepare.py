@@ -46,6 +46,10 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
     remeshed = remesh(cleaned, edge_length)
     distance = deviation(cleaned, remeshed)
     if distance > MAX_DEVIATION:
+        remeshed, count = draw_back(cleaned, remeshed, edge_length)
+        repairs["vertices drawn back to the surface"] = count
+        distance = deviation(cleaned, remeshed)
+    if distance > MAX_DEVIATION:
         raise MeshError(
             f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}"
         )
@@ -108,6 +112,33 @@ def deviation(before: Mesh, after: Mesh) -> float:
     area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
     spacing = np.sqrt(area * np.log(count) / (np.pi * count))
     return float(max(0.0, max(there, back) - spacing) / diagonal)
+
+
+def draw_back(before: Mesh, after: Mesh, limit: float) -> tuple[Mesh, int]:
+    """Put vertices that strayed from a surface back on it.
+
+    The remesher takes large flat faces for patches of a curved surface and may bulge at their rims.
+
+    Parameters
+    ----------
+    before, after : Mesh
+        The surface, and its remeshed version.
+    limit : float
+        Vertices of ``after`` farther from the surface than this fraction of its diagonal are moved.
+
+    Returns
+    -------
+    mesh : Mesh
+    count : int
+        Number of vertices moved.
+    """
+    diagonal = float(np.linalg.norm(before.vertices.max(axis=0) - before.vertices.min(axis=0)))
+    surface = np.concatenate([_sample(before, 10 * len(after.vertices)), before.vertices])
+    distances, nearest = cKDTree(surface).query(after.vertices)
+    stray = distances > limit * diagonal
+    vertices = after.vertices.copy()
+    vertices[stray] = surface[nearest[stray]]
+    return Mesh(vertices, after.faces), int(stray.sum())
 
 
 def _sample(mesh: Mesh, count: int) -> FloatArray:
