@@ -237,18 +237,22 @@ def _choose_side(samples: _Samples, up: FloatArray, mirrors: _Mirrors) -> FloatA
     return best_rotation
 
 
-@numba.njit(cache=True)
 def _visible_share(points: FloatArray) -> float:
-    """The share of points, in camera axes, that no other hides, by a depth buffer as coarse as they are."""
-    left, low = points[:, 0].min(), points[:, 1].min()
-    extent = max(points[:, 0].max() - left, points[:, 1].max() - low, 1e-12)
-    cell = extent / (_VISIBILITY_CELLS - 1)
-    nearest = np.full((_VISIBILITY_CELLS, _VISIBILITY_CELLS), -np.inf)
-    for x, y, z in points:
-        column, row = int((x - left) / cell), int((y - low) / cell)
-        nearest[row, column] = max(nearest[row, column], z)
+    """The share of points, in camera axes, that no other hides."""
+    left, low = points[:, :2].min(axis=0)
+    extent = max(float(np.ptp(points[:, :2], axis=0).max()), 1e-12)
+    return _count_visible(points, left, low, extent / (_VISIBILITY_CELLS - 1)) / len(points)
+
+
+@numba.njit(cache=True)
+def _count_visible(points: FloatArray, left: float, low: float, cell: float) -> int:
+    """Count the points that no other hides, by a depth buffer with cells as wide as the points are apart."""
     visible = 0
-    for x, y, z in points:
-        if z > nearest[int((y - low) / cell), int((x - left) / cell)] - 1.5 * cell:
-            visible += 1
-    return visible / len(points)
+    nearest = np.full((_VISIBILITY_CELLS, _VISIBILITY_CELLS), -np.inf)
+    for k in range(len(points)):
+        column, row = int((points[k, 0] - left) / cell), int((points[k, 1] - low) / cell)
+        nearest[row, column] = max(nearest[row, column], points[k, 2])
+    for k in range(len(points)):
+        column, row = int((points[k, 0] - left) / cell), int((points[k, 1] - low) / cell)
+        visible += points[k, 2] > nearest[row, column] - 1.5 * cell
+    return visible
