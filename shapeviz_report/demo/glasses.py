@@ -33,7 +33,7 @@ _RIMS = {
 def _rim(kind: str, rng: Generator) -> FloatArray:
     """Outline (n, 2) of the left lens about its centre; the nose is at negative x."""
     width, height, power, lift, pull = _RIMS[kind]
-    width, height = width * rng.uniform(0.94, 1.06), height * rng.uniform(0.90, 1.10)
+    width, height = width * rng.uniform(0.86, 1.10), height * rng.uniform(0.88, 1.12)
     angle = np.linspace(0, 2 * np.pi, 40, endpoint=False)
     x = width * np.sign(np.cos(angle)) * np.abs(np.cos(angle)) ** (2 / power)
     z = height * np.sign(np.sin(angle)) * np.abs(np.sin(angle)) ** (2 / power)
@@ -63,7 +63,7 @@ def _glasses(rng: Generator, kind: str) -> Solid:
     )
     # The temple starts at the outer upper part of the rim, goes back and hooks behind the ear.
     corner = left[np.argmax(x + 0.5 * np.minimum(z, 0.55))]
-    length = rng.uniform(3.5, 4.2)
+    length = rng.uniform(3.1, 4.4)
     hook = rng.uniform(0.55, 0.95)
     hinge = corner + [0.10, 0.14, 0.0]
     path = np.array(
@@ -80,9 +80,13 @@ def _glasses(rng: Generator, kind: str) -> Solid:
         ellipsoid(np.array([side, 1, 1]) * [0.62 * gap + 0.06, 0.20, -0.22], (0.10, 0.17, 0.24))
         for side in (1, -1)
     ]
+    half_folded = rng.choice([1.0, -1.0, 0.0, 0.0])
     temples = []
     for side in (1.0, -1.0):
-        fold = rng.uniform(-6, 34)  # degrees inwards from straight back
+        fold = rng.uniform(-6, 32)  # degrees inwards from straight back
+        if side == half_folded:
+            # As far as its tip stays clear of the other temple.
+            fold = min(rng.uniform(48, 70), np.degrees(np.arcsin(min(1.0, 1.25 * hinge[0] / length))))
         points = hinge + path @ turn((0, 0, 1), fold).T
         points = np.concatenate([[corner], points]) * [side, 1, 1]
         temples.append(tube(points, np.concatenate([[thick], widths]), 16))

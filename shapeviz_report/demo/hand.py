@@ -42,9 +42,9 @@ def _finger(knuckle: FloatArray, axes: FloatArray, length: float, radius: float,
 
 def _hand(rng: Generator, kind: str) -> Solid:
     slender = rng.uniform(-1, 1)
-    stretch = 1 + 0.10 * slender
-    thick = 1 - 0.08 * slender
-    fan = rng.uniform(0.6, 1.7) if kind in ("open", "victory", "horns") else rng.uniform(0.4, 1.0)
+    stretch = 1 + 0.18 * slender
+    thick = 1 - 0.10 * slender
+    fan = rng.uniform(0.9, 2.1) if kind in ("open", "victory", "horns") else rng.uniform(0.4, 1.0)
     palm = blend(
         box((0, 0, 0.44), (0.355, 0.125 * thick, 0.40), 0.12 * thick),
         ellipsoid((0.0, 0.0, 0.78), (0.375, 0.135 * thick, 0.15)),
@@ -54,7 +54,7 @@ def _hand(rng: Generator, kind: str) -> Solid:
     )
     wrist = cone((0, 0.01, 0.12), (0, 0.01, -0.34), 0.215, 0.20, 0.72 * thick, (0, 1, 0))
     cuff = box((0, 0.01, -0.46), (0.26, 0.20, 0.16), 0.07)
-    gesture = np.clip(np.array(_GESTURES[kind]) + rng.normal(0, 0.03, 5), -0.3, 1.0)
+    gesture = np.clip(np.array(_GESTURES[kind]) + rng.normal(0, 0.05, 5), -0.3, 1.0)
     fingers = []
     for i, (x, z, length, radius, lean) in enumerate(_FINGERS):
         curl = float(gesture[i + 1])

@@ -50,7 +50,6 @@ _BLOCK = 4  # grid points a block edge; blocks far from the surface are sampled 
 _RELAXATIONS = 4
 _PROJECTIONS = 2
 _ADDED = 0.25  # depth given to voxels that the topology asked for, in grid spacings
-_STACK = 8  # deepest nesting of solids in a program
 _TETRAHEDRON = np.array([[1, -1, -1], [-1, -1, 1], [-1, 1, -1], [1, 1, 1]], dtype=np.float64)
 
 
@@ -149,7 +148,7 @@ def _distances(points, rows, outlines, reach):
     ``reach`` (more than any blend radius) is replaced by that bound: too far away to move the surface.
     """
     values = np.empty(len(points))
-    stack = np.empty(_STACK)
+    stack = np.empty(len(rows))
     for n in range(len(points)):
         px, py, pz = points[n, 0], points[n, 1], points[n, 2]
         top = -1
