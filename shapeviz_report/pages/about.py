@@ -79,6 +79,8 @@ def _stages(report: Report) -> dict[str, object]:
 
 def _plain(value: object) -> str:
     """A parameter as a reader writes it: text as it is, anything else as JSON."""
+    if value is None or value == []:
+        return "none"
     return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
 
 

@@ -18,8 +18,9 @@ export class Card {
 
   #show() {
     const index = this.state.get("pointed");
-    this.node.hidden = index === null;
-    if (index === null) return;
+    const view = this.state.get("pointedFrom");
+    this.node.hidden = index === null || !view.scene.visible(index);
+    if (this.node.hidden) return;
     if (this.shown !== index || this.method !== this.state.get("method")) this.#fill(index);
     this.#place(index);
   }

@@ -6,11 +6,11 @@ import { element, picture } from "./dom.js";
 import { count, figure, grouped } from "./words.js";
 
 export class Detail {
-  constructor(model, state) {
+  constructor(model, state, { point }) {
     this.model = model;
+    this.point = point;
     this.state = state;
     this.node = document.getElementById("detail");
-    this.node.addEventListener("pointerleave", () => state.set({ pointed: null }));
     state.listen((changed) => {
       const redrawn = changed.has("method") || changed.has("theme");
       if (changed.has("opened") || (redrawn && state.get("opened") !== null)) this.show();
@@ -54,7 +54,7 @@ export class Detail {
       others.length > 0 && facts("Other labels", others),
       known.metadata.length > 0 && facts("Metadata", known.metadata),
       facts("Mesh", [
-        ["file", model.ids[index]],
+        ["id", model.ids[index]],
         ["as read", `${count(known.facesRead, "face")}, ${count(known.verticesRead, "vertex", "vertices")}`],
         ["prepared", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
         ["parts", grouped(known.components)],
@@ -85,6 +85,8 @@ export class Detail {
               "aria-label": `Open ${model.names[other]}, ${model.className(model.groups[other])}`,
               title: `${model.names[other]}\n${model.className(model.groups[other])}`,
               onclick: () => this.state.set({ opened: other }),
+              onpointerenter: () => this.point(other),
+              onpointerleave: () => this.point(null),
             },
             picture(model, other, 64),
           ),

@@ -17,6 +17,7 @@ export class MapView {
     this.node = element("div", { class: "chart" });
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
     this.labels = new Labels(this.model, this.overlay);
+    this.ties = this.overlay.insertBefore(svg("path", { class: "ties" }), this.overlay.firstChild);
     this.opened = this.overlay.appendChild(svg("circle", { class: "ring opened" }));
     this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
     this.brush = this.overlay.appendChild(svg("rect", { class: "brush" }));
@@ -106,7 +107,7 @@ export class MapView {
 
   /** Size of a picture when the whole map is shown. */
   get #wholeSize() {
-    const room = Math.sqrt((this.width * this.height * 0.5) / this.model.count);
+    const room = Math.sqrt((this.width * this.height * 0.7) / this.model.count);
     return Math.min(Math.max(room, this.large ? 44 : 15), this.large ? 110 : 40);
   }
 
@@ -215,6 +216,7 @@ export class MapView {
   }
 
   #drawRings() {
+    this.#drawTies();
     const radius = (index) => (this.pictured[index] ? this.pictureSize / 2 + 2 : this.markRadius + 4);
     for (const [ring, index] of [
       [this.opened, this.state.get("opened")],
@@ -228,6 +230,17 @@ export class MapView {
       ring.setAttribute("cy", y);
       ring.setAttribute("r", radius(index));
     }
+  }
+
+  /** Lines from the opened shape to the neighbours that its NH counts. */
+  #drawTies() {
+    const index = this.state.get("opened");
+    const shown = this.large && index !== null && this.scene.visible(index);
+    this.ties.classList.toggle("shown", shown);
+    if (!shown) return;
+    const from = this.screen(index);
+    const near = this.model.neighbours(index, this.scene.target).filter((other) => this.scene.visible(other));
+    this.ties.setAttribute("d", near.map((other) => `M${from}L${this.screen(other)}`).join(""));
   }
 
   /** Which shapes are drawn as pictures: as many as lie apart, chosen ones first; the rest are dots. */

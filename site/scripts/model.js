@@ -43,6 +43,15 @@ export class Model {
 
   /** Indices of the shapes nearest to one on a map, nearest first; as many as its neighbourhood hit counts. */
   neighbours(index, methodIndex) {
+    const key = `${index} ${methodIndex}`;
+    if (this.#nearest?.key !== key) this.#nearest = { key, found: this.#findNeighbours(index, methodIndex) };
+    return this.#nearest.found;
+  }
+
+  // A moving map asks for the neighbours of one shape with every frame.
+  #nearest = null;
+
+  #findNeighbours(index, methodIndex) {
     const { x, y, neighbours } = this.methods[methodIndex];
     const distances = x.map((value, other) => (value - x[index]) ** 2 + (y[other] - y[index]) ** 2);
     return x

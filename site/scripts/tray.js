@@ -8,11 +8,12 @@ const PAGE = 200;
 const MOST_CLASSES = 8;
 
 export class Tray {
-  constructor(model, state, scene, { open }) {
+  constructor(model, state, scene, { open, point }) {
     this.model = model;
     this.scene = scene;
     this.state = state;
     this.open = open;
+    this.point = point;
     this.node = document.getElementById("tray");
     state.listen((changed) => {
       if (["selection", "brushing", "theme"].some((name) => changed.has(name))) this.#fillSoon();
@@ -96,6 +97,8 @@ export class Tray {
         "aria-label": name,
         title: name,
         onclick: () => this.open(index),
+        onpointerenter: () => this.point(index),
+        onpointerleave: () => this.point(null),
       },
       picture(model, index, 72),
     );

@@ -130,7 +130,7 @@ class TestFirstLook:
 
     def test_the_page_explains_near_far_and_nh(self, open_page):
         page = open_page("plain")
-        assert "close together are alike" in page.locator("figure[data-slot=large] .reading").inner_text()
+        assert "close together are alike" in page.locator("figure[data-slot=large] .reading .shown").inner_text()
         assert "nearest neighbours" in page.locator("#quality").inner_text()
 
 
@@ -300,6 +300,18 @@ class TestMoving:
             places_in_file = {row["id"]: float(row["x"]) for row in csv.DictReader(file)}
         _, _, width, _ = corner(page)
         assert (places[-1] > width / 2) == (places_in_file["class003/0004"] > 0)
+
+    @pytest.mark.parametrize("width", [1440, 1100])
+    def test_the_map_stays_in_its_place(self, open_page, width):
+        page = open_page("plain", viewport={"width": width, "height": 900})
+        before = corner(page)
+        for method in ("UMAP", "PCA"):
+            page.locator("#methods label", has_text=method).click()
+            assert corner(page) == before
+        for key in ("2", "3"):
+            page.keyboard.press(key)
+            page.wait_for_timeout(300)
+            assert corner(page) == pytest.approx(before, abs=0.5)
 
     def test_who_wants_less_movement_gets_none(self, open_page):
         page = open_page("plain", "index.html#open=class003/0004", reduced_motion="reduce")

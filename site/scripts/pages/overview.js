@@ -41,24 +41,30 @@ async function main() {
   arrange(figures, state.get("view"));
   const views = new Map(VIEWS.map((name) => [name, new MapView(scene, figures.get(name))]));
   scene.views = [...views.values()];
+  const open = (opened) => state.set({ opened });
   const promote = (name) => state.set({ view: name });
   const gestures = new Map();
   for (const [name, view] of views) {
     const announceShape = (index) => announce(`${model.names[index]}, ${model.className(model.groups[index])}`);
-    gestures.set(name, new Gestures(view, { open: (opened) => state.set({ opened }), promote, announce: announceShape }));
+    gestures.set(name, new Gestures(view, { open, promote, announce: announceShape }));
   }
 
+  // Pictures beside the map point at their shape on it.
+  const point = (pointed) => state.set({ pointed, pointedFrom: views.get(state.get("view")) });
   const classes = new ClassList(model, state);
-  const detail = new Detail(model, state);
+  const detail = new Detail(model, state, { point });
   const search = new Search(model, state, announce);
   new Card(model, state);
-  new Tray(model, state, scene, { open: (opened) => state.set({ opened }) });
+  new Tray(model, state, scene, { open, point });
   watchTables(model, state);
   watchControls(model, state, scene, gestures);
   watchKeys(state, gestures);
 
   const readings = () => {
-    for (const [name, figure] of figures) figure.querySelector(".reading").replaceChildren(...reading(name, model, state));
+    for (const [name, figure] of figures) {
+      const notes = model.methods.map(({ note }) => element("span", {}, note));
+      figure.querySelector(".reading").replaceChildren(...notes, element("span", { class: "shown" }, reading(name, model, state)));
+    }
   };
   state.listen((changed) => {
     if (changed.has("view")) swap(figures, state.get("view"), scene);
