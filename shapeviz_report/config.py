@@ -53,6 +53,11 @@ class Config:
     edge_length: float = _option(
         0.01, "edge length after remeshing, as a fraction of the diagonal", "FRACTION"
     )
+    up: str | None = _option(
+        None,
+        "axis of the files that points up in pictures, 'y' or 'z'; by default guessed for each shape",
+        "AXIS",
+    )
     thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
     seed: int = _option(0, "seed of everything random", "N")
     time_limit: float = _option(300.0, "seconds that one mesh may take in one stage", "SECONDS")
@@ -62,6 +67,8 @@ class Config:
     def __post_init__(self) -> None:
         if self.preset not in PRESETS:
             raise ConfigError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset!r}")
+        if self.up not in (None, "y", "z"):
+            raise ConfigError(f"up must be y or z, not {self.up!r}")
         for name, low, high in (
             ("neighbours", 1, 10_000),
             ("edge_length", 0.002, 0.1),

@@ -180,7 +180,10 @@ def build_report(
         pictures: dict[str, bytes] = run(
             "render",
             stages.render_shape,
-            {shape: (prepared[shape][0], config.thumbnail_size, cache_root) for shape in described},
+            {
+                shape: (prepared[shape][0], config.thumbnail_size, config.up, cache_root)
+                for shape in described
+            },
         )
         shapes = tuple(s for s in database.shapes if s.id in pictures)
         if not shapes:
@@ -239,7 +242,7 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
                     f"The demo shape {tasks[outcome.index][1:]} cannot be made: {outcome.reason}."
                 )
             advance()
-    config = replace(config, title=config.title or "Demo shapes")
+    config = replace(config, title=config.title or "Demo shapes", up="z")
     return build_report(root, destination, config, progress)
 
 

@@ -15,11 +15,14 @@ from shapeviz_report.errors import MeshError
 from shapeviz_report.features import compute_histograms, sample_values
 from shapeviz_report.mesh import clean, content_hash, prepare, read_mesh
 from shapeviz_report.projections import PROJECTIONS, project
-from shapeviz_report.render import render_thumbnail
+from shapeviz_report.render import UpAxis, render_thumbnail
 from shapeviz_report.types import FloatArray, Mesh, Projection, ShapeFacts
 
 _OURS = "shapeviz_report."
-_PREPARED_BY = ((_OURS + "mesh", _OURS + "types"), ("mmgpy", "numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml"))
+_PREPARED_BY = (
+    (_OURS + "mesh", _OURS + "types"),
+    ("mmgpy", "numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml"),
+)
 _DESCRIBED_BY = ((_OURS + "descriptors", _OURS + "features"), ("numba", "numpy", "scipy"))
 _RENDERED_BY = ((_OURS + "render",), ("pillow", "pyrender-maintained", "PyOpenGL", "numpy"))
 _GENERATED_BY = ((_OURS + "demo",), ("manifold3d", "numpy"))
@@ -79,13 +82,13 @@ def describe_shape(prepared_key: str, edges: FloatArray, by_area: bool, cache_ro
     return np.load(io.BytesIO(kept), allow_pickle=False)
 
 
-def render_shape(prepared_key: str, size: int, cache_root: Path) -> bytes:
+def render_shape(prepared_key: str, size: int, up: UpAxis | None, cache_root: Path) -> bytes:
     """The thumbnail of a prepared shape: a WebP image of ``size`` x ``size`` pixels."""
     cache = Cache(cache_root)
-    key = make_key(prepared_key, size, code_version(*_RENDERED_BY))
+    key = make_key(prepared_key, size, up, code_version(*_RENDERED_BY))
     kept = cache.load("rendered", key)
     if kept is None:
-        kept = render_thumbnail(_load_prepared(cache, prepared_key), size=size)
+        kept = render_thumbnail(_load_prepared(cache, prepared_key), size=size, up=up)
         cache.store("rendered", key, kept)
     return kept
 

@@ -22,10 +22,10 @@ Wide enough for the rims of coarse open surfaces, which the remesher rounds; far
 SAMPLES_PER_VERTEX = 2
 """How densely a surface is sampled to find the deviation, relative to the prepared mesh."""
 
-EXAMINED = 1000
+EXAMINED = 300
 """Points whose distance is measured exactly, of those that sampling finds farthest."""
 
-CANDIDATES = 16
+CANDIDATES = 8
 """Samples nearest to such a point whose faces are tried."""
 
 

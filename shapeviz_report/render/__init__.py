@@ -2,5 +2,6 @@
 
 from shapeviz_report.render.rasteriser import check_renderer
 from shapeviz_report.render.thumbnail import render_thumbnail
+from shapeviz_report.render.viewpoint import UpAxis
 
-__all__ = ["check_renderer", "render_thumbnail"]
+__all__ = ["UpAxis", "check_renderer", "render_thumbnail"]

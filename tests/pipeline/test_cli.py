@@ -87,8 +87,9 @@ def test_what_cannot_be_done_says_why(tmp_path, monkeypatch, capsys, arguments, 
     Path("wrong/shapeviz.toml").write_text('colour = "red"\n')
     assert main(arguments) == 1
     error = capsys.readouterr().err
-    assert error.startswith("shapeviz-report: ")
-    assert message in error
+    # The last line, after what the progress said.
+    assert error.splitlines()[-1].startswith("shapeviz-report: ")
+    assert message in error.splitlines()[-1]
     assert "Traceback" not in error
     assert not Path("site").exists()
 

@@ -58,6 +58,7 @@ def test_the_file_lies_beside_a_table(database) -> None:
         ("edge_length = nan", "edge_length must be from"),
         ('preset = "best"', "preset must be one of default, paper"),
         ("external = [1]", "external must be a list of file names"),
+        ('up = "x"', "up must be y or z"),
         ("cache = 3", "cache must be a path"),
         ("seed = ", "cannot be read as TOML"),
     ],
@@ -66,7 +67,13 @@ def test_what_cannot_be_followed_is_an_error(database, text, reason) -> None:
     write(database, text)
     with pytest.raises(ConfigError, match=reason) as error:
         load_config(database, {})
-    assert "range" in reason or "from" in reason or "one of" in reason or "shapeviz.toml" in str(error.value)
+    assert (
+        "range" in reason
+        or "from" in reason
+        or "must be y" in reason
+        or "one of" in reason
+        or "shapeviz.toml" in str(error.value)
+    )
 
 
 def test_a_file_that_is_not_text(database) -> None:
