@@ -44,12 +44,11 @@ def test_version_and_help() -> None:
 def test_build_tells_what_it_did(database, built, tmp_path, flags) -> None:
     done = run("build", database, "-o", tmp_path / "site", *flags)
     assert done.returncode == 0
-    summary = {
-        line.split("  ")[-2].strip(): line for line in done.stdout.splitlines() if "  " in line.strip()
-    }
-    assert "15" in done.stdout
-    assert "NH_s tsne" in done.stdout
-    assert "prepare" in done.stdout
+    summary = dict(line.strip().split("  ", 1) for line in done.stdout.splitlines() if "  " in line.strip())
+    assert (summary["shapes"], summary["classes"], summary["failures"]) == ("15", "3", "0")
+    found = built[1].projections["tsne"][1].nh_s
+    assert float(summary["NH_s tsne"].split()[0]) == pytest.approx(found, abs=5e-4)
+    assert "prepare" in summary["seconds"]
     assert done.stdout.rstrip().endswith(str(tmp_path / "site" / "index.html"))
     assert "Preparing meshes" in done.stderr
     assert "left" in done.stderr
@@ -87,9 +86,8 @@ def test_what_cannot_be_done_says_why(tmp_path, monkeypatch, capsys, arguments, 
     Path("wrong/shapeviz.toml").write_text('colour = "red"\n')
     assert main(arguments) == 1
     error = capsys.readouterr().err
-    # The last line, after what the progress said.
-    assert error.splitlines()[-1].startswith("shapeviz-report: ")
-    assert message in error.splitlines()[-1]
+    _, _, said = ("\n" + error).partition("\nshapeviz-report: ")
+    assert message in said
     assert "Traceback" not in error
     assert not Path("site").exists()
 
