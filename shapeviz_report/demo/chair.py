@@ -130,7 +130,7 @@ def _chair(rng: Generator, kind: str) -> Solid:
             )
         ]
         parts = [tube(hoop, [0.048] * 7, 26)]
-        count = int(rng.integers(3, 6))
+        count = int(rng.integers(3, 5))
         for i in range(count):
             x = 2 * (i + 1) / (count + 1) - 1
             top = 1.02 * np.sqrt(max(0.0, 1 - (0.82 * x) ** 2)) ** 0.7
@@ -217,8 +217,8 @@ def _chair(rng: Generator, kind: str) -> Solid:
         return attach(shell, unite(*legs, *brace), radius=0.04)
     column = unite(
         cone((0, 0, 0.20), (0, 0, 0.5 * seat), 0.085, 0.085),
-        cone((0, 0, 0.3 * seat), (0, 0, seat - 0.09), 0.055, 0.055),
-        cone((0, 0, seat - 0.075), (0, 0, seat - 0.07), 0.17, 0.16, 0.3),
+        cone((0, 0, 0.3 * seat), (0, 0, seat - 0.15), 0.055, 0.055),
+        cone((0, 0, seat - 0.105), (0, 0, seat - 0.10), 0.17, 0.16, 0.3),
     )
     star = []
     turned = rng.uniform(0, 72)

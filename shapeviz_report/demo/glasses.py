@@ -86,7 +86,7 @@ def _glasses(rng: Generator, kind: str) -> Solid:
         fold = rng.uniform(-6, 32)  # degrees inwards from straight back
         if side == half_folded:
             # As far as its tip stays clear of the other temple.
-            fold = min(rng.uniform(48, 70), np.degrees(np.arcsin(min(1.0, 1.25 * hinge[0] / length))))
+            fold = min(rng.uniform(48, 70), np.degrees(np.arcsin(min(1.0, 0.85 * hinge[0] / length))))
         points = hinge + path @ turn((0, 0, 1), fold).T
         points = np.concatenate([[corner], points]) * [side, 1, 1]
         temples.append(tube(points, np.concatenate([[thick], widths]), 16))

@@ -52,8 +52,13 @@ def _hand(rng: Generator, kind: str) -> Solid:
         ellipsoid((-0.22, -0.05, 0.32), (0.14, 0.13 * thick, 0.28)),
         radius=0.12,
     )
-    wrist = cone((0, 0.01, 0.12), (0, 0.01, -0.34), 0.215, 0.20, 0.72 * thick, (0, 1, 0))
-    cuff = box((0, 0.01, -0.46), (0.26, 0.20, 0.16), 0.07)
+    # The wrist bends: the forearm leaves the hand in another direction.
+    bend = turn((1, 0, 0), rng.uniform(-24, 24)) @ turn((0, 1, 0), rng.uniform(-18, 18))
+    joint = np.array([0, 0.01, 0.08])
+    below = -bend @ _UP
+    length = rng.uniform(0.34, 0.54)
+    wrist = cone(joint, joint + length * below, 0.215, 0.20, 0.72 * thick, bend @ [0, 1, 0])
+    cuff = box(joint + (length + 0.12) * below, (0.26, 0.20, 0.16), 0.07, bend.T)
     gesture = np.clip(np.array(_GESTURES[kind]) + rng.normal(0, 0.05, 5), -0.3, 1.0)
     fingers = []
     for i, (x, z, length, radius, lean) in enumerate(_FINGERS):

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 from numba import njit
-from scipy.ndimage import map_coordinates
+from scipy.ndimage import label, map_coordinates
 from scipy.sparse import coo_array
 
 from shapeviz_report.demo.solids import (
@@ -331,7 +331,8 @@ def mesh_solid(solid: Solid) -> Mesh:
     Returns
     -------
     Mesh
-        A closed 2-manifold, faces counter-clockwise seen from outside. One component if the solid is one.
+        A closed 2-manifold, faces counter-clockwise seen from outside; enclosed pockets are filled. One
+        component if the solid is one.
     """
     spacing = SPACING * float(np.linalg.norm(solid.high - solid.low))
     # A rough pass tells the area: there are two triangles a crossed grid edge.
@@ -341,6 +342,8 @@ def mesh_solid(solid: Solid) -> Mesh:
     grid = _sample(solid, spacing)
     inside = grid.values < 0.0
     _compose_well(inside)
+    pockets, _ = label(~inside)
+    inside |= pockets != pockets[0, 0, 0]
     added = inside & (grid.values >= 0.0)
     grid.values[added] = -_ADDED * spacing
     passed, vertices, quads = _crossings(inside, grid.values)

@@ -217,6 +217,11 @@ def test_a_gap_too_narrow_for_the_grid_is_closed() -> None:
     assert volume(mesh) == pytest.approx(8.0, rel=0.03)
 
 
+def test_a_pocket_inside_is_filled() -> None:
+    hollow = carve(ball((0, 0, 0), 1.0), ball((0, 0, 0), 0.5))
+    assert volume(mesh_solid(hollow)) == pytest.approx(4 / 3 * np.pi, rel=0.01)
+
+
 def test_splines_pass_their_points_and_tubes_take_their_radii() -> None:
     points = np.array([[0, 0, 0], [1, 0.5, 0], [2, 0, 0.5], [3, 0, 0]], dtype=float)
     curve = spline(points, 601)
