@@ -20,35 +20,25 @@ from shapeviz_report.types import Report
 GENERATOR = "shapeviz-report"
 
 
-def write_data(report: Report, folder: Path, version: str) -> None:
-    """Write ``summary.json``, ``shapes.csv``, ``features.npz`` and one ``projection-METHOD.csv`` a projection.
+def data_files(report: Report, version: str) -> dict[str, bytes]:
+    """``summary.json``, ``shapes.csv``, ``features.npz`` and one ``projection-METHOD.csv`` a projection, by name.
 
     Parameters
     ----------
     report : Report
-    folder : Path
-        An existing folder.
     version : str
         Of this package.
     """
-    (folder / "summary.json").write_text(
-        json_text(summary(report, version), indent=1) + "\n", encoding="utf-8"
-    )
-    (folder / "shapes.csv").write_bytes(_csv(_shape_rows(report)))
+    files = {
+        "summary.json": (json_text(summary(report, version), indent=1) + "\n").encode(),
+        "shapes.csv": _csv(_shape_rows(report)),
+        "features.npz": _features(report),
+    }
     for method, (projection, _) in report.projections.items():
-        rows = [["id", "x", "y"]]
-        rows += [
-            [shape.id, _number(x), _number(y)]
-            for shape, (x, y) in zip(report.shapes, projection.xy, strict=True)
-        ]
-        (folder / f"projection-{method}.csv").write_bytes(_csv(rows))
-    with (folder / "features.npz").open("wb") as file:
-        np.savez_compressed(
-            file,
-            values=np.ascontiguousarray(report.features.values, dtype=np.float64),
-            columns=np.array(report.features.columns, dtype=np.str_),
-            shape_ids=np.array(report.features.shape_ids, dtype=np.str_),
-        )
+        points = zip(report.shapes, projection.xy, strict=True)
+        rows = [["id", "x", "y"], *([shape.id, _number(x), _number(y)] for shape, (x, y) in points)]
+        files[f"projection-{method}.csv"] = _csv(rows)
+    return files
 
 
 def summary(report: Report, version: str) -> dict[str, object]:
@@ -98,6 +88,17 @@ def json_text(value: object, indent: int | None = None) -> str:
     return json.dumps(value, allow_nan=False, indent=indent, separators=separators)
 
 
+def _features(report: Report) -> bytes:
+    file = io.BytesIO()
+    np.savez_compressed(
+        file,
+        values=np.ascontiguousarray(report.features.values, dtype=np.float64),
+        columns=np.array(report.features.columns, dtype=np.str_),
+        shape_ids=np.array(report.features.shape_ids, dtype=np.str_),
+    )
+    return file.getvalue()
+
+
 def _shape_rows(report: Report) -> list[list[str]]:
     labelings = report.database.labelings
     columns = list(dict.fromkeys(column for shape in report.shapes for column in shape.metadata))
@@ -122,7 +123,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
             [
                 shape.id,
                 shape.name,
-                relative_file(report, shape.path),
+                _relative_file(report, shape.path),
                 label or "",
                 *(shape.labels.get(labeling, "") for labeling in labelings),
                 *(shape.metadata.get(column, "") for column in columns),
@@ -140,7 +141,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
     return rows
 
 
-def relative_file(report: Report, path: Path) -> str:
+def _relative_file(report: Report, path: Path) -> str:
     """A mesh file as seen from the database's root, with ``/``; only its name where it lies elsewhere."""
     try:
         return path.resolve().relative_to(report.database.root.resolve()).as_posix()

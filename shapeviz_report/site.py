@@ -8,13 +8,13 @@ import json
 import os
 from collections.abc import Mapping
 from hashlib import sha256
+from importlib.metadata import version
 from pathlib import Path
 
 import jinja2
 import numpy as np
 
-from shapeviz_report import __version__
-from shapeviz_report.data_files import GENERATOR, json_text, write_data
+from shapeviz_report.data_files import GENERATOR, data_files, json_text
 from shapeviz_report.errors import SiteError
 from shapeviz_report.joiner import join
 from shapeviz_report.pages import PAGES, Page, PageContent
@@ -86,38 +86,43 @@ def write_site(report: Report, destination: Path) -> None:
     destination = Path(destination)
     check_destination(destination)
     _check_report(report)
-    contents = [(page, page.content(report)) for page in PAGES]
+    files = _files(report)
     try:
         with replaced_folder(destination) as folder:
-            _write_files(report, contents, folder)
+            for name, content in files.items():
+                path = folder / name
+                path.parent.mkdir(exist_ok=True)
+                path.write_bytes(content)
     except OSError as error:
         raise SiteError(f"the site cannot be written to {destination}: {error}") from error
 
 
-def _write_files(report: Report, contents: list[tuple[Page, PageContent]], folder: Path) -> None:
-    for name in ("assets", "thumbnails", "data"):
-        (folder / name).mkdir()
-    for thumbnail in report.thumbnails:
-        (folder / "thumbnails" / thumbnail_name(thumbnail)).write_bytes(thumbnail)
-    write_data(report, folder / "data", __version__)
-    chunks = _chunks(contents)
+def _files(report: Report) -> dict[str, bytes]:
+    """Every file of the site: path below its folder -> content."""
+    contents = [(page, page.content(report)) for page in PAGES]
     assets = {
         **_scripts_and_styles([page for page, _ in contents]),
-        **{f"chunk-{name}.js": _chunk(name, value) for name, value in chunks.items()},
+        **{f"chunk-{name}.js": _chunk(name, value) for name, value in _chunks(contents).items()},
     }
-    for name, content in assets.items():
-        (folder / "assets" / name).write_bytes(content)
-    environment = _environment(
-        {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
-    )
-    for page, content in contents:
-        html = environment.get_template(f"{page.name}.html").render(
-            page=page, pages=PAGES, site=_site_context(report), **content.context
-        )
-        (folder / page.file).write_bytes(html.encode("utf-8", "backslashreplace"))
+    environment = _environment(assets)
+    pages = {
+        page.file: environment.get_template(f"{page.name}.html")
+        .render(page=page, pages=PAGES, site=_site_context(report), **content.context)
+        .encode("utf-8", "backslashreplace")
+        for page, content in contents
+    }
+    data = data_files(report, version("shapeviz-report"))
+    return {
+        **pages,
+        **{f"assets/{name}": content for name, content in assets.items()},
+        **{f"thumbnails/{thumbnail_name(thumbnail)}": thumbnail for thumbnail in report.thumbnails},
+        **{f"data/{name}": content for name, content in data.items()},
+    }
 
 
-def _environment(addresses: Mapping[str, str]) -> jinja2.Environment:
+def _environment(assets: Mapping[str, bytes]) -> jinja2.Environment:
+    # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
+    addresses = {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates_folder()),
         autoescape=True,
@@ -125,7 +130,6 @@ def _environment(addresses: Mapping[str, str]) -> jinja2.Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
     environment.globals["asset"] = addresses.__getitem__
     environment.globals["content_security_policy"] = CONTENT_SECURITY_POLICY
     environment.globals["chunk_addresses"] = json.dumps(
@@ -143,7 +147,7 @@ def _site_context(report: Report) -> dict[str, object]:
         "title": report.database.name,
         "shapes": len(report.shapes),
         "classes": len(class_names(report)),
-        "version": __version__,
+        "version": version("shapeviz-report"),
     }
 
 

@@ -21,9 +21,13 @@ how present it is: 0 hidden, 1 faint, 2 normal, 3 chosen.
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import altair as alt
 
 from shapeviz_report.charts.palette import SYMBOLS, class_symbol_indices
+
+Framed = TypeVar("Framed", alt.Chart, alt.LayerChart)
 
 #: Opacity of a shape that is there only for orientation.
 FAINT_OPACITY = 0.14
@@ -82,7 +86,7 @@ def thumbnail_map() -> alt.LayerChart:
         )
     )
     return _framed(
-        alt.layer(dots, pictures, data=alt.NamedData("shapes")),
+        alt.LayerChart(layer=[dots, pictures], data=alt.NamedData("shapes")),
         "Map of all shapes as pictures",
         pictured=[],
         picture_size=40,
@@ -137,9 +141,7 @@ def _position() -> dict[str, alt.X | alt.Y]:
     }
 
 
-def _framed(
-    chart: alt.Chart | alt.LayerChart, description: str, **parameters: object
-) -> alt.Chart | alt.LayerChart:
+def _framed(chart: Framed, description: str, **parameters: object) -> Framed:
     """Add the parameters every map has and the frame that the page resizes."""
     defaults: dict[str, object] = {
         "origin": 0,

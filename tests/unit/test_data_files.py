@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from reports import NASTY_LABELS, make_report
 
-from shapeviz_report.data_files import json_text, summary, write_data
+from shapeviz_report.data_files import data_files, json_text, summary
 from shapeviz_report.types import Failure
 
 
@@ -20,7 +20,8 @@ def folder(tmp_path):
         failures=[Failure("bad.off", "read", "no faces")],
         metadata={"artist": 'O"Neill, line\nbreak', "__proto__": "x"},
     )
-    write_data(report, tmp_path, "1.2.3")
+    for name, content in data_files(report, "1.2.3").items():
+        (tmp_path / name).write_bytes(content)
     return tmp_path, report
 
 
