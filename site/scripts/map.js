@@ -108,7 +108,7 @@ export class MapView {
   /** Size of a picture when the whole map is shown. */
   get #wholeSize() {
     const room = Math.sqrt((this.width * this.height * 0.7) / this.model.count);
-    return Math.min(Math.max(room, this.large ? 44 : 15), this.large ? 110 : 40);
+    return Math.min(Math.max(room, this.large ? Math.min(44, this.width / 11) : 15), this.large ? 110 : 40);
   }
 
   /** The visible shape at a place on the screen, or null. */
