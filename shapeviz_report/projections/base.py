@@ -77,7 +77,8 @@ def project(method: Method, values: FloatArray, features: Sequence[str], seed: i
         elif count < method.smallest:
             placed = principal_components(values[order])
         else:
-            placed = np.asarray(method.embed(values[order], seed), dtype=np.float64)
+            # Turned so that a map is wider than high, as windows are.
+            placed = principal_components(np.asarray(method.embed(values[order], seed), dtype=np.float64))
     xy = np.empty((count, 2))
     xy[order] = placed
     return Projection(method.name, tuple(features), seed, fit_square(xy))
