@@ -153,8 +153,7 @@ def _airplane(rng: Generator, kind: str) -> Solid:
         pods = int(rng.choice([1, 2]))
         for side in (1.0, -1.0):
             for x in (0.40,) if pods == 1 else (0.32, 0.62):
-                share = x * span / span
-                front = y * long + sweep * share * span / span
+                front = y * long + sweep * x
                 wing_z = z * girth + np.tan(np.radians(build.dihedral)) * x * span
                 centre = np.array([side * (0.5 * girth + x * span), front + 0.02, wing_z - 0.165])
                 pod = _nacelle(centre, 0.115 if pods == 1 else 0.10, 0.36)

@@ -65,8 +65,8 @@ def _cup(rng: Generator, kind: str) -> Solid:
         (at_bottom, 0, bottom),
     ]
     thick = rng.uniform(0.056, 0.066)
-    radii = [thick, thick, thick, 0.95 * thick, 0.9 * thick]
-    handle = tube(ear, radii, 20, rng.uniform(1.1, 1.6), (0, 1, 0))
+    widths = [thick, thick, thick, 0.95 * thick, 0.9 * thick]
+    handle = tube(ear, widths, 20, rng.uniform(1.1, 1.6), (0, 1, 0))
     return blend(vessel, handle, radius=0.09)
 
 

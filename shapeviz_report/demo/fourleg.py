@@ -292,7 +292,7 @@ def _fourleg(rng: Generator, kind: str) -> Solid:
     bow = np.array([0, 0.03, 0.0]) * build.neck
     neck = tube(
         [base, (base + poll) / 2 + bow, poll],
-        [build.neck_radius[0], np.mean(build.neck_radius) * 0.94, build.neck_radius[1]],
+        [build.neck_radius[0], 0.47 * sum(build.neck_radius), build.neck_radius[1]],
         8,
     )
 

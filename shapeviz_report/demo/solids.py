@@ -31,6 +31,7 @@ CONE, BLADE, BOX, EXTRUSION, REVOLUTION, BLEND, CARVE, KEEP, ATTACH, DROP, GUARD
 ORIGIN, MATRIX, PARAMETERS, ROW = 1, 4, 13, 17
 
 Point = npt.ArrayLike
+Points = npt.ArrayLike | Sequence[npt.ArrayLike]
 _GROUP = 4  # longer unions are cut into groups
 _IDENTITY = np.eye(3)
 
@@ -165,12 +166,10 @@ def ball(centre: Point, radius: float) -> Solid:
     return ellipsoid(centre, (radius, radius, radius))
 
 
-def ellipsoid(centre: Point, radii: Sequence[float], axes: FloatArray = _IDENTITY) -> Solid:
+def ellipsoid(centre: Point, radii: npt.ArrayLike, axes: FloatArray = _IDENTITY) -> Solid:
     """An ellipsoid with half axes ``radii`` along the rows of ``axes``."""
-    one = np.ones(3)
-    return _primitive(
-        CONE, centre, axes, np.asarray(radii, dtype=np.float64), (0.0, 1.0, 1.0, min(radii)), -one, one
-    )
+    one, scale = np.ones(3), np.asarray(radii, dtype=np.float64)
+    return _primitive(CONE, centre, axes, scale, (0.0, 1.0, 1.0, float(scale.min())), -one, one)
 
 
 def _round_cone(
@@ -209,7 +208,7 @@ def cone(
     )
 
 
-def spline(points: Point, count: int) -> FloatArray:
+def spline(points: Points, count: int) -> FloatArray:
     """``count`` points (count, d) on a smooth curve through ``points`` (n, d), evenly spread by parameter."""
     points = np.asarray(points, dtype=np.float64)
     if len(points) == 2:
@@ -224,7 +223,7 @@ def _knots(points: FloatArray) -> FloatArray:
     return np.concatenate([[0.0], np.cumsum(np.sqrt(chords))])
 
 
-def _sweep(points: Point, radii: Sequence[float], pieces: int) -> tuple[FloatArray, FloatArray]:
+def _sweep(points: Points, radii: npt.ArrayLike, pieces: int) -> tuple[FloatArray, FloatArray]:
     """Places (pieces + 1, 3) and radii (pieces + 1,) along a smooth curve."""
     points = np.asarray(points, dtype=np.float64)
     knots = _knots(points)
@@ -233,7 +232,7 @@ def _sweep(points: Point, radii: Sequence[float], pieces: int) -> tuple[FloatArr
 
 
 def tube(
-    points: Point, radii: Sequence[float], pieces: int = 10, flat: float = 1.0, normal: Point = (0, 0, 1)
+    points: Points, radii: npt.ArrayLike, pieces: int = 10, flat: float = 1.0, normal: Point = (0, 0, 1)
 ) -> Solid:
     """A limb along a smooth curve through ``points`` whose radius passes through ``radii``.
 
@@ -241,12 +240,12 @@ def tube(
     """
     places, widths = _sweep(points, radii, pieces)
     return unite(
-        *(cone(*places[i : i + 2], *widths[i : i + 2], flat=flat, normal=normal) for i in range(pieces))
+        *(cone(places[i], places[i + 1], widths[i], widths[i + 1], flat, normal) for i in range(pieces))
     )
 
 
 def blade(
-    points: Point, half_widths: Sequence[float], half_thickness: float, normal: Point, pieces: int = 8
+    points: Points, half_widths: npt.ArrayLike, half_thickness: float, normal: Point, pieces: int = 8
 ) -> Solid:
     """A wing, fin or ear: a plate of even thickness along a smooth curve, its rim round.
 
@@ -273,20 +272,20 @@ def blade(
     return unite(*parts)
 
 
-def loop(points: Point, radius: float) -> Solid:
+def loop(points: Points, radius: float) -> Solid:
     """A closed rod through ``points`` (n, 3), joined by straight pieces."""
     points = np.asarray(points, dtype=np.float64)
     return unite(*(cone(points[i - 1], points[i], radius, radius) for i in range(len(points))))
 
 
-def box(centre: Point, half: Sequence[float], rounding: float, axes: FloatArray = _IDENTITY) -> Solid:
+def box(centre: Point, half: npt.ArrayLike, rounding: float, axes: FloatArray = _IDENTITY) -> Solid:
     """A box with half sizes ``half`` along the rows of ``axes`` and edges rounded by ``rounding``."""
     half = np.asarray(half, dtype=np.float64)
     return _primitive(BOX, centre, axes, np.ones(3), (*half, rounding), -half, half)
 
 
 def extrude(
-    outline: Point,
+    outline: Points,
     half_height: float,
     rounding: float,
     centre: Point = (0, 0, 0),
@@ -300,7 +299,7 @@ def extrude(
     return _primitive(EXTRUSION, centre, axes, np.ones(3), parameters, low, high, outline)
 
 
-def revolve(outline: Point, centre: Point = (0, 0, 0), axes: FloatArray = _IDENTITY) -> Solid:
+def revolve(outline: Points, centre: Point = (0, 0, 0), axes: FloatArray = _IDENTITY) -> Solid:
     """Turn ``outline`` (n, 2), given as (distance from the third axis, place along it), about that axis."""
     outline = np.asarray(outline, dtype=np.float64)
     widest, bottom, top = outline[:, 0].max(), outline[:, 1].min(), outline[:, 1].max()

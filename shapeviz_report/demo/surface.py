@@ -250,9 +250,8 @@ def _compose_well(inside: BoolArray) -> None:
         cells = _cell_corners(inside)
         total = np.sum(cells, axis=0, dtype=np.int8)
         crossed = np.zeros(total.shape, dtype=bool)
-        for corner in range(4):
-            same = cells[corner] == cells[7 - corner]
-            crossed |= same & (total == np.where(cells[corner], 2, 6))
+        for one, opposite in zip(cells[:4], cells[:3:-1], strict=True):
+            crossed |= (one == opposite) & (total == np.where(one, 2, 6))
         for cell in cells:
             cell |= crossed
         if np.count_nonzero(inside) == before:

@@ -20,10 +20,6 @@ def _superellipse(width: float, depth: float, power: float) -> FloatArray:
     return np.stack([width * cosine * size, depth * sine * size], axis=1)
 
 
-def _turned_leg(foot: FloatArray, head: FloatArray, foot_radius: float, head_radius: float) -> Solid:
-    return cone(foot, head, foot_radius, head_radius)
-
-
 def _table(rng: Generator, kind: str) -> Solid:
     height = rng.uniform(0.70, 0.80)
     slab = rng.uniform(0.032, 0.042)
@@ -73,7 +69,7 @@ def _table(rng: Generator, kind: str) -> Solid:
             reach = 0.62 * (width if count == 3 else np.hypot(width, depth) * 0.82)
             head = np.array([*(direction * reach), top_z - slab - 0.03])
             foot = np.array([*(direction * (reach + splay)), 0.03])
-            legs.append(_turned_leg(foot, head, 0.032, rng.uniform(0.05, 0.062)))
+            legs.append(cone(foot, head, 0.032, rng.uniform(0.05, 0.062)))
         return attach(top, *legs, radius=0.06)
     if kind == "pedestal":
         feet = int(rng.integers(3, 5))

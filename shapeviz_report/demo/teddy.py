@@ -29,7 +29,7 @@ def _teddy(rng: Generator, kind: str) -> Solid:
     at = lambda x, y, z: centre + nod @ (head * np.array([x, y, z]))  # noqa: E731
     ear = rng.uniform(0.34, 0.42)
     skull = ellipsoid(centre, (1.06 * head, 0.92 * head, 0.94 * head), nod.T)
-    for side in (1, -1):
+    for side in (1.0, -1.0):
         outer = ellipsoid(at(0.74 * side, 0.05, 0.72), (ear * head, 0.55 * ear * head, ear * head), nod.T)
         inner = ellipsoid(
             at(0.76 * side, -0.27, 0.74), (0.66 * ear * head, 0.22 * head, 0.66 * ear * head), nod.T
@@ -38,7 +38,7 @@ def _teddy(rng: Generator, kind: str) -> Solid:
     muzzle = ellipsoid(at(0, -0.80, -0.22), (0.46 * head, 0.40 * head, 0.36 * head), nod.T)
     skull = blend(skull, muzzle, radius=0.12 * head)
     nose = ellipsoid(at(0, -1.17, -0.06), (0.19 * head, 0.12 * head, 0.13 * head), nod.T)
-    eyes = [ball(at(0.37 * side, -0.83, 0.20), 0.125 * head) for side in (1, -1)]
+    eyes = [ball(at(0.37 * side, -0.83, 0.20), 0.125 * head) for side in (1.0, -1.0)]
     face = unite(skull, nose, *eyes)
 
     limb = rng.uniform(0.155, 0.185)
