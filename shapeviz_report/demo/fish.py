@@ -164,12 +164,12 @@ def _fish(rng: Generator, kind: str) -> Solid:
         droop, backwards = rng.uniform(0.35, 0.75), rng.uniform(0.75, 1.2)
         out = np.array([side * 0.9, backwards, -droop])
         out /= np.linalg.norm(out)
-        start = spine(y) + [side * 0.86 * build.flat * girth, 0, -0.26 * girth]
+        base = spine(y) + [side * 0.86 * build.flat * girth, 0, -0.26 * girth]
         normal = np.cross(out, [0, 0.5, 1.0])
-        elbow, tip = start + 0.55 * reach * out, start + reach * out
+        elbow, tip = base + 0.55 * reach * out, base + reach * out
         width = 0.36 * reach
         fins.append(
-            blade([start - 0.05 * out, elbow, tip], [0.55 * width, width, 0.62 * width], _THICK, normal)
+            blade([base - 0.05 * out, elbow, tip], [0.55 * width, width, 0.62 * width], _THICK, normal)
         )
     figure = attach(body, *fins, radius=0.06)
 
