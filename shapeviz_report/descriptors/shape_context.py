@@ -11,7 +11,7 @@ from shapeviz_report.descriptors.surface import Surface
 SHELLS = (0.1, 0.3)
 """Inner limits of the distance set T = [0, 0.1, 0.3, 1], as fractions of the largest possible distance, 2."""
 
-SEEN = 10_000
+SEEN = 4_000
 """At most this many vertices are counted: every second, third, ... one of a larger mesh."""
 
 
