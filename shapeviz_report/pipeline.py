@@ -52,7 +52,6 @@ SAMPLED_VERTICES = 400_000
 
 LIBRARIES = (
     "numpy", "scipy", "numba", "scikit-learn", "umap-learn", "mmgpy", "trimesh", "pyrender-maintained", "altair",
-    "vl-convert-python",
 )  # fmt: skip
 """The libraries whose versions the site states."""
 

@@ -130,7 +130,9 @@ class TestFirstLook:
 
     def test_the_page_explains_near_far_and_nh(self, open_page):
         page = open_page("plain")
-        assert "close together are alike" in page.locator("figure[data-slot=large] .reading .shown").inner_text()
+        assert (
+            "close together are alike" in page.locator("figure[data-slot=large] .reading .shown").inner_text()
+        )
         assert "nearest neighbours" in page.locator("#quality").inner_text()
 
 

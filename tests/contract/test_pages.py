@@ -6,9 +6,9 @@ import jinja2
 import pytest
 from reports import make_report
 
-from shapeviz_report.data_files import json_text
 from shapeviz_report.pages import PAGES
-from shapeviz_report.resources import site_folder, templates_folder
+from shapeviz_report.site.data_files import json_text
+from shapeviz_report.site.resources import site_folder, templates_folder
 
 
 def test_names_and_files_are_unique():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from shapeviz_report import resources
+from shapeviz_report.site import resources
 
 
 @pytest.mark.parametrize(("site", "templates"), [("pkg/_site", "pkg/_templates"), ("site", "templates")])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from reports import NASTY_LABELS, make_report
 
-from shapeviz_report.data_files import data_files, json_text, summary
+from shapeviz_report.site.data_files import data_files, json_text, summary
 from shapeviz_report.types import Failure
 
 

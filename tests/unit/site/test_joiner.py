@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from shapeviz_report.joiner import join
+from shapeviz_report.site.joiner import join
 
 
 @pytest.fixture

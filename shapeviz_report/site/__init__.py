@@ -14,14 +14,14 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
-from shapeviz_report.data_files import GENERATOR, data_files, json_text
 from shapeviz_report.errors import SiteError
-from shapeviz_report.joiner import join
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.pages.overview import thumbnail_name
-from shapeviz_report.resources import site_folder, templates_folder
-from shapeviz_report.swap import replaced_folder
+from shapeviz_report.site.data_files import GENERATOR, data_files, json_text
+from shapeviz_report.site.joiner import join
+from shapeviz_report.site.resources import site_folder, templates_folder
+from shapeviz_report.site.swap import replaced_folder
 from shapeviz_report.types import Report
 
 #: Nothing but the site's own files. ``file:`` stands beside ``'self'`` because a page opened by double-click has no
