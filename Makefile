@@ -56,6 +56,8 @@ $(INSTALLED): pyproject.toml constraints.txt
 	  $(call apt_install,$$($(PYTHON) -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])'))
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[test]'
+	@# UMAP's neighbour search compiles on its first import; what it compiles stays in the environment.
+	@$(BIN)/python -W ignore -c 'import umap'
 	@touch $@
 
 .PHONY: drawing-library
