@@ -33,7 +33,8 @@ class Outcome:
     reason : str or None
         Why there is no value, in words for the owner of the input.
     cpu_seconds : float
-        CPU time that its worker spent since the task before, start-up included.
+        CPU time that its worker spent since the task before, start-up included; 0 if the worker did not live
+        to tell.
     """
 
     index: int
@@ -98,16 +99,16 @@ class LocalExecutor:
                 for connection in [*ready, *late]:
                     worker, index, _ = busy.pop(connection)
                     if connection in late:
-                        cpu = worker.stop()
+                        worker.stop()
                         self._workers.remove(worker)
-                        yield Outcome(index, None, f"it took longer than {self.time_limit:g} seconds", cpu)
+                        yield Outcome(index, None, f"it took longer than {self.time_limit:g} seconds", 0.0)
                         continue
                     try:
                         value, error, cpu = connection.recv()
                     except (EOFError, ConnectionError):
-                        cpu = worker.stop()
+                        worker.stop()
                         self._workers.remove(worker)
-                        yield Outcome(index, None, f"the process working on it ended ({worker.fate})", cpu)
+                        yield Outcome(index, None, f"the process working on it ended ({worker.fate})", 0.0)
                         continue
                     idle.append(worker)
                     if isinstance(error, ShapevizError):
@@ -152,7 +153,6 @@ class _Worker:
                 stdout=subprocess.DEVNULL,
             )
         self.connection = Connection(ours.detach())
-        self._cpu_reported = 0.0
 
     @property
     def fate(self) -> str:
@@ -162,8 +162,8 @@ class _Worker:
             return f"signal {-code}" + (", out of memory?" if code == -9 else "")
         return f"exit code {code}"
 
-    def stop(self) -> float:
-        """End the process; the CPU seconds it leaves unreported cannot be told apart and count as 0."""
+    def stop(self) -> None:
+        """End the process."""
         self.connection.close()
         try:
             # An idle worker sees the closed pipe and goes.
@@ -171,7 +171,6 @@ class _Worker:
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
-        return 0.0
 
 
 def _serve(descriptor: int) -> None:
