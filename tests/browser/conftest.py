@@ -62,13 +62,18 @@ def site(tmp_path_factory) -> Callable[[str], Path]:
 def open_page(browser, site) -> Iterator[Callable[..., Page]]:
     """Open a page of a site from ``file://`` and wait until it is drawn.
 
+    The reader is one who asks for less movement, so that a step is done when it is drawn; tests of the
+    movements ask for them with ``reduced_motion="no-preference"``.
+
     ``watch`` of the page collects its requests and complaints; a complaint nobody expects fails the test.
     """
     contexts = []
     watches = []
 
     def open_(name: str, file: str = "index.html", address: str | None = None, **options) -> Page:
-        context = browser.new_context(**{"viewport": {"width": 1440, "height": 900}, **options})
+        context = browser.new_context(
+            **({"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce"} | options)
+        )
         contexts.append(context)
         page = context.new_page()
         page.watch = Watch()

@@ -15,6 +15,7 @@ def use(page):
     page.locator("#tray .shape").first.click()
     page.wait_for_selector("#detail:not([hidden])")
     page.click("#theme")
+    # What follows a click by timers: the settled picture, the address.
     page.wait_for_timeout(900)
 
 
