@@ -1,0 +1,1 @@
+"""Measurements of the descriptors: against other libraries, exact methods and analytic surfaces."""

@@ -1,0 +1,141 @@
+"""The descriptors by other means: slow, in plain numpy and scipy, each from the paper's equation."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_matrix
+from scipy.sparse.csgraph import dijkstra
+
+from shapeviz_report.types import FloatArray, IntArray, Mesh
+
+CHUNK = 200
+"""Vertices handled at a time: a matrix of this many rows and a column a vertex or face fits any memory."""
+
+
+def edges_of(faces: IntArray) -> tuple[IntArray, IntArray]:
+    """The distinct edges (e, 2), lower vertex first, and how many faces each has."""
+    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(sides, axis=0, return_counts=True)
+
+
+def euler_characteristic(mesh: Mesh) -> int:
+    """Vertices - edges + faces: 2 for a ball, 0 for a ring."""
+    return len(np.unique(mesh.faces)) - len(edges_of(mesh.faces)[0]) + len(mesh.faces)
+
+
+def curvature(mesh: Mesh) -> FloatArray:
+    """Gc: 2 pi (on a boundary pi) less the angles around a vertex, by the law of cosines (Eq. 1); (n,)."""
+    corners = mesh.vertices[mesh.faces]
+    # Squared sides, each opposite to the corner of its index.
+    sides = ((np.roll(corners, -1, axis=1) - np.roll(corners, -2, axis=1)) ** 2).sum(axis=2)
+    here, left, right = sides, np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1)
+    angles = np.arccos(np.clip((left + right - here) / (2 * np.sqrt(left * right)), -1, 1))
+    edges, counts = edges_of(mesh.faces)
+    full = np.full(len(mesh.vertices), 2 * np.pi)
+    full[edges[counts == 1]] = np.pi
+    return full - np.bincount(mesh.faces.ravel(), angles.ravel(), len(mesh.vertices))
+
+
+def edge_graph(mesh: Mesh) -> csr_matrix:
+    """(n, n) lengths of the edges."""
+    edges, _ = edges_of(mesh.faces)
+    lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
+    return csr_matrix((lengths, edges.T), (len(mesh.vertices),) * 2)
+
+
+def geodesic_distance(graph: csr_matrix, sources: IntArray) -> FloatArray:
+    """Agd: the mean distance from each source to all vertices, Dijkstra from every one of them (Eq. 2)."""
+    chunks = np.array_split(sources, max(1, len(sources) // CHUNK))
+    return np.concatenate([dijkstra(graph, directed=False, indices=chunk).mean(axis=1) for chunk in chunks])
+
+
+def normal_diameter(mesh: Mesh, normals: FloatArray, nearest: float) -> FloatArray:
+    """Nd: every reversed normal against every face that does not contain its vertex; 0 where none is met.
+
+    In Pluecker coordinates a line passes a triangle where it winds around its three sides in the same sense;
+    each side is computed once, so that neighbouring triangles agree on it. Hits below ``nearest`` are passed.
+    """
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    planes = np.cross(b - a, c - a)
+    edges, index = np.unique(
+        np.sort(mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_inverse=True
+    )
+    sense = np.where(mesh.faces < np.roll(mesh.faces, -1, axis=1), 1.0, -1.0)
+    low, high = mesh.vertices[edges[:, 0]], mesh.vertices[edges[:, 1]]
+    index = index.reshape(-1, 3)
+    result = np.zeros(len(mesh.vertices))
+    for start in range(0, len(mesh.vertices), CHUNK):
+        origins, directions = mesh.vertices[start : start + CHUNK], -normals[start : start + CHUNK]
+        windings = directions @ np.cross(low, high).T + np.cross(origins, directions) @ (high - low).T
+        around = windings[:, index] * sense
+        # A line through an edge or a corner has a winding of 0 up to rounding: that counts as a hit.
+        hit = (around >= -1e-13).all(axis=2) | (around <= 1e-13).all(axis=2)
+        for row, candidates in enumerate(hit):
+            v = start + row
+            near = np.flatnonzero(candidates)
+            near = near[(mesh.faces[near] != v).all(axis=1)]
+            slope = planes[near] @ directions[row]
+            near, slope = near[slope != 0], slope[slope != 0]
+            ways = ((a[near] - origins[row]) * planes[near]).sum(axis=1) / slope
+            ways = ways[ways > nearest]
+            result[v] = ways.min() if len(ways) else 0.0
+    return result
+
+
+def normal_diameter_trimesh(mesh: Mesh, normals: FloatArray, nearest: float) -> FloatArray:
+    """Nd by trimesh's ray casting; the faces around a vertex are taken out of its hits."""
+    import trimesh
+
+    caster = trimesh.ray.ray_triangle.RayMeshIntersector(
+        trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+    )
+    faces, rays, places = caster.intersects_id(
+        mesh.vertices, -normals, multiple_hits=True, return_locations=True
+    )
+    ways = np.linalg.norm(places - mesh.vertices[rays], axis=1)
+    counted = (mesh.faces[faces] != rays[:, None]).all(axis=1) & (ways > nearest)
+    result = np.full(len(mesh.vertices), np.inf)
+    np.minimum.at(result, rays[counted], ways[counted])
+    return np.where(np.isfinite(result), result, 0.0)
+
+
+def main_axis(mesh: Mesh) -> FloatArray:
+    """The direction of largest spread, from a singular value decomposition instead of a covariance."""
+    return np.linalg.svd(mesh.vertices - mesh.vertices.mean(axis=0), full_matrices=False)[2][0]
+
+
+def normal_angle(mesh: Mesh, normals: FloatArray) -> FloatArray:
+    """Na; (n,)."""
+    return np.abs(normals @ main_axis(mesh))
+
+
+def point_angle(mesh: Mesh) -> FloatArray:
+    """Pa; (n,)."""
+    ways = mesh.vertices.mean(axis=0) - mesh.vertices
+    return np.abs(ways @ main_axis(mesh)) / np.linalg.norm(ways, axis=1)
+
+
+def shape_context(
+    mesh: Mesh, normals: FloatArray, neighbours: IntArray, limits: tuple[float, float]
+) -> FloatArray:
+    """Sc: all other vertices counted, with frames from an eigenvalue solver; (n, 24)."""
+    vertices = mesh.vertices
+    towards = vertices.mean(axis=0) - vertices
+    flatten = np.eye(3) - normals[:, :, None] * normals[:, None, :]
+    patches = (vertices[neighbours] - vertices[:, None]) @ flatten
+    patches -= patches.mean(axis=1, keepdims=True)
+    # Eigenvalues rise; that of the normal is 0.
+    tangents = np.linalg.eigh(patches.transpose(0, 2, 1) @ patches)[1][:, :, [2, 1]]
+    tangents *= np.where(np.einsum("nx,nxt->nt", towards, tangents) >= 0, 1.0, -1.0)[:, None]
+    frames = np.concatenate([tangents, normals[:, :, None]], axis=2)
+    result = np.empty((len(vertices), 24))
+    for start in range(0, len(vertices), CHUNK):
+        rows = np.arange(start, min(start + CHUNK, len(vertices)))
+        ways = vertices - vertices[rows][:, None]
+        shell = np.searchsorted(limits, np.linalg.norm(ways, axis=2) / 2)
+        octant = (np.matmul(ways, frames[rows]) > 0) @ np.array([1, 2, 4])
+        cells = 24 * np.arange(len(rows))[:, None] + 8 * shell + octant
+        keep = np.arange(len(vertices)) != rows[:, None]
+        tally = np.bincount(cells[keep], minlength=24 * len(rows)).reshape(-1, 24)
+        result[rows] = tally / (len(vertices) - 1)
+    return result
