@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -16,6 +18,14 @@ from shapeviz_report.types import FloatArray
 
 PCL_PROGRAM = Path(__file__).parents[1] / "build" / "pcl" / "pcl_histograms"
 """Where benchmarks/README.md has it built."""
+
+
+def require_peers() -> None:
+    """End the program, before anything is measured, if another library is missing."""
+    missing = [name for name in ("open3d", "rtree") if importlib.util.find_spec(name) is None]
+    missing += [] if PCL_PROGRAM.exists() else [str(PCL_PROGRAM)]
+    if missing:
+        sys.exit(f"Not there: {', '.join(missing)}. benchmarks/README.md says how to get it.")
 
 
 def with_self(surface: Surface) -> np.ndarray:

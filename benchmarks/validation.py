@@ -213,6 +213,7 @@ def relative(values: FloatArray, expected: FloatArray) -> float:
 def main() -> None:
     """Print the tables."""
     options = parser_of_meshes(__doc__.splitlines()[0]).parse_args()
+    peers.require_peers()
     results: dict[tuple[str, str], list[float]] = {}
     for name, mesh in prepared_shapes(options.meshes, options.edge_length):
         print(f"{name}: {len(mesh.vertices)} vertices", file=sys.stderr, flush=True)
