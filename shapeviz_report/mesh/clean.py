@@ -14,6 +14,9 @@ from shapeviz_report.types import FloatArray, IntArray, Mesh
 WELD_DISTANCE = 1e-6
 """Vertices closer than this fraction of the bounding-box diagonal become one."""
 
+RESOLUTION = 1e-12
+"""A mesh that is smaller than this fraction of its distance from the origin is refused."""
+
 NEGLIGIBLE_AREA = 1e-14
 """Faces of less area than this, in units of the squared diagonal, carry no direction and are dropped."""
 
@@ -34,7 +37,8 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
     Returns
     -------
     mesh : Mesh
-        In the coordinates of the input. Every vertex is used; every edge has one or two faces.
+        From the lowest corner of its bounding box, in units of its diagonal. Every vertex is used; every edge
+        has one or two faces.
     repairs : dict of str to int
         What was mended and how often; only what happened.
 
@@ -60,15 +64,8 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
 
     used = np.zeros(len(vertices), dtype=bool)
     used[faces] = True
-    low, high = vertices[used].min(axis=0), vertices[used].max(axis=0)
-    with np.errstate(over="ignore"):
-        diagonal = float(np.linalg.norm(high - low))
-    if not np.isfinite(diagonal) or diagonal <= np.abs(vertices[used]).max() * 1e-12:
-        raise MeshError(
-            "all its vertices lie in one point, or its coordinates exceed what can be computed with"
-        )
     scaled = np.zeros_like(vertices)
-    scaled[used] = (vertices[used] - low) / diagonal
+    scaled[used] = _in_diagonals(vertices[used])
 
     faces, welded = _weld(scaled, faces, used)
     note("vertices welded", welded)
@@ -81,9 +78,7 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
     if len(faces) == 0:
         raise MeshError("none of its faces has an area")
 
-    order = np.lexsort(np.sort(faces, axis=1).T)
-    ordered = np.sort(faces[order], axis=1)
-    first = order[np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))]
+    _, first = _find_copies(np.sort(faces, axis=1))
     note("duplicate faces dropped", len(faces) - len(first))
     faces = faces[np.sort(first)]
 
@@ -93,14 +88,16 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
     flips = _face_outward(scaled, faces, flips, parts, pairs)
     note("faces turned round", flips.sum())
     faces[flips] = faces[flips][:, ::-1]
+    # In a face turned round, its first two half-edges have changed places.
+    corner = pairs % 3
+    pairs = np.where(flips[pairs // 3] & (corner < 2), pairs + 1 - 2 * corner, pairs)
 
-    pairs, _ = _manifold_pairs(faces)
     starts = faces.ravel()[pairs]
     agree = starts[:, 0] != starts[:, 1]
     note("edges of one-sided surfaces cut", (~agree).sum())
     faces, origin = _split_corners(faces, pairs[agree])
     note("touching vertices parted", len(origin) - len(np.unique(origin)))
-    return Mesh(np.ascontiguousarray(vertices[origin]), faces), repairs
+    return Mesh(scaled[origin], faces), repairs
 
 
 def is_watertight(faces: IntArray) -> bool:
@@ -123,21 +120,55 @@ def _sorted_edges(faces: IntArray) -> IntArray:
     return np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
 
 
+def _in_diagonals(vertices: FloatArray) -> FloatArray:
+    """Measure positions (n, 3) from the lowest corner of their bounding box, in units of its diagonal.
+
+    Whatever its unit and wherever its origin, later steps compute with numbers of one size.
+    """
+    low = vertices.min(axis=0)
+    with np.errstate(over="ignore"):
+        extent = vertices.max(axis=0) - low
+    longest = float(extent.max())
+    farthest = float(np.abs(vertices).max())
+    if not np.isfinite(longest):
+        raise MeshError(f"its coordinates, up to {farthest:.0e}, exceed what can be computed with; scale it down")
+    if longest == 0:
+        raise MeshError("all its vertices lie in one point")
+    if longest <= RESOLUTION * farthest:
+        raise MeshError(
+            f"it is {farthest / longest:.0e} times as far from the origin as it is large, so that its coordinates "
+            "hardly tell its vertices apart; move it to the origin before it is exported"
+        )
+    # In two steps, for the square of a very large or small extent would be out of range.
+    scaled = (vertices - low) / longest
+    return scaled / np.linalg.norm(extent / longest)
+
+
 def _weld(scaled: FloatArray, faces: IntArray, used: np.ndarray) -> tuple[IntArray, int]:
     """Point faces at one representative of each cluster of close vertices; how many vertices that saved."""
     index = np.flatnonzero(used)
-    _, first, inverse = np.unique(scaled[index], axis=0, return_index=True, return_inverse=True)
+    place, first = _find_copies(scaled[index])
     points = scaled[index[first]]
     close = cKDTree(points).query_pairs(WELD_DISTANCE, output_type="ndarray")
     links = coo_matrix((np.ones(len(close), np.int8), (close[:, 0], close[:, 1])), (len(points),) * 2)
     count, cluster = connected_components(links, directed=False)
     # The lowest original index stands for its cluster, so the result keeps the file's order.
-    of_vertex = cluster[inverse.ravel()]
+    of_vertex = cluster[place]
     representative = np.full(count, len(scaled), dtype=np.int64)
     np.minimum.at(representative, of_vertex, index)
     target = np.zeros(len(scaled), dtype=np.int64)
     target[index] = representative[of_vertex]
     return target[faces], len(index) - count
+
+
+def _find_copies(rows: np.ndarray) -> tuple[IntArray, IntArray]:
+    """Which rows (n, 3) are the same: a number for each row, and for each number the first row that has it."""
+    order = np.lexsort(rows.T)
+    ordered = rows[order]
+    new = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))
+    number = np.empty(len(rows), dtype=np.int32)
+    number[order] = np.cumsum(new) - 1
+    return number, order[new]
 
 
 def _manifold_pairs(faces: IntArray) -> tuple[IntArray, int]:
@@ -151,11 +182,9 @@ def _manifold_pairs(faces: IntArray) -> tuple[IntArray, int]:
         Number of edges with more than two faces.
     """
     starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    low, high = np.minimum(starts, ends), np.maximum(starts, ends)
-    order = np.lexsort((high, low))
-    new = np.ones(len(order), dtype=bool)
-    new[1:] = (np.diff(low[order]) != 0) | (np.diff(high[order]) != 0)
-    begin = np.flatnonzero(new)
+    edges = np.minimum(starts, ends) * (int(faces.max()) + 1) + np.maximum(starts, ends)
+    order = np.argsort(edges, kind="stable")
+    begin = np.flatnonzero(np.diff(edges[order], prepend=-1))
     counts = np.diff(np.append(begin, len(order)))
     twos = begin[counts == 2]
     return np.stack([order[twos], order[twos + 1]], axis=1).astype(np.int32), int((counts > 2).sum())

@@ -24,8 +24,10 @@ def read_header(data: bytes, *, binary: bool) -> dict[str, Any]:
         data = data[20 : 20 + length]
     try:
         header = json.loads(data)
-    except (ValueError, RecursionError) as error:
+    except json.JSONDecodeError as error:
         raise MeshError(f"it is not glTF, or cut off: its JSON is broken ({error})") from error
+    except (UnicodeError, RecursionError) as error:
+        raise MeshError("it is not glTF, or damaged: its JSON is broken") from error
     if not isinstance(header, dict):
         raise MeshError("it is not glTF: its JSON is not an object")
     return header

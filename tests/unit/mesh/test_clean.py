@@ -14,8 +14,10 @@ from shapeviz_report.types import Mesh
 
 
 def volume(mesh: Mesh) -> float:
+    """In units of the cubed diagonal."""
     a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
-    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
+    diagonal = np.linalg.norm(np.ptp(mesh.vertices, axis=0))
+    return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6 / diagonal**3)
 
 
 def assert_manifold(mesh: Mesh) -> None:
@@ -153,11 +155,21 @@ def test_a_moebius_band_is_cut_into_a_two_sided_strip() -> None:
         ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], "area"),
         ([[0, 0, 0], [np.nan, 0, 0], [2, 1, 0]], "finite"),
         ([[1e308, 0, 0], [-1e308, 1e308, 0], [0, -1e308, 1e308]], "exceed"),
+        ([[1e15, 0, 0], [1e15, 1, 0], [1e15, 0, 1]], "move it to the origin"),
     ],
 )
 def test_nothing_left_is_an_error(vertices, reason) -> None:
     with pytest.raises(MeshError, match=reason):
         clean(Mesh(np.array(vertices, float), np.array([[0, 1, 2]], np.int32)))
+
+
+@pytest.mark.parametrize("size", [1e-310, 1e-200, 1e-18, 1e18, 1e150, 1e307])
+def test_size_and_place_do_not_matter(size) -> None:
+    # Squares of these sizes are out of range; a denormal has few digits left.
+    mended, repairs = clean(Mesh((ball(2).vertices + [5, 0, 0]) * size, ball(2).faces))
+    assert repairs == {}
+    assert np.linalg.norm(np.ptp(mended.vertices, axis=0)) == pytest.approx(1)
+    assert volume(mended) == pytest.approx(volume(ball(2)))
 
 
 @settings(max_examples=60, deadline=None)
