@@ -1,10 +1,17 @@
 """Maps of a database (paper, 3.5): one file a method, ``PROJECTIONS`` in the order a reader meets them."""
 
-from shapeviz_report.projections.base import Method, align, project
+from shapeviz_report.projections.base import (
+    Method,
+    align,
+    arrange,
+    canonical_order,
+    project,
+    squared_distances,
+)
 from shapeviz_report.projections.pca import PCA_METHOD
 from shapeviz_report.projections.tsne import TSNE_METHOD
 from shapeviz_report.projections.umap import UMAP_METHOD
 
 PROJECTIONS: tuple[Method, ...] = (TSNE_METHOD, UMAP_METHOD, PCA_METHOD)
 
-__all__ = ["PROJECTIONS", "Method", "align", "project"]
+__all__ = ["PROJECTIONS", "Method", "align", "arrange", "canonical_order", "project", "squared_distances"]

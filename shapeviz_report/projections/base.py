@@ -6,9 +6,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
+import scipy.linalg
+from scipy.spatial.distance import pdist, squareform
 from threadpoolctl import threadpool_limits
 
 from shapeviz_report.types import FloatArray, Projection
+
+PAIRWISE_LIMIT = 4000
+"""Up to this many rows a method works on all pairwise distances. Beyond, exact t-SNE no longer pays
+(docs/search.md has the measurements)."""
 
 
 @dataclass(frozen=True)
@@ -24,15 +31,18 @@ class Method:
     explanation : str
         What near and far mean on such a map, in a sentence for its reader.
     smallest : int
-        The fewest rows it can lay out; below it :func:`project` lays out by principal components.
+        The fewest rows it can lay out; fewer are laid out by principal components.
+    arrange : callable
+        ``(squared distances (n, n), seed) -> (n, 2)``, for up to ``PAIRWISE_LIMIT`` rows.
     embed : callable
-        ``(values (n, w), seed) -> (n, 2)``.
+        ``(values (n, w), seed) -> (n, 2)``, for more.
     """
 
     name: str
     title: str
     explanation: str
     smallest: int
+    arrange: Callable[[FloatArray, int], FloatArray]
     embed: Callable[[FloatArray, int], FloatArray]
 
 
@@ -46,6 +56,31 @@ def principal_components(values: FloatArray) -> FloatArray:
     scores = np.zeros((len(values), 2))
     found = min(2, len(singular))
     scores[:, :found] = left[:, :found] * singular[:found]
+    return _point(scores)
+
+
+def classical_scaling(squared: FloatArray) -> FloatArray:
+    """The coordinates (n, 2) that :func:`principal_components` finds, from squared distances (n, n) alone.
+
+    Torgerson's scaling: the doubly centred matrix holds the scalar products of the centred rows. At least two
+    rows.
+    """
+    # scipy's solver for a few eigenvectors, not an iterative one: that starts anew from random vectors where
+    # the rank is small, and the smallest difference makes another map.
+    products = -0.5 * (squared - squared.mean(axis=0) - squared.mean(axis=1)[:, None] + squared.mean())
+    count = len(squared)
+    values, vectors = scipy.linalg.eigh(products, subset_by_index=[count - 2, count - 1])
+    return _point((vectors * np.sqrt(np.maximum(values, 0.0)))[:, ::-1])
+
+
+def squared_distances(values: FloatArray) -> FloatArray:
+    """Squared Euclidean distances between the rows of ``values`` (n, w); (n, n), symmetric, exactly 0 for equal
+    rows. Those of several features add up."""
+    return squareform(pdist(values, "sqeuclidean"))
+
+
+def _point(scores: FloatArray) -> FloatArray:
+    """Turn each axis the way in which its farthest row lies."""
     farthest = np.abs(scores).argmax(axis=0)
     return scores * np.where(scores[farthest, [0, 1]] < 0, -1.0, 1.0)
 
@@ -69,19 +104,49 @@ def project(method: Method, values: FloatArray, features: Sequence[str], seed: i
     -------
     Projection
     """
-    count = len(values)
-    order = np.lexsort(values.T[::-1])
+    order = canonical_order(values)
     with threadpool_limits(limits=1):
-        if count < 2 or np.ptp(values, axis=0).max(initial=0.0) == 0:
-            placed = np.zeros((count, 2))
-        elif count < method.smallest:
-            placed = principal_components(values[order])
+        if len(values) <= PAIRWISE_LIMIT:
+            placed = arrange(method, squared_distances(values[order]), seed)
         else:
-            # Turned so that a map is wider than high, as windows are.
-            placed = principal_components(np.asarray(method.embed(values[order], seed), dtype=np.float64))
-    xy = np.empty((count, 2))
+            placed = _upright(method.embed(values[order], seed))
+    xy = np.empty((len(values), 2))
     xy[order] = placed
-    return Projection(method.name, tuple(features), seed, fit_square(xy))
+    return Projection(method.name, tuple(features), seed, xy)
+
+
+def canonical_order(values: FloatArray) -> npt.NDArray[np.intp]:
+    """Indices that sort the rows of ``values`` (n, w), first column first."""
+    return np.lexsort(values.T[::-1])
+
+
+def arrange(method: Method, squared: FloatArray, seed: int) -> FloatArray:
+    """Lay out rows that are known by their squared distances; the map as in :class:`Projection`.
+
+    The order of the rows decides the map's last digits, and the number of threads may: see :func:`project`.
+
+    Parameters
+    ----------
+    method : Method
+    squared : (n, n) float array
+        Symmetric; at least one row.
+    seed : int
+
+    Returns
+    -------
+    (n, 2) float64 array
+    """
+    count = len(squared)
+    if count < 2 or squared.max() == 0:
+        return np.zeros((count, 2))
+    if count < method.smallest:
+        return fit_square(classical_scaling(squared))
+    return _upright(method.arrange(squared, seed))
+
+
+def _upright(xy: FloatArray) -> FloatArray:
+    """Turn a map so that it is wider than high, as windows are, and fit it."""
+    return fit_square(principal_components(np.asarray(xy, dtype=np.float64)))
 
 
 def fit_square(xy: FloatArray) -> FloatArray:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import warnings
 from types import ModuleType
+from typing import Any
 
+import numpy as np
 from numba.core.dispatcher import Dispatcher
 
 from shapeviz_report.projections.base import Method
@@ -13,15 +15,39 @@ from shapeviz_report.types import FloatArray
 NEIGHBOURS = 15
 
 
+def arrange(squared: FloatArray, seed: int) -> FloatArray:
+    """Lay out rows by their squared distances (n, n) with UMAP; (n, 2).
+
+    Handing over the nearest neighbours gives the same map, and spares a fresh installation 13 of 22 seconds
+    of compiling UMAP's own search for them.
+    """
+    distances = np.sqrt(squared).astype(np.float32)
+    ranked = distances.copy()
+    # A point is its own first neighbour, also among points that lie in one place.
+    np.fill_diagonal(ranked, -1)
+    nearest = np.argsort(ranked, axis=1, kind="stable")[:, : _neighbours(len(squared))].astype(np.int32)
+    neighbours = (nearest, np.take_along_axis(distances, nearest, axis=1))
+    return _fit(distances, seed, metric="precomputed", precomputed_knn=neighbours)
+
+
 def embed(values: FloatArray, seed: int) -> FloatArray:
     """Lay out rows (n, w) with UMAP; (n, 2)."""
+    return _fit(values, seed)
+
+
+def _neighbours(count: int) -> int:
+    return min(NEIGHBOURS, count - 1)
+
+
+def _fit(values: FloatArray, seed: int, **options: Any) -> FloatArray:
     with warnings.catch_warnings():
-        # It warns that TensorFlow is missing and that a seed means one thread; both are meant to be so.
+        # It warns that TensorFlow is missing, that a seed means one thread, and that new points cannot be added
+        # to the map; all are meant to be so.
         warnings.simplefilter("ignore")
         import umap
 
         _keep_compiled_code(umap.umap_, umap.layouts, umap.utils)
-        reducer = umap.UMAP(n_neighbors=min(NEIGHBOURS, len(values) - 1), random_state=seed, n_jobs=1)
+        reducer = umap.UMAP(n_neighbors=_neighbours(len(values)), random_state=seed, n_jobs=1, **options)
         return reducer.fit_transform(values)
 
 
@@ -39,5 +65,6 @@ UMAP_METHOD = Method(
     explanation="Shapes that lie close together are alike. Groups are packed tighter than with t-SNE; the empty "
     "space between them says little about how different they are.",
     smallest=5,
+    arrange=arrange,
     embed=embed,
 )

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from sklearn.decomposition import PCA
 
-from shapeviz_report.projections import PROJECTIONS, align, project
-from shapeviz_report.projections.base import principal_components
+from shapeviz_report.projections import PROJECTIONS, align, arrange, project, squared_distances
+from shapeviz_report.projections.base import classical_scaling, principal_components
 from shapeviz_report.quality import score
 
 METHODS = pytest.mark.parametrize("method", PROJECTIONS, ids=lambda m: m.name)
@@ -73,6 +73,29 @@ def test_principal_components_against_scikit_learn(groups) -> None:
     expected = PCA(2).fit_transform(values)
     found = principal_components(values)
     assert np.abs(found) == pytest.approx(np.abs(expected))
+
+
+def test_classical_scaling_finds_the_principal_components(groups) -> None:
+    values, _ = groups
+    assert classical_scaling(squared_distances(values)) == pytest.approx(
+        principal_components(values), abs=1e-9
+    )
+    on_a_line = np.array([[0.0], [1], [2], [3], [4], [9]]) * [1, 2]
+    found = classical_scaling(squared_distances(on_a_line))
+    assert found == pytest.approx(principal_components(on_a_line), abs=1e-6)
+
+
+@METHODS
+def test_distances_that_are_all_zero(method) -> None:
+    assert (arrange(method, np.zeros((9, 9)), 0) == 0).all()
+
+
+@METHODS
+def test_many_rows_are_laid_out_by_their_values(method, groups, monkeypatch) -> None:
+    values, labels = groups
+    monkeypatch.setattr("shapeviz_report.projections.base.PAIRWISE_LIMIT", 50)
+    xy = project(method, values, (), 0).xy
+    assert score(xy, labels).nh_s > (0.8 if method.name == "pca" else 0.97)
 
 
 def test_aligning_undoes_turns_and_mirrors(groups) -> None:

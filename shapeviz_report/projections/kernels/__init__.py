@@ -1,0 +1,1 @@
+"""Compiled loops of projections: arrays in, arrays out, inputs trusted."""
