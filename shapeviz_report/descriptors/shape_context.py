@@ -11,10 +11,10 @@ from shapeviz_report.descriptors.surface import Surface
 SHELLS = (0.1, 0.3)
 """Inner limits of the distance set T = [0, 0.1, 0.3, 1], as fractions of the largest possible distance, 2."""
 
-SEEN = 4_000
-"""At most this many vertices are counted: every second, third, ... one of a larger mesh.
+SEEN = 2_000
+"""At most this many vertices are counted: every second, third, ... of a larger mesh, along a curve through space.
 
-Against counting all, that moves a share by 0.001 on average (meshes of 7,600 to 24,000 vertices)."""
+Against counting all, that moves a share by 0.0007 on average (meshes of 3,600 to 17,000 vertices)."""
 
 
 def compute(surface: Surface) -> np.ndarray:
@@ -35,8 +35,7 @@ def compute(surface: Surface) -> np.ndarray:
     """
     vertices, normals = surface.vertices, surface.normals
     tangents = frame_vertices(vertices, normals, surface.neighbours, surface.barycentre)
-    step = -(-len(vertices) // SEEN)
-    seen = np.ascontiguousarray(vertices[::step].T, dtype=np.float32)
+    seen = np.ascontiguousarray(vertices[surface.curve[:: -(-len(vertices) // SEEN)]].T, dtype=np.float32)
     limits = np.array(SHELLS, dtype=np.float32) * np.float32(2)
     frames = [np.ascontiguousarray(axis, dtype=np.float32) for axis in (*tangents, normals)]
     return count_contexts(vertices.astype(np.float32), *frames, seen, limits)

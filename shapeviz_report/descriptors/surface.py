@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -9,11 +10,36 @@ from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from shapeviz_report.descriptors.boxes import along_curve
 from shapeviz_report.descriptors.kernels.angles import gather_angles
+from shapeviz_report.descriptors.kernels.geodesics import shorten
+from shapeviz_report.descriptors.kernels.grid import find_nearest
 from shapeviz_report.types import FloatArray, IntArray, Mesh
 
 NEIGHBOURS = 30
 """k of the paper's nearest neighbours (3.3)."""
+
+CELLS = 64
+"""Parts that a surface is cut into; as many as vertices, where there are fewer."""
+
+
+@dataclass(frozen=True)
+class Cells:
+    """A surface cut into parts of about equal size.
+
+    Attributes
+    ----------
+    centres : (c,) int32 array
+        The vertex in the middle of each cell.
+    owners : (n,) int32 array
+        The cell of each vertex: that of the nearest centre, along edges.
+    distances : (n,) float64 array
+        How far that is.
+    """
+
+    centres: IntArray
+    owners: IntArray
+    distances: FloatArray
 
 
 class Surface:
@@ -69,14 +95,25 @@ class Surface:
 
     @cached_property
     def _nearest(self) -> tuple[FloatArray, IntArray]:
-        size = min(NEIGHBOURS + 1, len(self.vertices))
-        distances, indices = cKDTree(self.vertices).query(self.vertices, k=size)
-        # The vertex itself is one of the nearest, but not the first where others share its place.
-        own = indices == np.arange(len(indices))[:, None]
-        own[~own.any(axis=1), -1] = True
-        others = ~own
-        shape = (len(indices), size - 1)
-        return distances[others].reshape(shape), indices[others].reshape(shape).astype(np.int32)
+        count = len(self.vertices)
+        wanted = min(NEIGHBOURS, count - 1)
+        low = self.vertices.min(axis=0)
+        extent = self.vertices.max(axis=0) - low
+        # Cells a little wider than the neighbourhoods of an even surface; but not many more cells than vertices.
+        radius = np.sqrt(self.areas.sum() / count * (wanted + 1) / np.pi)
+        width = max(1.1 * radius, extent.max() / np.cbrt(16 * count)) or 1.0
+        cells = ((self.vertices - low) / width).astype(np.int32)
+        rows, columns, places = (int(x) for x in cells.max(axis=0) + 1)
+        keys = (cells[:, 0].astype(np.int64) * columns + cells[:, 1]) * places + cells[:, 2]
+        order = np.argsort(keys, kind="stable").astype(np.int32)
+        ends = np.concatenate([[0], np.cumsum(np.bincount(keys, minlength=rows * columns * places))])
+        # The end of each row is the start of the next one.
+        starts = np.empty((rows, columns, places + 1), np.int64)
+        starts[..., :-1] = ends[:-1].reshape(rows, columns, places)
+        starts[..., -1] = ends[places::places].reshape(rows, columns)
+        points = np.ascontiguousarray(self.vertices[order].T)
+        squared, nearest = find_nearest(points, cells[order], starts, width, order, wanted)
+        return np.sqrt(squared), nearest
 
     @property
     def neighbours(self) -> IntArray:
@@ -87,6 +124,11 @@ class Surface:
     def neighbour_distances(self) -> FloatArray:
         """(n, k) distances to :attr:`neighbours`."""
         return self._nearest[0]
+
+    @cached_property
+    def curve(self) -> np.ndarray:
+        """(n,) the vertices in an order in which near ones follow each other."""
+        return along_curve(self.vertices)
 
     @cached_property
     def barycentre(self) -> FloatArray:
@@ -111,6 +153,36 @@ class Surface:
         # An explicit edge of length zero must stay an edge: sparse matrices would keep it, sums might not.
         both = np.concatenate([edges, edges[:, ::-1]])
         return coo_matrix((np.tile(lengths, 2), (both[:, 0], both[:, 1])), (count, count)).tocsr()
+
+    @cached_property
+    def cells(self) -> Cells:
+        """The surface cut into 64 cells.
+
+        Each first source is the vertex farthest, along edges, from those before it, beginning with the one farthest
+        from the barycentre: that depends on the shape, not on how its vertices are numbered. Such sources
+        sit on tips and borders; so the vertex nearest to the mean of each one's cell takes its place.
+        """
+        graph, count = self.graph, len(self.vertices)
+        distances, owners = np.full(count, np.inf), np.zeros(count, np.int32)
+        queue, waiting = np.empty(count, np.int32), np.zeros(count, np.bool_)
+        source = int(((self.vertices - self.barycentre) ** 2).sum(axis=1).argmax())
+        size = 0
+        # Where vertices share a place there may be fewer places than cells.
+        while size < CELLS and distances[source] > 0:
+            distances[source], owners[source], queue[0] = 0.0, size, source
+            shorten(graph.indptr, graph.indices, graph.data, distances, owners, queue, 1, waiting)
+            source = int(distances.argmax())
+            size += 1
+        sizes = np.bincount(owners)
+        means = (
+            np.stack([np.bincount(owners, axis, size) for axis in self.vertices.T], axis=1) / sizes[:, None]
+        )
+        offsets = ((self.vertices - means[owners]) ** 2).sum(axis=1)
+        centres = np.lexsort((offsets, owners))[np.cumsum(sizes) - sizes].astype(np.int32)
+        distances[:] = np.inf
+        distances[centres], owners[centres], queue[:size] = 0.0, np.arange(size), centres
+        shorten(graph.indptr, graph.indices, graph.data, distances, owners, queue, size, waiting)
+        return Cells(centres, owners, distances)
 
     def _bridges(self) -> IntArray:
         count = len(self.vertices)

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from solids import ball, lump, tube
 
-from shapeviz_report.descriptors import Surface
+from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import (
     BLOCKS,
     PRESETS,
     compute_histograms,
-    compute_values,
     fixed_edges,
     load_external,
     quantile_edges,
@@ -39,7 +38,7 @@ def test_1870_columns_with_the_papers_names() -> None:
 def test_histograms_against_numpy() -> None:
     mesh = lump()
     surface = Surface(mesh)
-    values, edges = compute_values(surface), fixed_edges()
+    values, edges = np.hstack([d.compute(surface) for d in DESCRIPTORS]), fixed_edges()
     for by_area, weights in ((True, surface.areas), (False, np.ones(len(values)))):
         found = compute_histograms(mesh, edges, by_area=by_area).reshape(187, 10)
         for dimension in range(187):

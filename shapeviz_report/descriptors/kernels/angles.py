@@ -12,11 +12,11 @@ def gather_angles(vertices, faces):  # pragma: no cover - compiled
     vanishes it is the normal of the vertex's largest face, or (0, 0, 1) without any face that has an area.
     """
     count = len(vertices)
-    sums = np.zeros(count)
-    normals = np.zeros((count, 3))
-    largest = np.zeros(count)
-    fallback = np.zeros((count, 3))
+    sums, largest = np.empty(count), np.empty(count)
+    normals, fallback = np.empty((count, 3)), np.empty((count, 3))
     for v in range(count):
+        sums[v] = largest[v] = 0.0
+        normals[v, 0] = normals[v, 1] = normals[v, 2] = fallback[v, 0] = fallback[v, 1] = 0.0
         fallback[v, 2] = 1.0
     for f in range(len(faces)):
         a, b, c = faces[f, 0], faces[f, 1], faces[f, 2]
@@ -43,7 +43,7 @@ def gather_angles(vertices, faces):  # pragma: no cover - compiled
     return sums, normals
 
 
-@njit(cache=True)
+@njit
 def _spread(vertices, origin, left, right):  # pragma: no cover - compiled
     """Cross product (three numbers) and dot product of the ways from ``origin`` to two vertices."""
     lx = vertices[left, 0] - vertices[origin, 0]

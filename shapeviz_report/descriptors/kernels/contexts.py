@@ -3,6 +3,9 @@
 import numpy as np
 from numba import njit
 
+BESIDE = np.float32(1e-5)
+"""What is less than this in front of a plane counts as behind it, lest rounding decide on flat surfaces."""
+
 
 @njit(cache=True)
 def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover - compiled
@@ -63,9 +66,9 @@ def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: n
     All in float32: (n, 3) arrays and seen (3, s); the result is (n, 24).
     """
     count, size = len(vertices), seen.shape[1]
-    result = np.zeros((count, 24), np.float32)
+    result = np.empty((count, 24), np.float32)
     codes = np.empty(size, np.uint8)
-    tally = np.zeros((4, 256), np.int64)
+    tally = np.empty((4, 256), np.int64)
     inner, outer = limits[0] * limits[0], limits[1] * limits[1]
     xs, ys, zs = seen[0], seen[1], seen[2]
     for i in range(count):
@@ -77,9 +80,9 @@ def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: n
         for j in range(size):
             dx, dy, dz = xs[j] - x, ys[j] - y, zs[j] - z
             squared = dx * dx + dy * dy + dz * dz
-            code = np.uint8(ax * dx + ay * dy + az * dz > zero)
-            code |= np.uint8(bx * dx + by * dy + bz * dz > zero) << np.uint8(1)
-            code |= np.uint8(cx * dx + cy * dy + cz * dz > zero) << np.uint8(2)
+            code = np.uint8(ax * dx + ay * dy + az * dz > BESIDE)
+            code |= np.uint8(bx * dx + by * dy + bz * dz > BESIDE) << np.uint8(1)
+            code |= np.uint8(cx * dx + cy * dy + cz * dz > BESIDE) << np.uint8(2)
             code += np.uint8(squared > inner) << np.uint8(3)
             code += np.uint8(squared > outer) << np.uint8(3)
             codes[j] = code + (np.uint8(squared == zero) << np.uint8(5))
@@ -97,7 +100,7 @@ def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: n
         for code in range(24):
             tally[0, code] += tally[1, code] + tally[2, code] + tally[3, code]
             others += tally[0, code]
-        if others > 0:
-            for code in range(24):
-                result[i, code] = tally[0, code] / others
+        share = 1.0 / others if others > 0 else 0.0
+        for code in range(24):
+            result[i, code] = tally[0, code] * share
     return result

@@ -1,125 +1,191 @@
-"""Point pairs in neighbourhoods: the angles of Eq. 5 and their histograms."""
+"""Point pairs in neighbourhoods: the angles of Eq. 5 and their histograms.
+
+Angles are compared with the limits of the bins by products and square roots alone, in float32 and without
+branches, so that a processor does many pairs at once. Rounding may move a pair within 1e-5 of a limit into the
+bin next to it.
+"""
 
 import numpy as np
 from numba import njit
 
-TAN_36 = np.tan(np.pi / 5)
-TAN_72 = np.tan(2 * np.pi / 5)
+WIDTH = 16
+"""Pairs are treated in rows of a multiple of this many, which fill vector registers."""
+
+SMALLEST = np.float32(1e-5)
+"""Sines below this count as this: where d is parallel to u there is no v, and alpha becomes 0.
+
+Also the least w . n that counts as positive: opposite normals have theta = -pi, whatever the rounding."""
+
+FIFTH = np.tan(np.pi * np.arange(1, 5, 2) / 5).astype(np.float32)
+"""Tangents of the limits between fifths of the circle: 36 and 108 degrees."""
+
+ELEVENTH = np.tan(np.pi * np.arange(1, 11, 2) / 11).astype(np.float32)
+"""Tangents of the limits between elevenths of the circle: 16.4, 49.1, 81.8, 114.5 and 147.3 degrees."""
 
 
-@njit(cache=True, error_model="numpy")
-def _relate(vertices, normals, i, j):  # pragma: no cover - compiled
-    """What both directions of a pair need: m . d / |d|, n . d / |d|, m . n, (m x n) . d / |d|.
+@njit(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def _relate(dx, dy, dz, mx, my, mz, nx, ny, nz):  # pragma: no cover - compiled
+    """What the angles of a pair are made of, from d between its points and their normals m and n.
 
-    d leads from vertex i with normal m to vertex j with normal n.
+    With d of length one, or zero: m . d, n . d, m . n, (d x m) . n, |d x m|, |d x n|. With u = m,
+    v = d x m / |d x m| and w = m x v (Eq. 4)
+
+        alpha = v . n = (d x m) . n / |d x m|
+        phi   = m . d
+        theta = arctan2(w . n, m . n),  w . n = (n . d - (m . d)(m . n)) / |d x m|
+
+    From the other end -n . d and -m . d take the places of m . d and n . d, and the rest stays.
     """
-    dx, dy, dz = (
-        vertices[j, 0] - vertices[i, 0],
-        vertices[j, 1] - vertices[i, 1],
-        vertices[j, 2] - vertices[i, 2],
-    )
-    mx, my, mz = normals[i, 0], normals[i, 1], normals[i, 2]
-    nx, ny, nz = normals[j, 0], normals[j, 1], normals[j, 2]
-    length = np.sqrt(dx * dx + dy * dy + dz * dz)
-    inverse = 1.0 / length if length > 0.0 else 0.0
+    squared = dx * dx + dy * dy + dz * dz
+    inverse = np.float32(1.0) / np.sqrt(squared) if squared > np.float32(0.0) else np.float32(0.0)
     dx, dy, dz = dx * inverse, dy * inverse, dz * inverse
-    volume = (my * nz - mz * ny) * dx + (mz * nx - mx * nz) * dy + (mx * ny - my * nx) * dz
-    along_m = mx * dx + my * dy + mz * dz
-    along_n = nx * dx + ny * dy + nz * dz
-    return along_m, along_n, mx * nx + my * ny + mz * nz, volume
+    cx, cy, cz = dy * mz - dz * my, dz * mx - dx * mz, dx * my - dy * mx
+    ex, ey, ez = dy * nz - dz * ny, dz * nx - dx * nz, dx * ny - dy * nx
+    return (
+        mx * dx + my * dy + mz * dz,
+        nx * dx + ny * dy + nz * dz,
+        mx * nx + my * ny + mz * nz,
+        cx * nx + cy * ny + cz * nz,
+        max(SMALLEST, np.sqrt(cx * cx + cy * cy + cz * cz)),
+        max(SMALLEST, np.sqrt(ex * ex + ey * ey + ez * ez)),
+    )
 
 
-@njit(cache=True, error_model="numpy")
-def _angles(along_m, along_n, agreement, volume):  # pragma: no cover - compiled
-    """alpha, and the first argument of theta's arctangent; the second is ``agreement``, phi is ``along_m``.
+@njit(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def _fifth(value, whole):  # pragma: no cover - compiled
+    """Which fifth of [-whole, whole] a value lies in, 0 to 4."""
+    outer, inner = np.float32(0.6) * whole, np.float32(0.2) * whole
+    return (
+        np.int32(value >= -outer)
+        + np.int32(value >= -inner)
+        + np.int32(value > inner)
+        + np.int32(value > outer)
+    )
 
-    With u = m, v = d x m / |d x m| and w = m x v (Eq. 4), |d x m|^2 = 1 - (m . d)^2 for unit d, and
-    alpha = v . n = (m x n) . d / |d x m|, w . n = (n . d - (m . d)(m . n)) / |d x m|. Where d is parallel to m, or
-    zero, v is taken as zero. From j to i, -n . d and -m . d change places and the rest stays.
-    """
-    squared = 1.0 - along_m * along_m
-    scale = 1.0 / np.sqrt(squared) if squared > 1e-12 else 0.0
-    return volume * scale, (along_n - along_m * agreement) * scale
 
-
-@njit(cache=True, error_model="numpy")
-def _cell(along_m, along_n, agreement, volume):  # pragma: no cover - compiled
+@njit(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def _cell(along_m, along_n, agreement, volume, sine):  # pragma: no cover - compiled
     """The cell of PFH for one direction of a pair: ``25 * alpha + 5 * phi + theta``, fifths of each."""
-    alpha, y = _angles(along_m, along_n, agreement, volume)
-    a = np.int32(min(4.0, max(0.0, (alpha + 1.0) * 2.5)))
-    p = np.int32(min(4.0, max(0.0, (along_m + 1.0) * 2.5)))
-    # Fifths of the circle by comparing with tangents: no arctangent, and no branch to guess.
-    height = abs(y)
-    beyond_first = np.int32(height >= agreement * TAN_36)
-    beyond_second = np.int32(height <= -agreement * TAN_72)
-    t = np.int32(2) + (beyond_first + beyond_second) * (np.int32(2) * np.int32(y > 0.0) - np.int32(1))
-    return np.int32(25) * a + np.int32(5) * p + t
+    y, x = along_n - along_m * agreement, agreement * sine
+    beyond = np.int32(abs(y) >= x * FIFTH[0]) + np.int32(abs(y) <= x * FIFTH[1])
+    side = np.int32(2) * np.int32(y > SMALLEST * sine) - np.int32(1)
+    theta = np.int32(2) + side * beyond
+    alpha, phi = _fifth(volume, sine), _fifth(along_m, np.float32(1.0))
+    return np.int32(25) * alpha + np.int32(5) * phi + theta
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """Share of the ordered pairs of each neighbourhood in 5 x 5 x 5 cells of (alpha, phi, theta).
 
-    Alpha and phi over [-1, 1], theta over [-pi, pi].
+    Alpha and phi over [-1, 1], theta over [-pi, pi]. (n, 125) float32.
     """
     count, size = neighbours.shape
-    result = np.zeros((count, 125), np.float32)
-    points = np.empty((size, 3))
-    directions = np.empty((size, 3))
-    forward = np.empty(size, np.int32)
-    backward = np.empty(size, np.int32)
-    tally = np.empty(125, np.int32)
+    width = -(-size // WIDTH) * WIDTH
+    result = np.empty((count, 125), np.float32)
+    # The neighbourhood twice over: its pairs are then each row of points with a later row.
+    x, y, z = (
+        np.empty(2 * width, np.float32),
+        np.empty(2 * width, np.float32),
+        np.empty(2 * width, np.float32),
+    )
+    u, v, w = (
+        np.empty(2 * width, np.float32),
+        np.empty(2 * width, np.float32),
+        np.empty(2 * width, np.float32),
+    )
+    forward, backward = np.empty(width, np.int32), np.empty(width, np.int32)
+    tally = np.empty((4, 125), np.int32)
+    share = np.float32(1.0 / (size * (size - 1)))
+    for i in range(count):
+        for s in range(2 * width):
+            j = neighbours[i, s % size]
+            x[s], y[s], z[s] = (
+                vertices[j, 0] - vertices[i, 0],
+                vertices[j, 1] - vertices[i, 1],
+                vertices[j, 2] - vertices[i, 2],
+            )
+            u[s], v[s], w[s] = normals[j, 0], normals[j, 1], normals[j, 2]
+        for cell in range(125):
+            tally[0, cell] = tally[1, cell] = tally[2, cell] = tally[3, cell] = 0
+        for apart in range(1, size // 2 + 1):
+            for s in range(width):
+                t = s + apart
+                along_m, along_n, agreement, volume, sine_m, sine_n = _relate(
+                    x[t] - x[s], y[t] - y[s], z[t] - z[s], u[s], v[s], w[s], u[t], v[t], w[t]
+                )
+                forward[s] = _cell(along_m, along_n, agreement, volume, sine_m)
+                backward[s] = _cell(-along_n, -along_m, agreement, volume, sine_n)
+            # Four tallies in turn: consecutive equal cells would wait for each other in one.
+            pairs = size if 2 * apart < size else apart
+            for s in range(0, pairs - 1, 2):
+                tally[0, forward[s]] += 1
+                tally[1, backward[s]] += 1
+                tally[2, forward[s + 1]] += 1
+                tally[3, backward[s + 1]] += 1
+            if pairs % 2:
+                tally[0, forward[pairs - 1]] += 1
+                tally[1, backward[pairs - 1]] += 1
+        for cell in range(125):
+            pairs = tally[0, cell] + tally[1, cell] + tally[2, cell] + tally[3, cell]
+            result[i, cell] = np.float32(pairs) * share
+    return result
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
+    """Share of the pairs (vertex, neighbour) in 11 bins each of alpha, phi and theta: (n, 33) float32."""
+    count, size = neighbours.shape
+    result = np.empty((count, 33), np.float32)
+    bins = np.empty((3, size), np.int32)
+    x, y, z = np.empty(size, np.float32), np.empty(size, np.float32), np.empty(size, np.float32)
+    u, v, w = np.empty(size, np.float32), np.empty(size, np.float32), np.empty(size, np.float32)
+    share = np.float32(1.0 / size)
+    half, one, last = np.float32(5.5), np.float32(1.0), np.float32(10.0)
     for i in range(count):
         for s in range(size):
             j = neighbours[i, s]
-            for x in range(3):
-                points[s, x] = vertices[j, x]
-                directions[s, x] = normals[j, x]
-        for cell in range(125):
-            tally[cell] = 0
+            x[s], y[s], z[s] = (
+                vertices[j, 0] - vertices[i, 0],
+                vertices[j, 1] - vertices[i, 1],
+                vertices[j, 2] - vertices[i, 2],
+            )
+            u[s], v[s], w[s] = normals[j, 0], normals[j, 1], normals[j, 2]
+        p, q, r = np.float32(normals[i, 0]), np.float32(normals[i, 1]), np.float32(normals[i, 2])
         for s in range(size):
-            for t in range(s):
-                along_m, along_n, agreement, volume = _relate(points, directions, s, t)
-                forward[t] = _cell(along_m, along_n, agreement, volume)
-                backward[t] = _cell(-along_n, -along_m, agreement, volume)
-            for t in range(s):
-                tally[forward[t]] += 1
-                tally[backward[t]] += 1
-        for cell in range(125):
-            result[i, cell] = tally[cell] / (size * (size - 1))
-    return result
-
-
-@njit(cache=True, error_model="numpy")
-def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
-    """Share of the pairs (vertex, neighbour) in 11 bins each of alpha, phi and theta: (n, 33)."""
-    count, size = neighbours.shape
-    result = np.zeros((count, 33), np.float32)
-    one = np.float32(1.0)
-    for i in range(count):
-        for s in range(size):
-            phi, along_n, agreement, volume = _relate(vertices, normals, i, neighbours[i, s])
-            alpha, y = _angles(phi, along_n, agreement, volume)
-            theta = np.arctan2(y, agreement)
-            result[i, min(10, max(0, int((alpha + 1.0) * 5.5)))] += one
-            result[i, 11 + min(10, max(0, int((phi + 1.0) * 5.5)))] += one
-            result[i, 22 + min(10, max(0, int((theta / np.pi + 1.0) * 5.5)))] += one
+            phi, along_n, agreement, volume, sine, _ = _relate(x[s], y[s], z[s], p, q, r, u[s], v[s], w[s])
+            height, side = along_n - phi * agreement, agreement * sine
+            beyond = np.int32(abs(height) >= side * ELEVENTH[0]) + np.int32(abs(height) >= side * ELEVENTH[1])
+            beyond += np.int32(abs(height) >= side * ELEVENTH[2]) + np.int32(
+                abs(height) <= side * ELEVENTH[3]
+            )
+            beyond += np.int32(abs(height) <= side * ELEVENTH[4])
+            turn = np.int32(2) * np.int32(height > SMALLEST * sine) - np.int32(1)
+            bins[0, s] = np.int32(min(last, (volume / sine + one) * half))
+            bins[1, s] = np.int32(11) + np.int32(min(last, (phi + one) * half))
+            bins[2, s] = np.int32(27) + turn * beyond
         for b in range(33):
-            result[i, b] /= np.float32(size)
+            result[i, b] = np.float32(0.0)
+        for s in range(size):
+            for group in range(3):
+                result[i, bins[group, s]] += share
     return result
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def average_spfh(spfh, neighbours, distances, floor):  # pragma: no cover - compiled
     """Eq. 6: each SPFH plus the mean of its neighbours', weighted by one over their distance.
 
     Distances below ``floor`` count as ``floor``.
     """
     count, size = neighbours.shape
-    result = spfh.copy()
+    result = np.empty((count, 33), np.float32)
     for i in range(count):
+        for b in range(33):
+            result[i, b] = spfh[i, b]
         for s in range(size):
             weight = np.float32(1.0 / (size * max(distances[i, s], floor)))
-            for b in range(spfh.shape[1]):
-                result[i, b] += weight * spfh[neighbours[i, s], b]
+            j = neighbours[i, s]
+            for b in range(33):
+                result[i, b] += weight * spfh[j, b]
     return result

@@ -31,7 +31,7 @@ def test_a_torus_is_as_thick_as_its_tube() -> None:
 
 
 def test_geodesic_distance_on_a_grid_with_diagonals() -> None:
-    size = 10
+    size = 8
     column, row = np.meshgrid(np.arange(size), np.arange(size))
     across = column.ravel()[:, None] - column.ravel()
     along = row.ravel()[:, None] - row.ravel()

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse.csgraph import dijkstra
-from solids import ball, lump, rotation, sheet, torus, tube
+from scipy.spatial import cKDTree
+from solids import ball, from_trimesh, lump, rotation, sheet, torus, tube
 
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
-from shapeviz_report.descriptors.geodesic_distance import SOURCES
-from shapeviz_report.descriptors.shape_context import SHELLS
+from shapeviz_report.descriptors.shape_context import SEEN, SHELLS
+from shapeviz_report.descriptors.surface import CELLS
 from shapeviz_report.mesh import normalise
 from shapeviz_report.types import Mesh
 
@@ -20,6 +22,40 @@ BY_NAME = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
 
 def compute(name: str, mesh: Mesh) -> np.ndarray:
     return np.asarray(BY_NAME[name].compute(Surface(mesh)))
+
+
+# What descriptors share
+
+
+@pytest.mark.parametrize("name", ["even", "crowded", "doubled", "few"])
+def test_neighbours_against_a_tree(name) -> None:
+    random = np.random.default_rng(0)
+    vertices = {
+        "even": lump().vertices,
+        # Nine tenths in a thousandth of the width, and two far off.
+        "crowded": np.concatenate(
+            [random.normal(size=(300, 3)), 1e-3 * random.normal(size=(2700, 3)), [[50, 0, 0]]]
+        ),
+        "doubled": np.repeat(lump().vertices, 2, axis=0),
+        "few": random.normal(size=(7, 3)),
+    }[name]
+    surface = Surface(Mesh(vertices, np.array([[0, 1, 2]], np.int32)))
+    size = min(30, len(vertices) - 1)
+    distances, indices = cKDTree(vertices).query(vertices, k=size + 1)
+    assert np.sort(surface.neighbour_distances, axis=1) == pytest.approx(distances[:, 1:], abs=1e-12)
+    assert surface.neighbours.shape == (len(vertices), size)
+    assert (surface.neighbours != np.arange(len(vertices))[:, None]).all()
+    assert (np.diff(np.sort(surface.neighbours, axis=1)) > 0).all()
+    if name != "doubled":
+        assert (np.sort(surface.neighbours, axis=1) == np.sort(indices[:, 1:], axis=1)).all()
+
+
+def test_cells_are_those_of_the_nearest_centre() -> None:
+    surface = Surface(lump())
+    lengths = dijkstra(surface.graph, directed=False, indices=surface.cells.centres)
+    assert surface.cells.distances == pytest.approx(lengths.min(axis=0))
+    assert lengths[surface.cells.owners, np.arange(642)] == pytest.approx(surface.cells.distances)
+    assert np.bincount(surface.cells.owners).max() < 3 * 642 / CELLS
 
 
 # Gaussian curvature
@@ -52,14 +88,14 @@ def test_geodesic_distance_against_all_pairs() -> None:
     surface = Surface(lump())
     exact = dijkstra(surface.graph, directed=False).mean(axis=1)
     estimate = BY_NAME["Agd"].compute(surface)[:, 0]
-    assert len(surface.vertices) > 5 * SOURCES
+    assert len(surface.vertices) > 5 * CELLS
     assert np.abs(estimate - exact).mean() < 0.003 * exact.mean()
     assert np.abs(estimate - exact).max() < 0.02 * exact.mean()
 
 
 def test_geodesic_distance_of_few_vertices_is_exact() -> None:
     surface = Surface(ball(1))
-    assert len(surface.vertices) <= SOURCES
+    assert len(surface.vertices) <= CELLS
     exact = dijkstra(surface.graph, directed=False).mean(axis=1)
     assert BY_NAME["Agd"].compute(surface)[:, 0] == pytest.approx(exact)
 
@@ -139,7 +175,22 @@ def test_angle_of_a_flat_sheet() -> None:
 def test_context_against_slow_counting() -> None:
     mesh = lump()
     surface = Surface(mesh)
-    assert compute("Sc", mesh) == pytest.approx(slow_context(surface), abs=2.5 / len(mesh.vertices))
+    assert compute("Sc", mesh) == pytest.approx(
+        slow_context(surface, range(642)), abs=2.5 / len(mesh.vertices)
+    )
+
+
+def test_context_counting_a_sample() -> None:
+    mesh = Mesh(lump().vertices, lump().faces)
+    fine = from_trimesh(trimesh.Trimesh(mesh.vertices, mesh.faces).subdivide().subdivide())
+    surface = Surface(fine)
+    assert len(fine.vertices) > 5 * SEEN
+    chosen = slice(0, None, 97)
+    difference = np.abs(
+        compute("Sc", fine)[chosen] - slow_context(surface, range(*chosen.indices(len(fine.vertices))))
+    )
+    assert difference.mean() < 1e-3
+    assert difference.max() < 0.03
 
 
 def test_context_of_a_tube_end_lies_behind_it() -> None:
@@ -150,10 +201,11 @@ def test_context_of_a_tube_end_lies_behind_it() -> None:
     assert values.sum(axis=1) == pytest.approx(1)
 
 
-def slow_context(surface: Surface) -> np.ndarray:
+def slow_context(surface: Surface, chosen: range) -> np.ndarray:
     centre = surface.vertices.mean(axis=0)
-    result = np.zeros((len(surface.vertices), 24))
-    for i, x in enumerate(surface.vertices):
+    result = np.zeros((len(chosen), 24))
+    for row, i in enumerate(chosen):
+        x = surface.vertices[i]
         normal = surface.normals[i]
         plane = np.eye(3) - np.outer(normal, normal)
         patch = (surface.vertices[surface.neighbours[i]] - x) @ plane
@@ -164,7 +216,7 @@ def slow_context(surface: Surface) -> np.ndarray:
         distance = np.linalg.norm(others, axis=1) / 2
         shell = np.searchsorted(SHELLS, distance)
         octant = sum((others @ axis > 0) * 2**bit for bit, axis in enumerate([*tangents, normal]))
-        result[i] = np.bincount(8 * shell + octant, minlength=24) / len(others)
+        result[row] = np.bincount(8 * shell + octant, minlength=24) / len(others)
     return result
 
 
