@@ -16,6 +16,8 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from shapeviz_report.errors import CacheError
+
 
 def default_root() -> Path:
     """Where results are kept unless told otherwise: below ``$XDG_CACHE_HOME`` or ``~/.cache``."""
@@ -75,6 +77,22 @@ class Cache:
             return self.path(stage, key).read_bytes()
         except FileNotFoundError:
             return None
+
+    def demand(self, stage: str, key: str) -> bytes:
+        """The content of an entry that was there a moment ago.
+
+        Raises
+        ------
+        CacheError
+            It has gone.
+        """
+        content = self.load(stage, key)
+        if content is None:
+            raise CacheError(
+                f"A result vanished from the cache {self.root} while it was needed. Build again; two builds can "
+                "share a cache, but nobody may empty it meanwhile."
+            )
+        return content
 
     def store(self, stage: str, key: str, content: bytes) -> None:
         """Write an entry, whole or not at all."""

@@ -99,7 +99,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     _add_destination(demo)
-    _add_options(demo, ["preset", "seed", "jobs", "cache"])
+    _add_options(demo, ["preset", "seed", "jobs", "scheduler", "cache"])
     demo.set_defaults(command=_demo)
 
     check = commands.add_parser(
@@ -112,7 +112,7 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument(
         "--list", action="store_true", help="print the id of every shape, in order, and no more"
     )
-    _add_options(check, ["layout", "labeling", "external", "time_limit", "jobs"])
+    _add_options(check, ["layout", "labeling", "external", "time_limit", "jobs", "cache"])
     check.set_defaults(command=_check)
     return parser
 

@@ -62,6 +62,12 @@ class Config:
     seed: int = _option(0, "seed of everything random", "N")
     time_limit: float = _option(300.0, "seconds that one mesh may take in one stage", "SECONDS")
     jobs: int | None = _option(None, "number of worker processes; by default one a core", "N")
+    scheduler: str | None = _option(
+        None,
+        "compute on a running Dask cluster, by the address of its scheduler such as tcp://host:8786, instead of in "
+        "worker processes of this machine",
+        "ADDRESS",
+    )
     cache: Path | None = _option(None, "where results are kept between builds", "FOLDER")
 
     def __post_init__(self) -> None:
@@ -69,6 +75,10 @@ class Config:
             raise ConfigError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset!r}")
         if self.up not in (None, "y", "z"):
             raise ConfigError(f"up must be y or z, not {self.up!r}")
+        if self.scheduler is not None and self.jobs is not None:
+            raise ConfigError(
+                "jobs is the number of processes on this machine; with a scheduler there are none"
+            )
         for name, low, high in (
             ("neighbours", 1, 10_000),
             ("edge_length", 0.002, 0.1),
@@ -88,7 +98,7 @@ class Config:
 
     def as_parameters(self) -> dict[str, object]:
         """The options that shape the result, as JSON values; not where and how fast it was computed."""
-        left_out = {"title", "jobs", "cache", "time_limit"}
+        left_out = {"title", "jobs", "scheduler", "cache", "time_limit"}
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
         return values | {"external": [path.name for path in self.external]}
 

@@ -26,5 +26,13 @@ class RenderError(ShapevizError):
     """Pictures cannot be made on this machine (OSMesa is missing, for instance)."""
 
 
+class CacheError(ShapevizError):
+    """The folder of kept results was changed by somebody else."""
+
+
+class ClusterError(ShapevizError):
+    """A Dask cluster that cannot be used, or no longer."""
+
+
 class SiteError(ShapevizError):
     """The site cannot be written where it was asked for."""

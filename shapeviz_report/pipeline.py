@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import platform
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
@@ -15,11 +15,11 @@ from typing import Any, Protocol
 import numpy as np
 
 from shapeviz_report import demo, stages
-from shapeviz_report.cache import default_root
+from shapeviz_report.cache import Cache, default_root, write_atomically
 from shapeviz_report.config import Config
 from shapeviz_report.database import read_database
-from shapeviz_report.errors import ConfigError, DatabaseError
-from shapeviz_report.executor import LocalExecutor
+from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
+from shapeviz_report.executor import Executor, LocalExecutor
 from shapeviz_report.features import (
     BLOCKS,
     PRESETS,
@@ -28,6 +28,7 @@ from shapeviz_report.features import (
     quantile_edges,
     scale,
 )
+from shapeviz_report.mesh import collect_files, content_hash
 from shapeviz_report.projections import PROJECTIONS, align
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
@@ -42,7 +43,6 @@ from shapeviz_report.types import (
     Quality,
     Report,
     ShapeEntry,
-    ShapeFacts,
 )
 
 logger = logging.getLogger(__name__)
@@ -150,39 +150,46 @@ def build_report(
             database_path, layout=config.layout, labeling=config.labeling, name=config.title
         )
         external = _load_external(config.external, len(database.shapes))
-    cache_root = (config.cache or default_root()).absolute()
+    cache = Cache((config.cache or default_root()).absolute())
     failures = list(database.failures)
     preset = PRESETS[config.preset]
 
-    with LocalExecutor(config.worker_count, config.time_limit) as executor:
-        run = _Runner(executor, clock, database, failures)
-        prepared: dict[str, tuple[str, ShapeFacts]] = run(
-            "prepare",
-            stages.prepare_shape,
-            {s.id: (s.path.absolute(), config.edge_length, cache_root) for s in database.shapes},
-        )
+    with open_executor(config) as executor:
+        run = _Runner(executor, clock, cache, database, failures)
+        paths = {s.id: s.path.absolute() for s in database.shapes}
+
+        def plan_preparing(shape: str) -> _Task:
+            files = collect_files(paths[shape])
+            key = stages.PREPARE.key(_identity(paths[shape], files), config.edge_length)
+            return _Task(key, lambda: (files, config.edge_length))
+
+        prepared = run("prepare", stages.PREPARE, paths, plan_preparing, stages.read_facts)
+
+        def plan(stage: stages.Stage, *options: Any) -> Callable[[str], _Task]:
+            """The tasks of a stage that starts from the prepared mesh."""
+
+            def plan_one(shape: str) -> _Task:
+                source = prepared[shape].key
+                key = stage.key(source, *(o.tobytes() if isinstance(o, np.ndarray) else o for o in options))
+                return _Task(key, lambda: (cache.demand(stages.PREPARE.folder, source), *options))
+
+            return plan_one
+
         if preset.fixed_ranges:
             edges = fixed_edges()
         else:
             share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), 16, 1000))
-            samples = run(
-                "sample",
-                stages.sample_shape,
-                {shape: (key, share, cache_root) for shape, (key, _) in prepared.items()},
-            )
-            edges = quantile_edges(list(samples.values())) if samples else fixed_edges()
-        described: dict[str, FloatArray] = run(
+            samples = run("sample", stages.SAMPLE, prepared, plan(stages.SAMPLE, share), stages.read_array)
+            edges = quantile_edges([s.value for s in samples.values()]) if samples else fixed_edges()
+        described = run(
             "describe",
-            stages.describe_shape,
-            {shape: (key, edges, preset.by_area, cache_root) for shape, (key, _) in prepared.items()},
+            stages.DESCRIBE,
+            prepared,
+            plan(stages.DESCRIBE, edges, preset.by_area),
+            stages.read_array,
         )
-        pictures: dict[str, bytes] = run(
-            "render",
-            stages.render_shape,
-            {
-                shape: (prepared[shape][0], config.thumbnail_size, config.up, cache_root)
-                for shape in described
-            },
+        pictures = run(
+            "render", stages.RENDER, described, plan(stages.RENDER, config.thumbnail_size, config.up), bytes
         )
         shapes = tuple(s for s in database.shapes if s.id in pictures)
         if not shapes:
@@ -191,7 +198,9 @@ def build_report(
         features = FeatureTable(
             tuple(s.id for s in shapes),
             BLOCKS + tuple(block for block, _ in external),
-            np.column_stack([[described[s.id] for s in shapes], *(values[rows] for _, values in external)]),
+            np.column_stack(
+                [[described[s.id].value for s in shapes], *(values[rows] for _, values in external)]
+            ),
         )
         projections = _project(run, features, scale(features, preset), config.seed)
 
@@ -205,8 +214,8 @@ def build_report(
     report = Report(
         database=database,
         shapes=shapes,
-        facts=tuple(prepared[s.id][1] for s in shapes),
-        thumbnails=tuple(pictures[s.id] for s in shapes),
+        facts=tuple(prepared[s.id].value for s in shapes),
+        thumbnails=tuple(pictures[s.id].value for s in shapes),
         labeling=labeling,
         labels=labels,
         features=features,
@@ -228,19 +237,17 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
     check_destination(destination)
     check_renderer()
     progress = progress or QuietProgress()
-    folder = f"{stages.demo_version()}-{config.seed}"
-    root = (config.cache or default_root()).absolute() / "demo" / folder
-    tasks = [(root, c.name, i, config.seed) for c in demo.CLASSES for i in range(demo.PER_CLASS)]
-    with (
-        LocalExecutor(config.worker_count, config.time_limit) as executor,
-        progress.stage("generate", len(tasks)) as advance,
-    ):
-        for outcome in executor.run(stages.generate_shape, tasks):
-            if outcome.reason is not None:
-                raise DatabaseError(
-                    f"The demo shape {tasks[outcome.index][1:]} cannot be made: {outcome.reason}."
-                )
-            advance()
+    root = (config.cache or default_root()).absolute() / "demo" / f"{stages.GENERATE.version}-{config.seed}"
+    all_tasks = [(c.name, i, config.seed) for c in demo.CLASSES for i in range(demo.PER_CLASS)]
+    tasks = [task for task in all_tasks if not demo.shape_path(root, *task[:2]).exists()]
+    if tasks:
+        with open_executor(config) as executor, progress.stage("generate", len(tasks)) as advance:
+            for outcome in executor.run(stages.generate_shape, tasks):
+                task = tasks[outcome.index]
+                if outcome.reason is not None:
+                    raise DatabaseError(f"The demo shape {task} cannot be made: {outcome.reason}.")
+                write_atomically(demo.shape_path(root, *task[:2]), outcome.value)
+                advance()
     config = replace(config, title=config.title or "Demo shapes", up="z")
     return build_report(root, destination, config, progress)
 
@@ -254,41 +261,140 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         )
         _load_external(config.external, len(database.shapes))
     failures = list(database.failures)
+    cache = Cache((config.cache or default_root()).absolute())
     with LocalExecutor(config.worker_count, config.time_limit) as executor:
-        run = _Runner(executor, clock, database, failures)
-        repairs = run("check", stages.examine_shape, {s.id: (s.path.absolute(),) for s in database.shapes})
+        run = _Runner(executor, clock, cache, database, failures)
+        paths = {s.id: s.path.absolute() for s in database.shapes}
+
+        def plan(shape: str) -> _Task:
+            files = collect_files(paths[shape])
+            return _Task(stages.EXAMINE.key(_identity(paths[shape], files)), lambda: (files,))
+
+        examined = run("check", stages.EXAMINE, paths, plan, stages.read_repairs)
+    repairs = {shape: result.value for shape, result in examined.items()}
     return CheckResult(database, repairs, tuple(failures))
 
 
+@contextmanager
+def open_executor(config: Config) -> Iterator[Executor]:
+    """The executor that a build is to use: the Dask cluster it names, or processes of this machine."""
+    if config.scheduler is None:
+        with LocalExecutor(config.worker_count, config.time_limit) as local:
+            yield local
+        return
+    from shapeviz_report.executor.cluster import DaskExecutor
+
+    with DaskExecutor(config.scheduler, config.time_limit, stages.fingerprint, check_renderer) as cluster:
+        yield cluster
+
+
+@dataclass(frozen=True)
+class _Task:
+    """What a stage has to do for one shape.
+
+    Attributes
+    ----------
+    key : str
+        Of the result, in the cache.
+    arguments : callable
+        Gives the arguments of the stage's function; called only if there is no result yet.
+    """
+
+    key: str
+    arguments: Callable[[], tuple[Any, ...]]
+
+
+@dataclass(frozen=True)
+class _Result:
+    """What a stage found for one shape, and the key under which the cache has it."""
+
+    key: str
+    value: Any
+
+
 class _Runner:
-    """Runs one stage for many shapes and turns what goes wrong into failures."""
+    """Runs one stage for many shapes, keeps what it finds, and turns what goes wrong into failures."""
 
     def __init__(
-        self, executor: LocalExecutor, clock: Clock, database: Database, failures: list[Failure]
+        self, executor: Executor, clock: Clock, cache: Cache, database: Database, failures: list[Failure]
     ) -> None:
         self.executor = executor
         self.clock = clock
+        self._cache = cache
         self._paths = {s.id: _relative(s, database.root) for s in database.shapes}
         self._failures = failures
 
     def __call__(
-        self, name: str, function: Callable[..., Any], tasks: dict[str, tuple[Any, ...]]
-    ) -> dict[str, Any]:
-        """Call ``function`` once a shape; the results by shape id, in the order of ``tasks``."""
-        ids = list(tasks)
-        results: dict[str, Any] = {}
-        failed: dict[str, Failure] = {}
-        with self.clock.stage(name, len(ids)) as step:
-            for outcome in self.executor.run(function, list(tasks.values())):
-                shape = ids[outcome.index]
-                if outcome.reason is None:
-                    results[shape] = outcome.value
+        self,
+        name: str,
+        stage: stages.Stage,
+        shapes: Iterable[str],
+        plan: Callable[[str], _Task],
+        read: Callable[[bytes], Any],
+    ) -> dict[str, _Result]:
+        """Find the results of a stage in the cache, or have them computed.
+
+        Parameters
+        ----------
+        name : str
+            Of the stage, as people see it.
+        stage : Stage
+        shapes : iterable of str
+            Their ids.
+        plan : callable
+            The task of a shape; called when its turn comes. May raise :class:`MeshError`.
+        read : callable
+            Turns a kept result into a value. May raise :class:`MeshError`.
+
+        Returns
+        -------
+        dict of str to _Result
+            By shape id, in the order of ``shapes``; those that failed are missing.
+        """
+        ids = list(shapes)
+        keys: list[tuple[str, str]] = []  # Shape and key of each task that is not in the cache.
+        results: dict[str, _Result] = {}
+        failed: dict[str, str] = {}
+
+        def take(shape: str, key: str, content: bytes) -> None:
+            try:
+                results[shape] = _Result(key, read(content))
+            except MeshError as error:
+                failed[shape] = str(error)
+
+        def open_tasks() -> Iterator[tuple[Any, ...]]:
+            for shape in ids:
+                try:
+                    task = plan(shape)
+                except MeshError as error:
+                    failed[shape] = str(error)
+                    step(0.0)
+                    continue
+                content = self._cache.load(stage.folder, task.key)
+                if content is None:
+                    keys.append((shape, task.key))
+                    yield task.arguments()
                 else:
-                    failed[shape] = Failure(self._paths[shape], name, outcome.reason)
+                    take(shape, task.key, content)
+                    step(0.0)
+
+        with self.clock.stage(name, len(ids)) as step:
+            for outcome in self.executor.run(stage.function, open_tasks()):
+                shape, key = keys[outcome.index]
+                if outcome.reason is None:
+                    self._cache.store(stage.folder, key, outcome.value)
+                    take(shape, key, outcome.value)
+                else:
+                    failed[shape] = outcome.reason
                 step(outcome.cpu_seconds)
         # Workers finish in any order; the report must not show which.
-        self._failures.extend(failed[shape] for shape in ids if shape in failed)
+        self._failures.extend(Failure(self._paths[i], name, failed[i]) for i in ids if i in failed)
         return {shape: results[shape] for shape in ids if shape in results}
+
+
+def _identity(path: Path, files: Mapping[str, bytes]) -> str:
+    """What of a mesh file decides how it is read: its format and its content."""
+    return f"{path.suffix.lower()} {content_hash(files)}"
 
 
 def _project(run: _Runner, features: FeatureTable, values: FloatArray, seed: int) -> dict[str, Projection]:

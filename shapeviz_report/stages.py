@@ -1,96 +1,98 @@
-"""What a worker process does for one shape: find the result in the cache, or compute it and keep it."""
+"""What is computed for one shape: functions for worker processes, and under which keys their results are kept.
+
+The functions take and return bytes and numbers. They know neither the database's folder nor the cache, so a
+worker may be on any machine.
+"""
 
 from __future__ import annotations
 
 import io
 import json
-from dataclasses import asdict
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from shapeviz_report import demo
-from shapeviz_report.cache import Cache, code_version, make_key
+from shapeviz_report.cache import code_version, make_key
 from shapeviz_report.errors import MeshError
 from shapeviz_report.features import compute_histograms, sample_values
-from shapeviz_report.mesh import clean, content_hash, prepare, read_mesh
+from shapeviz_report.mesh import clean, prepare, read_mesh
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import UpAxis, render_thumbnail
 from shapeviz_report.types import FloatArray, Mesh, Projection, ShapeFacts
 
-_OURS = "shapeviz_report."
-_PREPARED_BY = (
-    (_OURS + "mesh", _OURS + "types"),
-    ("mmgpy", "numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml"),
-)
-_DESCRIBED_BY = ((_OURS + "descriptors", _OURS + "features"), ("numba", "numpy", "scipy"))
-_RENDERED_BY = ((_OURS + "render",), ("pillow", "pyrender-maintained", "PyOpenGL", "numpy"))
-_GENERATED_BY = ((_OURS + "demo",), ("manifold3d", "numpy"))
 
+def examine_shape(files: Mapping[str, bytes]) -> bytes:
+    """What would be repaired in a mesh file, for :func:`read_repairs`.
 
-def examine_shape(path: Path) -> dict[str, int]:
-    """Read and clean a mesh without keeping anything; what would be repaired. Raises :class:`MeshError`."""
-    return clean(read_mesh(path))[1]
-
-
-def prepare_shape(path: Path, edge_length: float, cache_root: Path) -> tuple[str, ShapeFacts]:
-    """Prepare a mesh file.
-
-    Returns the key under which the other stages find the prepared mesh, and its facts. A refusal is kept as
-    well, so that a mesh that cannot be used costs its time only once.
-
-    Raises
-    ------
-    MeshError
-        It cannot be used.
+    Parameters
+    ----------
+    files : mapping of str to bytes
+        As :func:`~shapeviz_report.mesh.collect_files` finds them.
     """
-    cache = Cache(cache_root)
-    key = make_key(content_hash(path), path.suffix.lower(), edge_length, code_version(*_PREPARED_BY))
-    kept = cache.load("prepared", key)
-    if kept is None:
-        try:
-            mesh, facts = prepare(path, edge_length)
-            kept = _pack(mesh, {"facts": asdict(facts)})
-        except MeshError as error:
-            kept = _pack(Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32)), {"refused": str(error)})
-        cache.store("prepared", key, kept)
-    _, note = _unpack(kept)
+    try:
+        with TemporaryDirectory() as folder:
+            return json.dumps({"repairs": clean(read_mesh(_write_files(files, Path(folder))))[1]}).encode()
+    except MeshError as error:
+        return json.dumps({"refused": str(error)}).encode()
+
+
+def read_repairs(examined: bytes) -> dict[str, int]:
+    """What would be repaired, and how often. Raises :class:`MeshError` with the reason if it cannot be used."""
+    note = json.loads(examined)
     if "refused" in note:
         raise MeshError(note["refused"])
-    return key, ShapeFacts(**note["facts"])
+    return note["repairs"]
 
 
-def sample_shape(prepared_key: str, count: int, cache_root: Path) -> FloatArray:
-    """Descriptor values at ``count`` vertices of a prepared shape; (count, 187)."""
-    cache = Cache(cache_root)
-    key = make_key(prepared_key, count, code_version(*_DESCRIBED_BY))
-    kept = cache.load("sampled", key)
-    if kept is None:
-        kept = _pack_array(sample_values(_load_prepared(cache, prepared_key), count))
-        cache.store("sampled", key, kept)
-    return np.load(io.BytesIO(kept), allow_pickle=False)
+def prepare_shape(files: Mapping[str, bytes], edge_length: float) -> bytes:
+    """A mesh file prepared, as an archive for the other functions and for :func:`read_facts`.
+
+    A mesh that cannot be used gives an archive too, with the reason: so that it costs its time only once.
+    """
+    try:
+        with TemporaryDirectory() as folder:
+            mesh, facts = prepare(_write_files(files, Path(folder)), edge_length)
+        return _pack(mesh, {"facts": asdict(facts)})
+    except MeshError as error:
+        return _pack(Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32)), {"refused": str(error)})
 
 
-def describe_shape(prepared_key: str, edges: FloatArray, by_area: bool, cache_root: Path) -> FloatArray:
-    """The features of a prepared shape; (1870,)."""
-    cache = Cache(cache_root)
-    key = make_key(prepared_key, edges.tobytes(), by_area, code_version(*_DESCRIBED_BY))
-    kept = cache.load("described", key)
-    if kept is None:
-        kept = _pack_array(compute_histograms(_load_prepared(cache, prepared_key), edges, by_area=by_area))
-        cache.store("described", key, kept)
-    return np.load(io.BytesIO(kept), allow_pickle=False)
+def read_facts(prepared: bytes) -> ShapeFacts:
+    """The facts of a prepared shape. Raises :class:`MeshError` with the reason if it cannot be used."""
+    with np.load(io.BytesIO(prepared), allow_pickle=False) as archive:
+        note = json.loads(str(archive["note"]))
+    if "refused" in note:
+        raise MeshError(note["refused"])
+    return ShapeFacts(**note["facts"])
 
 
-def render_shape(prepared_key: str, size: int, up: UpAxis | None, cache_root: Path) -> bytes:
+def sample_shape(prepared: bytes, count: int) -> bytes:
+    """Descriptor values at ``count`` vertices of a prepared shape; an array (count, 187) as a file."""
+    return _pack_array(sample_values(_unpack(prepared), count))
+
+
+def describe_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
+    """The features of a prepared shape; an array (1870,) as a file."""
+    return _pack_array(compute_histograms(_unpack(prepared), edges, by_area=by_area))
+
+
+def read_array(content: bytes) -> FloatArray:
+    """The array in a result of :func:`sample_shape` or :func:`describe_shape`."""
+    return np.load(io.BytesIO(content), allow_pickle=False)
+
+
+def render_shape(prepared: bytes, size: int, up: UpAxis | None) -> bytes:
     """The thumbnail of a prepared shape: a WebP image of ``size`` x ``size`` pixels."""
-    cache = Cache(cache_root)
-    key = make_key(prepared_key, size, up, code_version(*_RENDERED_BY))
-    kept = cache.load("rendered", key)
-    if kept is None:
-        kept = render_thumbnail(_load_prepared(cache, prepared_key), size=size, up=up)
-        cache.store("rendered", key, kept)
-    return kept
+    return render_thumbnail(_unpack(prepared), size=size, up=up)
+
+
+def generate_shape(class_name: str, index: int, seed: int) -> bytes:
+    """One shape of the demo database, as an OFF file."""
+    return demo.encode_shape(class_name, index, seed)
 
 
 def project_features(method: str, values: FloatArray, features: tuple[str, ...], seed: int) -> Projection:
@@ -98,24 +100,63 @@ def project_features(method: str, values: FloatArray, features: tuple[str, ...],
     return project(next(m for m in PROJECTIONS if m.name == method), values, features, seed)
 
 
-def demo_version() -> str:
-    """A name for what the demo database is generated by."""
-    return code_version(*_GENERATED_BY)
+@dataclass(frozen=True)
+class Stage:
+    """A function of this module whose results are kept.
+
+    Attributes
+    ----------
+    folder : str
+        Of the cache.
+    function : callable
+        Returns bytes.
+    packages : tuple of str
+        The part of this package whose source decides the result.
+    libraries : tuple of str
+        The distributions whose versions do.
+    """
+
+    folder: str
+    function: Callable[..., bytes]
+    packages: tuple[str, ...]
+    libraries: tuple[str, ...]
+
+    @property
+    def version(self) -> str:
+        """A name for the code behind the results."""
+        return code_version(tuple(f"shapeviz_report.{name}" for name in self.packages), self.libraries)
+
+    def key(self, *inputs: object) -> str:
+        """A name for the result of some inputs, whose ``repr`` must tell them apart."""
+        return make_key(*inputs, self.version)
 
 
-def generate_shape(root: Path, class_name: str, index: int, seed: int) -> None:
-    """Write one shape of the demo database, unless it is there."""
-    if not demo.shape_path(root, class_name, index).exists():
-        demo.write_shape(root, class_name, index, seed)
+_READERS = ("numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml")
+
+EXAMINE = Stage("examined", examine_shape, ("mesh", "types"), _READERS)
+PREPARE = Stage("prepared", prepare_shape, ("mesh", "types"), ("mmgpy", *_READERS))
+SAMPLE = Stage("sampled", sample_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
+DESCRIBE = Stage("described", describe_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
+RENDER = Stage(
+    "rendered", render_shape, ("render",), ("pillow", "pyrender-maintained", "PyOpenGL", "numpy", "scipy")
+)
+GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "scipy"))
 
 
-def _load_prepared(cache: Cache, key: str) -> Mesh:
-    kept = cache.load("prepared", key)
-    if kept is None:
-        raise MeshError(
-            f"its prepared mesh vanished from the cache {cache.root} during the build; build again"
-        )
-    return _unpack(kept)[0]
+def fingerprint() -> str:
+    """A name for all code that can decide a result, equal on machines that give the same ones."""
+    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, GENERATE)
+    libraries = {library for stage in stages for library in stage.libraries} | {"scikit-learn", "umap-learn"}
+    return code_version(("shapeviz_report",), tuple(sorted(libraries)))
+
+
+def _write_files(files: Mapping[str, bytes], folder: Path) -> Path:
+    """Write collected files below a folder; the path of the mesh file."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    return folder / next(iter(files))
 
 
 def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:
@@ -124,9 +165,9 @@ def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:
     return buffer.getvalue()
 
 
-def _unpack(content: bytes) -> tuple[Mesh, dict]:
-    with np.load(io.BytesIO(content), allow_pickle=False) as archive:
-        return Mesh(archive["vertices"], archive["faces"]), json.loads(str(archive["note"]))
+def _unpack(prepared: bytes) -> Mesh:
+    with np.load(io.BytesIO(prepared), allow_pickle=False) as archive:
+        return Mesh(archive["vertices"], archive["faces"])
 
 
 def _pack_array(values: FloatArray) -> bytes:

@@ -6,7 +6,6 @@ its class, its index and the seed alone.
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +30,7 @@ from shapeviz_report.demo.classes import DemoClass
 from shapeviz_report.demo.surface import mesh_solid
 from shapeviz_report.types import Mesh
 
-__all__ = ["CLASSES", "PER_CLASS", "DemoClass", "make_shape", "shape_path", "write_shape"]
+__all__ = ["CLASSES", "PER_CLASS", "DemoClass", "encode_shape", "make_shape", "shape_path", "write_shape"]
 
 PER_CLASS = 12
 """Shapes a class in the demo database."""
@@ -84,25 +83,28 @@ def make_shape(class_name: str, index: int, seed: int = 0) -> Mesh:
 
 
 def shape_path(root: Path, class_name: str, index: int) -> Path:
-    """Where :func:`write_shape` puts a shape."""
+    """Where a shape belongs in the folder of the demo database."""
     return Path(root) / class_name / f"{index:02d}.off"
 
 
+def encode_shape(class_name: str, index: int, seed: int = 0) -> bytes:
+    """Generate one shape as the content of an OFF file; see :func:`make_shape`."""
+    mesh = make_shape(class_name, index, seed)
+    lines = ["OFF", f"{len(mesh.vertices)} {len(mesh.faces)} 0"]
+    lines += [f"{x:.6f} {y:.6f} {z:.6f}" for x, y, z in mesh.vertices.tolist()]
+    lines += [f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist()]
+    return ("\n".join(lines) + "\n").encode("ascii")
+
+
 def write_shape(root: Path, class_name: str, index: int, seed: int = 0) -> Path:
-    """Generate one shape and write it to ``root/CLASS/NN.off``; a file that is there is whole.
+    """Generate one shape and write it to ``root/CLASS/NN.off``.
 
     Returns
     -------
     Path
         The file.
     """
-    mesh = make_shape(class_name, index, seed)
-    lines = ["OFF", f"{len(mesh.vertices)} {len(mesh.faces)} 0"]
-    lines += [f"{x:.6f} {y:.6f} {z:.6f}" for x, y, z in mesh.vertices.tolist()]
-    lines += [f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist()]
     path = shape_path(root, class_name, index)
     path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    temporary.write_text("\n".join(lines) + "\n", encoding="ascii")
-    os.replace(temporary, path)
+    path.write_bytes(encode_shape(class_name, index, seed))
     return path

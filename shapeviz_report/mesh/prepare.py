@@ -10,7 +10,7 @@ from trimesh.triangles import closest_point
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.clean import clean, count_components, is_watertight
-from shapeviz_report.mesh.read import content_hash, read_mesh
+from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
 from shapeviz_report.mesh.remesh import remesh
 from shapeviz_report.types import FloatArray, IntArray, Mesh, ShapeFacts
 
@@ -59,7 +59,7 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
             f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}"
         )
     facts = ShapeFacts(
-        sha256=content_hash(path),
+        sha256=content_hash(collect_files(path)),
         faces_read=len(original.faces),
         vertices_read=len(original.vertices),
         faces=len(remeshed.faces),

@@ -10,7 +10,7 @@ from __future__ import annotations
 import hashlib
 import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -93,26 +93,38 @@ def read_mesh(path: Path) -> Mesh:
     )
 
 
-def content_hash(path: Path) -> str:
-    """SHA-256, in hexadecimal, of all that :func:`read_mesh` would read: the file, and the buffers of a glTF.
+def collect_files(path: Path) -> dict[str, bytes]:
+    """The content of all files that :func:`read_mesh` would read: the mesh file, and the buffers of a glTF.
+
+    Returns
+    -------
+    dict of str to bytes
+        By path relative to the mesh file's folder, the mesh file first. Written to another folder under these
+        names, they are the same mesh.
 
     Raises
     ------
     MeshError
         If the file cannot be opened.
     """
-    data = _read_bytes(path)
-    digest = hashlib.sha256(data)
+    files = {path.name: _read_bytes(path)}
     if MESH_FORMATS.get(suffix_of(path.name)) == "glTF":
         try:
-            header = gltf.read_header(data, binary=suffix_of(path.name) == ".glb")
-            buffers = gltf.buffer_files(header, path.parent)
-            for buffer in buffers.values():
-                digest.update(_read_bytes(buffer))
+            header = gltf.read_header(files[path.name], binary=suffix_of(path.name) == ".glb")
+            for buffer in gltf.buffer_files(header, path.parent).values():
+                files[buffer.relative_to(path.parent.resolve()).as_posix()] = _read_bytes(buffer)
         except (
             Exception
         ):  # reading the mesh will say what is wrong with it; until then the file itself counts
-            return digest.hexdigest()
+            return {path.name: files[path.name]}
+    return files
+
+
+def content_hash(files: Mapping[str, bytes]) -> str:
+    """SHA-256, in hexadecimal, of what :func:`collect_files` found: of one file, that of its content."""
+    digest = hashlib.sha256()
+    for content in files.values():
+        digest.update(content)
     return digest.hexdigest()
 
 

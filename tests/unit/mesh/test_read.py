@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 
 from shapeviz_report.database.formats import MESH_FORMATS
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.read import content_hash, read_mesh
+from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
 from shapeviz_report.types import Mesh
 
 SUFFIXES = tuple(MESH_FORMATS)
@@ -602,28 +602,42 @@ def test_collada_with_geometry_elsewhere(tmp_path):
         read_mesh(path)
 
 
-# the hash
+# the files and their hash
 
 
 @pytest.mark.parametrize("suffix", [suffix for suffix in SUFFIXES if suffix != ".gltf"])
 def test_hash_is_that_of_the_file(tmp_path, suffix):
     path = write(tmp_path, suffix)
-    assert content_hash(path) == hashlib.sha256(path.read_bytes()).hexdigest()
+    assert content_hash(collect_files(path)) == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_collected_files_are_the_same_mesh_elsewhere(tmp_path):
+    path = write(tmp_path, ".gltf")
+    files = collect_files(path)
+    assert set(files) == {file.name for file in tmp_path.iterdir()}
+    assert len(files) > 1
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    for name, content in files.items():
+        (elsewhere / name).write_bytes(content)
+    mesh, copy = read_mesh(path), read_mesh(elsewhere / path.name)
+    np.testing.assert_array_equal(mesh.vertices, copy.vertices)
+    np.testing.assert_array_equal(mesh.faces, copy.faces)
 
 
 def test_hash_of_gltf_covers_its_buffers(tmp_path):
     path = write(tmp_path, ".gltf")
-    before = content_hash(path)
-    assert content_hash(path) == before
+    before = content_hash(collect_files(path))
+    assert content_hash(collect_files(path)) == before
     buffer = tmp_path / json.loads(path.read_text())["buffers"][0]["uri"]
     changed = bytearray(buffer.read_bytes())
     changed[0] ^= 1
     buffer.write_bytes(changed)
-    assert content_hash(path) != before
+    assert content_hash(collect_files(path)) != before
 
 
 def test_hash_of_a_broken_or_missing_file(tmp_path):
     path = write_text(tmp_path, "broken.gltf", "{")
-    assert content_hash(path) == hashlib.sha256(b"{").hexdigest()
+    assert content_hash(collect_files(path)) == hashlib.sha256(b"{").hexdigest()
     with pytest.raises(MeshError, match="cannot be opened"):
-        content_hash(tmp_path / "missing.off")
+        collect_files(tmp_path / "missing.off")

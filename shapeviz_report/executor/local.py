@@ -1,4 +1,4 @@
-"""Running one function over many inputs in worker processes that may hang or crash.
+"""Running one function over many inputs in worker processes of this machine, which may hang or crash.
 
 A worker is a Python process of its own, started by command rather than forked: native code that brings it
 down takes one task with it and nothing else, and a caller's script is not imported again.
@@ -7,52 +7,16 @@ down takes one task with it and nothing else, and a caller's script is not impor
 from __future__ import annotations
 
 import os
-import pickle
 import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
 from multiprocessing.connection import Connection, wait
-from typing import Any, Protocol
+from typing import Any
 
 from shapeviz_report.errors import ShapevizError
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """What became of one task.
-
-    Attributes
-    ----------
-    index : int
-        Its place among the inputs.
-    value : object
-        What the function returned; None if ``reason`` is set.
-    reason : str or None
-        Why there is no value, in words for the owner of the input.
-    cpu_seconds : float
-        CPU time that its worker spent since the task before, start-up included; 0 if the worker did not live
-        to tell.
-    """
-
-    index: int
-    value: Any
-    reason: str | None
-    cpu_seconds: float
-
-
-class Executor(Protocol):
-    """Something that runs tasks: local processes here."""
-
-    def run(self, function: Callable[..., Any], tasks: Sequence[tuple[Any, ...]]) -> Iterator[Outcome]:
-        """Call ``function(*task)`` for each task; outcomes as they come, in any order.
-
-        ``function`` must be importable by name. A :class:`ShapevizError` that it raises, a crash and a task
-        over the time limit become outcomes with a reason; any other exception is a bug and is raised here.
-        """
-        ...
+from shapeviz_report.executor.base import Outcome
 
 
 class LocalExecutor:
@@ -79,16 +43,16 @@ class LocalExecutor:
             worker.stop()
         self._workers.clear()
 
-    def run(self, function: Callable[..., Any], tasks: Sequence[tuple[Any, ...]]) -> Iterator[Outcome]:
+    def run(self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]) -> Iterator[Outcome]:
         """See :meth:`Executor.run`."""
-        waiting = iter(range(len(tasks)))
+        waiting = enumerate(tasks)
         idle = list(self._workers)
         busy: dict[Connection, tuple[_Worker, int, float]] = {}
         try:
             while True:
-                while len(busy) < self.jobs and (index := next(waiting, None)) is not None:
-                    worker = idle.pop() if idle else self._start()
-                    worker.connection.send((function, tasks[index]))
+                while len(busy) < self.jobs and (following := next(waiting, None)) is not None:
+                    index, task = following
+                    worker = self._send((function, task), idle)
                     busy[worker.connection] = (worker, index, time.monotonic() + self.time_limit)
                 if not busy:
                     return
@@ -123,9 +87,20 @@ class LocalExecutor:
                 worker.stop()
                 self._workers.remove(worker)
 
-    def _start(self) -> _Worker:
+    def _send(self, message: tuple[Any, ...], idle: list[_Worker]) -> _Worker:
+        """Give a task to an idle worker, or to a new one."""
+        while idle:
+            worker = idle.pop()
+            try:
+                worker.connection.send(message)
+                return worker
+            except ConnectionError:
+                # It was killed while it had nothing to do, which is no fault of this task.
+                worker.stop()
+                self._workers.remove(worker)
         worker = _Worker()
         self._workers.append(worker)
+        worker.connection.send(message)
         return worker
 
 
@@ -146,7 +121,7 @@ class _Worker:
             ):
                 environment[variable] = "1"
             self.process = subprocess.Popen(
-                [sys.executable, "-m", "shapeviz_report.executor", str(theirs.fileno())],
+                [sys.executable, "-m", "shapeviz_report.executor.worker", str(theirs.fileno())],
                 pass_fds=[theirs.fileno()],
                 env=environment,
                 stdin=subprocess.DEVNULL,
@@ -171,46 +146,3 @@ class _Worker:
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
-
-
-def _serve(descriptor: int) -> None:
-    """The life of a worker: take a task, answer with (value, error, CPU seconds), until the pipe closes."""
-    import signal
-
-    # Ctrl-C reaches every process of the terminal; the parent alone decides what it means.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    connection = Connection(descriptor)
-    reported = 0.0
-    while True:
-        try:
-            function, task = connection.recv()
-        except (EOFError, ConnectionError):
-            return
-        value, error = None, None
-        try:
-            value = function(*task)
-        except Exception as exception:
-            error = _portable(exception)
-        spent = time.process_time()
-        try:
-            connection.send((value, error, spent - reported))
-        except ConnectionError:
-            return
-        reported = spent
-
-
-def _portable(exception: Exception) -> Exception:
-    """An exception as it can travel, with its traceback as a note."""
-    import traceback
-
-    if not isinstance(exception, ShapevizError):
-        exception.add_note("".join(traceback.format_exception(exception)))
-    try:
-        pickle.loads(pickle.dumps(exception))
-    except Exception:
-        return RuntimeError("".join(traceback.format_exception(exception)))
-    return exception
-
-
-if __name__ == "__main__":
-    _serve(int(sys.argv[1]))

@@ -1,0 +1,6 @@
+"""Running one function over many inputs: in processes of this machine, or on a Dask cluster."""
+
+from shapeviz_report.executor.base import Executor, Outcome
+from shapeviz_report.executor.local import LocalExecutor
+
+__all__ = ["Executor", "LocalExecutor", "Outcome"]

@@ -1,0 +1,58 @@
+"""A build on a Dask cluster: the same site, whatever happens to its workers."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+
+import pytest
+from cluster import running_cluster
+from small_database import OPTIONS, read_site
+
+import shapeviz_report
+from shapeviz_report.config import Config
+from shapeviz_report.pipeline import build_report
+
+CLUSTER_OPTIONS = {name: value for name, value in OPTIONS.items() if name != "jobs"}
+
+
+class Watcher:
+    """Progress that calls a function at the third shape of one stage."""
+
+    def __init__(self, name, act) -> None:
+        self.name = name
+        self.act = act
+
+    @contextmanager
+    def stage(self, name, total):
+        count = 0
+
+        def advance():
+            nonlocal count
+            count += 1
+            if (name, count) == (self.name, 3):
+                self.act()
+
+        yield advance
+
+
+@pytest.mark.parametrize("stage", ["prepare", "describe"])
+def test_the_same_site_though_a_worker_is_killed_half_way(stage, built, database, tmp_path) -> None:
+    site, _ = built
+    (tmp_path / "cluster").mkdir()
+    with running_cluster(tmp_path / "cluster", workers=2) as cluster:
+        report = build_report(
+            database,
+            tmp_path / "site",
+            Config(scheduler=cluster.address, cache=tmp_path / "cache", **CLUSTER_OPTIONS),
+            Watcher(stage, cluster.workers[0].kill),
+        )
+        assert cluster.workers[0].wait() == -9
+    assert report.failures == ()
+    assert read_site(site) == read_site(tmp_path / "site")
+
+
+def test_a_cluster_and_a_number_of_processes_exclude_each_other(database, tmp_path) -> None:
+    with pytest.raises(
+        shapeviz_report.ShapevizError, match="jobs is the number of processes on this machine"
+    ):
+        shapeviz_report.build(database, tmp_path / "site", scheduler="tcp://127.0.0.1:9", jobs=2)
