@@ -49,8 +49,8 @@ def geodesic_distance(graph: csr_matrix, sources: IntArray) -> FloatArray:
     return np.concatenate([dijkstra(graph, directed=False, indices=chunk).mean(axis=1) for chunk in chunks])
 
 
-def normal_diameter(mesh: Mesh, normals: FloatArray, nearest: float) -> FloatArray:
-    """Nd: every reversed normal against every face that does not contain its vertex; 0 where none is met.
+def normal_diameter(mesh: Mesh, normals: FloatArray, chosen: IntArray, nearest: float) -> FloatArray:
+    """Nd: reversed normals against every face that does not contain their vertex; 0 where none is met.
 
     In Pluecker coordinates a line passes a triangle where it winds around its three sides in the same sense;
     each side is computed once, so that neighbouring triangles agree on it. Hits below ``nearest`` are passed.
@@ -63,26 +63,26 @@ def normal_diameter(mesh: Mesh, normals: FloatArray, nearest: float) -> FloatArr
     sense = np.where(mesh.faces < np.roll(mesh.faces, -1, axis=1), 1.0, -1.0)
     low, high = mesh.vertices[edges[:, 0]], mesh.vertices[edges[:, 1]]
     index = index.reshape(-1, 3)
-    result = np.zeros(len(mesh.vertices))
-    for start in range(0, len(mesh.vertices), CHUNK):
-        origins, directions = mesh.vertices[start : start + CHUNK], -normals[start : start + CHUNK]
+    result = np.zeros(len(chosen))
+    for start in range(0, len(chosen), CHUNK):
+        rows = chosen[start : start + CHUNK]
+        origins, directions = mesh.vertices[rows], -normals[rows]
         windings = directions @ np.cross(low, high).T + np.cross(origins, directions) @ (high - low).T
         around = windings[:, index] * sense
         # A line through an edge or a corner has a winding of 0 up to rounding: that counts as a hit.
         hit = (around >= -1e-13).all(axis=2) | (around <= 1e-13).all(axis=2)
         for row, candidates in enumerate(hit):
-            v = start + row
             near = np.flatnonzero(candidates)
-            near = near[(mesh.faces[near] != v).all(axis=1)]
+            near = near[(mesh.faces[near] != rows[row]).all(axis=1)]
             slope = planes[near] @ directions[row]
             near, slope = near[slope != 0], slope[slope != 0]
             ways = ((a[near] - origins[row]) * planes[near]).sum(axis=1) / slope
             ways = ways[ways > nearest]
-            result[v] = ways.min() if len(ways) else 0.0
+            result[start + row] = ways.min() if len(ways) else 0.0
     return result
 
 
-def normal_diameter_trimesh(mesh: Mesh, normals: FloatArray, nearest: float) -> FloatArray:
+def normal_diameter_trimesh(mesh: Mesh, normals: FloatArray, chosen: IntArray, nearest: float) -> FloatArray:
     """Nd by trimesh's ray casting; the faces around a vertex are taken out of its hits."""
     import trimesh
 
@@ -90,11 +90,12 @@ def normal_diameter_trimesh(mesh: Mesh, normals: FloatArray, nearest: float) -> 
         trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
     )
     faces, rays, places = caster.intersects_id(
-        mesh.vertices, -normals, multiple_hits=True, return_locations=True
+        mesh.vertices[chosen], -normals[chosen], multiple_hits=True, return_locations=True
     )
-    ways = np.linalg.norm(places - mesh.vertices[rays], axis=1)
-    counted = (mesh.faces[faces] != rays[:, None]).all(axis=1) & (ways > nearest)
-    result = np.full(len(mesh.vertices), np.inf)
+    origins = chosen[rays]
+    ways = np.linalg.norm(places - mesh.vertices[origins], axis=1)
+    counted = (mesh.faces[faces] != origins[:, None]).all(axis=1) & (ways > nearest)
+    result = np.full(len(chosen), np.inf)
     np.minimum.at(result, rays[counted], ways[counted])
     return np.where(np.isfinite(result), result, 0.0)
 
@@ -116,26 +117,27 @@ def point_angle(mesh: Mesh) -> FloatArray:
 
 
 def shape_context(
-    mesh: Mesh, normals: FloatArray, neighbours: IntArray, limits: tuple[float, float]
+    mesh: Mesh, normals: FloatArray, neighbours: IntArray, chosen: IntArray, limits: tuple[float, float]
 ) -> FloatArray:
-    """Sc: all other vertices counted, with frames from an eigenvalue solver; (n, 24)."""
+    """Sc of chosen vertices: all others counted, with frames from an eigenvalue solver; (c, 24)."""
     vertices = mesh.vertices
-    towards = vertices.mean(axis=0) - vertices
-    flatten = np.eye(3) - normals[:, :, None] * normals[:, None, :]
-    patches = (vertices[neighbours] - vertices[:, None]) @ flatten
+    towards = vertices.mean(axis=0) - vertices[chosen]
+    upward = normals[chosen]
+    flatten = np.eye(3) - upward[:, :, None] * upward[:, None, :]
+    patches = (vertices[neighbours[chosen]] - vertices[chosen, None]) @ flatten
     patches -= patches.mean(axis=1, keepdims=True)
     # Eigenvalues rise; that of the normal is 0.
     tangents = np.linalg.eigh(patches.transpose(0, 2, 1) @ patches)[1][:, :, [2, 1]]
     tangents *= np.where(np.einsum("nx,nxt->nt", towards, tangents) >= 0, 1.0, -1.0)[:, None]
-    frames = np.concatenate([tangents, normals[:, :, None]], axis=2)
-    result = np.empty((len(vertices), 24))
-    for start in range(0, len(vertices), CHUNK):
-        rows = np.arange(start, min(start + CHUNK, len(vertices)))
+    frames = np.concatenate([tangents, upward[:, :, None]], axis=2)
+    result = np.empty((len(chosen), 24))
+    for start in range(0, len(chosen), CHUNK):
+        rows = chosen[start : start + CHUNK]
         ways = vertices - vertices[rows][:, None]
         shell = np.searchsorted(limits, np.linalg.norm(ways, axis=2) / 2)
-        octant = (np.matmul(ways, frames[rows]) > 0) @ np.array([1, 2, 4])
+        octant = (np.matmul(ways, frames[start : start + CHUNK]) > 0) @ np.array([1, 2, 4])
         cells = 24 * np.arange(len(rows))[:, None] + 8 * shell + octant
         keep = np.arange(len(vertices)) != rows[:, None]
         tally = np.bincount(cells[keep], minlength=24 * len(rows)).reshape(-1, 24)
-        result[rows] = tally / (len(vertices) - 1)
+        result[start : start + CHUNK] = tally / (len(vertices) - 1)
     return result
