@@ -85,7 +85,9 @@ def whole_files(folder: Path) -> dict[str, bytes]:
         files[name.replace("model", "whole")] = content
     corners = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 1.5)]
     lines = [*(f"v {x} {y} {z}" for x, y, z in corners), "vt 0 0", "f 4/1 3/1 2/1 1/1"]
-    files["polygons.obj"] = "\n".join([*lines, *(f"f -{5 - i}/1 -{5 - (i + 1) % 4}/1 -1/1" for i in range(4))]).encode()
+    files["polygons.obj"] = "\n".join(
+        [*lines, *(f"f -{5 - i}/1 -{5 - (i + 1) % 4}/1 -1/1" for i in range(4))]
+    ).encode()
     return files
 
 
@@ -233,14 +235,23 @@ def strange_surfaces(random: np.random.Generator) -> Iterator[tuple[str, Mesh]]:
 
     count = int(random.integers(3, 200))
     points = random.normal(size=(count, 3)) * 10.0 ** random.integers(-3, 4)
-    yield f"soup of {count} vertices", Mesh(points, random.integers(count, size=(3 * count, 3)).astype(np.int32))
+    yield (
+        f"soup of {count} vertices",
+        Mesh(points, random.integers(count, size=(3 * count, 3)).astype(np.int32)),
+    )
     lattice = random.integers(0, 4, (60, 3)).astype(float)
     yield "soup on a lattice", Mesh(lattice, random.integers(60, size=(150, 3)).astype(np.int32))
     scattered = random.normal(size=(900, 3)) + np.repeat(random.normal(size=(300, 3)) * 3, 3, axis=0)
     yield "triangles apart", Mesh(scattered, np.arange(900, dtype=np.int32).reshape(-1, 3))
     yield "one triangle", Mesh(random.normal(size=(3, 3)), np.array([[0, 1, 2]], np.int32))
-    yield "one needle", Mesh(np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-7, 0]]), np.array([[0, 1, 2]], np.int32))
-    yield "one tetrahedron", Mesh(random.normal(size=(4, 3)), np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]], np.int32))
+    yield (
+        "one needle",
+        Mesh(np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-7, 0]]), np.array([[0, 1, 2]], np.int32)),
+    )
+    yield (
+        "one tetrahedron",
+        Mesh(random.normal(size=(4, 3)), np.array([[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]], np.int32)),
+    )
     folded = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     yield "one triangle from both sides", Mesh(folded, np.array([[0, 1, 2], [0, 2, 1]], np.int32))
     apart = np.concatenate([folded, folded])
@@ -249,8 +260,14 @@ def strange_surfaces(random: np.random.Generator) -> Iterator[tuple[str, Mesh]]:
     yield "a flat sheet", grid(9, 9, flat)
     yield "a sheet folded flat", grid(8, 8, lambda u, v: np.stack([np.abs(u - 0.5), v, 0 * u], axis=1))
     for ratio in (1e3, 1e6, 1e9):
-        yield f"a sheet {ratio:g} times as long as wide", grid(2, 30, lambda u, v, r=ratio: np.stack([u * r, v, 0 * u], axis=1))
-        yield f"a box {ratio:g} times as long as wide", Mesh(trimesh.creation.box((ratio, 1, 1)).vertices, trimesh.creation.box().faces)
+        yield (
+            f"a sheet {ratio:g} times as long as wide",
+            grid(2, 30, lambda u, v, r=ratio: np.stack([u * r, v, 0 * u], axis=1)),
+        )
+        yield (
+            f"a box {ratio:g} times as long as wide",
+            Mesh(trimesh.creation.box((ratio, 1, 1)).vertices, trimesh.creation.box().faces),
+        )
     yield "a line of faces without area", grid(3, 9, lambda u, v: np.stack([u, u, u + 1e-18 * v], axis=1))
     yield "Moebius band", grid(4, 40, moebius_band)
     yield "Klein bottle", grid(24, 24, klein_bottle)
@@ -260,17 +277,29 @@ def strange_surfaces(random: np.random.Generator) -> Iterator[tuple[str, Mesh]]:
     hub = np.array([[0, 0, 0], [0, 0, 1.0]])
     wheel = np.stack([0 * np.arange(blades), 1 + 0 * np.arange(blades), 2 + np.arange(blades)], axis=1)
     yield f"{blades} faces on one edge", Mesh(np.concatenate([hub, rim]), wheel.astype(np.int32))
-    fan = np.stack([np.zeros(blades), 1 + np.arange(blades), 1 + (np.arange(blades) * 7 + 1) % blades], axis=1)
-    yield "a fan in disorder", Mesh(np.concatenate([hub[:1], rim]), fan.astype(np.int32))
-    yield "a ball and the same inside out", Mesh(
-        np.concatenate([vertices, vertices]), np.concatenate([faces, faces[:, ::-1] + len(vertices)]).astype(np.int32)
+    fan = np.stack(
+        [np.zeros(blades), 1 + np.arange(blades), 1 + (np.arange(blades) * 7 + 1) % blades], axis=1
     )
-    yield "a ball five times", Mesh(np.tile(vertices, (5, 1)), np.concatenate([faces + i * len(vertices) for i in range(5)]))
+    yield "a fan in disorder", Mesh(np.concatenate([hub[:1], rim]), fan.astype(np.int32))
+    yield (
+        "a ball and the same inside out",
+        Mesh(
+            np.concatenate([vertices, vertices]),
+            np.concatenate([faces, faces[:, ::-1] + len(vertices)]).astype(np.int32),
+        ),
+    )
+    yield (
+        "a ball five times",
+        Mesh(np.tile(vertices, (5, 1)), np.concatenate([faces + i * len(vertices) for i in range(5)])),
+    )
     small = trimesh.creation.icosphere(subdivisions=0)
     places = random.normal(size=(1000, 3)) * random.choice([0.5, 10, 1000])
-    yield "a thousand parts", Mesh(
-        (small.vertices[None] + places[:, None]).reshape(-1, 3),
-        (small.faces[None] + 12 * np.arange(1000)[:, None, None]).reshape(-1, 3).astype(np.int32),
+    yield (
+        "a thousand parts",
+        Mesh(
+            (small.vertices[None] + places[:, None]).reshape(-1, 3),
+            (small.faces[None] + 12 * np.arange(1000)[:, None, None]).reshape(-1, 3).astype(np.int32),
+        ),
     )
     needles = grid(1, 400, lambda u, v: np.stack([np.cos(7 * u), np.sin(7 * u), v], axis=1))
     yield "needles", Mesh(needles.vertices * [1, 1, 10.0 ** random.integers(-7, 3)], needles.faces)
@@ -288,7 +317,10 @@ def strange_surfaces(random: np.random.Generator) -> Iterator[tuple[str, Mesh]]:
     yield "a ball and a speck", Mesh(far, np.concatenate([faces, faces + len(vertices)]))
     leaves = grid(1, 1, flat)
     book = np.concatenate([leaves.vertices + [0, 0, 1e-4 * i] for i in range(1000)])
-    yield "a book of a thousand leaves", Mesh(book, np.concatenate([leaves.faces + 4 * i for i in range(1000)]))
+    yield (
+        "a book of a thousand leaves",
+        Mesh(book, np.concatenate([leaves.faces + 4 * i for i in range(1000)])),
+    )
 
 
 def as_ply(mesh: Mesh) -> bytes:
@@ -316,7 +348,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0, help="of the first round")
     parser.add_argument("--rounds", type=int, default=10)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--keep", type=Path, default=Path("build/fuzzing"), help="where files of reported cases go")
+    parser.add_argument(
+        "--keep", type=Path, default=Path("build/fuzzing"), help="where files of reported cases go"
+    )
     parser.add_argument("--reasons", action="store_true", help="print every reason of a refusal once")
     arguments = parser.parse_args()
     found, refusals = Counter[str](), Counter[str]()

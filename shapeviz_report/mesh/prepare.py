@@ -11,7 +11,7 @@ from trimesh.triangles import closest_point
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.clean import clean, count_components, is_watertight
 from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
-from shapeviz_report.mesh.remesh import remesh
+from shapeviz_report.mesh.remesh import affordable_edge_length, remesh
 from shapeviz_report.types import FloatArray, IntArray, Mesh, ShapeFacts
 
 MAX_DEVIATION = 0.05
@@ -19,7 +19,10 @@ MAX_DEVIATION = 0.05
 
 Wide enough for the rims of coarse open surfaces, which the remesher rounds; far less than a limb."""
 
-SAMPLES_PER_VERTEX = 2
+MAX_PARTS = 100_000
+"""A surface of more parts is refused: each takes vertices of its own, however small it is."""
+
+SAMPLES_PER_VERTEX = 1
 """How densely a surface is sampled to find the deviation, relative to the prepared mesh."""
 
 EXAMINED = 300
@@ -52,11 +55,23 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
     """
     original = read_mesh(path)
     cleaned, repairs = clean(original)
-    remeshed = remesh(cleaned, edge_length)
+    parts = count_components(len(cleaned.vertices), cleaned.faces)
+    if parts > MAX_PARTS:
+        raise MeshError(
+            f"its surface falls into {parts:,} parts that share no vertices, more than {MAX_PARTS:,}; join what "
+            "belongs together (weld or merge its vertices) before it is exported"
+        )
+    length = affordable_edge_length(cleaned, edge_length)
+    if length > edge_length:
+        repairs["edges lengthened, for its surface is folded many times over (%)"] = round(
+            100 * length / edge_length
+        )
+    remeshed = remesh(cleaned, length)
     distance = deviation(cleaned, remeshed)
     if distance > MAX_DEVIATION:
         raise MeshError(
-            f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}"
+            f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}; its parts "
+            f"may be thinner than the edge length of {length:.2%}, or lie apart far off"
         )
     facts = ShapeFacts(
         sha256=content_hash(collect_files(path)),
@@ -122,7 +137,7 @@ def _largest_distance(points: FloatArray, mesh: Mesh, count: int) -> float:
     # Large faces need many points, and small ones, which chance may pass over, one each.
     samples = np.concatenate([samples, mesh.vertices[mesh.faces].mean(axis=1)])
     owners = np.concatenate([owners, np.arange(len(mesh.faces))])
-    tree = cKDTree(samples)
+    tree = cKDTree(samples, balanced_tree=False, compact_nodes=False)
     index = np.argsort(tree.query(points)[0])[-EXAMINED:]
     near = tree.query(points[index], k=min(CANDIDATES, len(samples)))[1].reshape(len(index), -1)
     corners = mesh.vertices[mesh.faces[owners[near]]]

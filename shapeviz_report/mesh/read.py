@@ -8,6 +8,7 @@ opens a file outside the mesh's own folder.
 from __future__ import annotations
 
 import hashlib
+import logging
 import re
 import warnings
 from collections.abc import Callable, Mapping
@@ -36,6 +37,12 @@ _POLYGON_READERS: dict[str, Callable[[bytes], PolygonMesh]] = {
     ".obj": read_obj,
     ".ply": read_ply,
 }
+_PLACE = re.compile(r"\b(?:line|row) \d")
+"""What a parser says where it also names the place, which helps to find it."""
+
+# Trimesh logs tracebacks of what it takes for no error; without a handler they would go to the terminal.
+logging.getLogger("trimesh").addHandler(logging.NullHandler())
+
 _EXTERNAL_INSTANCE = re.compile(rb"""<instance_(?:geometry|node)\b[^>]*\burl\s*=\s*["'](?!\#)""")
 
 
@@ -84,13 +91,25 @@ def read_mesh(path: Path) -> Mesh:
     except (
         Exception
     ) as error:  # a broken file can make a parser fail in any way; none of them may end a build
-        detail = " ".join(str(error).split())[:200] or type(error).__name__
-        raise MeshError(f"the file is not readable as {MESH_FORMATS[suffix]}: {detail}") from error
+        raise MeshError(
+            f"it is damaged, cut off, or not {MESH_FORMATS[suffix]} at all{_explanation(error)}; "
+            "open it in the program it comes from, and export it anew"
+        ) from error
     if not len(faces):
         raise MeshError("it has vertices, but no faces" if len(vertices) else "it has no faces")
     return Mesh(
         vertices=np.ascontiguousarray(vertices, dtype=np.float64), faces=np.ascontiguousarray(faces, np.int32)
     )
+
+
+def _explanation(error: Exception) -> str:
+    """What a parser's exception tells the owner of a file; most speak of the parser's own insides."""
+    if isinstance(error, MemoryError):
+        return " (it announces more than fits into memory)"
+    if isinstance(error, DeprecationWarning):
+        return " (something else stands where a number belongs)"
+    detail = " ".join(str(error).split()).rpartition("Error: ")[2]
+    return f" ({detail[:200]})" if _PLACE.search(detail) else ""
 
 
 def collect_files(path: Path) -> dict[str, bytes]:

@@ -7,8 +7,33 @@ import numpy as np
 from shapeviz_report.errors import MeshError
 from shapeviz_report.types import Mesh
 
-MAX_VERTICES = 2_000_000
-"""A remeshed surface larger than this is refused: its input is crumpled far beyond its bounding box."""
+MAX_VERTICES = 100_000
+"""Vertices that a surface may take; a ball takes 12,000 at edges of 1 %. Larger ones get longer edges."""
+
+
+_FAILED = (
+    "it cannot be remeshed: perhaps all its parts are specks, far smaller than the space between them; "
+    "remove what lies far off, and mend it in a 3D program"
+)
+
+
+def affordable_edge_length(mesh: Mesh, edge_length: float) -> float:
+    """The wanted edge length, or the one at which a mesh takes ``MAX_VERTICES`` if that is longer.
+
+    Only a surface folded or stacked many times over inside its bounding box, such as a book of hundreds of leaves,
+    needs it. What it takes to describe a shape is then bounded as well.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    edge_length : float
+        As a fraction of the bounding-box diagonal.
+    """
+    diagonal = float(np.linalg.norm(np.ptp(mesh.vertices, axis=0)))
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] / diagonal for i in range(3))
+    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
+    # Euler: an even triangulation has 2 faces a vertex, each of sqrt(3) / 4 squared edges.
+    return max(edge_length, float(np.sqrt(area / (MAX_VERTICES * np.sqrt(3) / 2))))
 
 
 def remesh(mesh: Mesh, edge_length: float) -> Mesh:
@@ -38,15 +63,6 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
 
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
-    a, b, c = (mesh.vertices[mesh.faces[:, i]] / diagonal for i in range(3))
-    area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
-    # Euler: an even triangulation has 2 faces a vertex, each of sqrt(3) / 4 squared edges.
-    expected = area / (edge_length**2 * np.sqrt(3) / 2)
-    if expected > MAX_VERTICES:
-        raise MeshError(
-            f"its surface is {area:.0f} times the square of its diagonal, which would take "
-            f"{expected:,.0f} vertices at {edge_length:.2%} of the diagonal; it is probably many copies of itself"
-        )
     surface = MmgMeshS()
     surface.set_mesh_size(vertices=len(mesh.vertices), triangles=len(mesh.faces))
     surface.set_vertices((mesh.vertices - low) / diagonal)
@@ -54,8 +70,8 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
     try:
         surface.remesh(hsiz=edge_length, hausd=edge_length / 2, verbose=-1)
     except RuntimeError as error:
-        raise MeshError(f"it cannot be remeshed ({error})") from error
+        raise MeshError(_FAILED) from error
     vertices, faces = surface.get_vertices(), surface.get_triangles()
     if len(faces) == 0 or not np.isfinite(vertices).all():
-        raise MeshError("it cannot be remeshed (nothing finite was left)")
+        raise MeshError(_FAILED)
     return Mesh(vertices * diagonal + low, np.ascontiguousarray(faces, dtype=np.int32))

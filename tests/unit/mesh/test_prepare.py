@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 import trimesh
@@ -9,6 +11,7 @@ from solids import ball, from_trimesh, rotation, sheet
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh import deviation, normalise, prepare, remesh
+from shapeviz_report.mesh.remesh import MAX_VERTICES, affordable_edge_length
 from shapeviz_report.types import Mesh
 
 
@@ -85,10 +88,29 @@ def test_flat_sheet_is_prepared(tmp_path) -> None:
     assert mesh.vertices[:, 2] == pytest.approx(0, abs=1e-9)
 
 
-def test_a_crumpled_surface_is_refused() -> None:
-    layer = sheet(3)
-    layers = 9000
-    vertices = np.concatenate([layer.vertices + np.array([0, 0, i * 1e-5]) for i in range(layers)])
-    faces = np.concatenate([layer.faces + i * len(layer.vertices) for i in range(layers)])
-    with pytest.raises(MeshError, match="many copies"):
-        remesh(Mesh(vertices, faces.astype(np.int32)), 0.002)
+def test_a_surface_stacked_many_times_over_gets_longer_edges() -> None:
+    assert affordable_edge_length(ball(3), 0.01) == 0.01
+    layer = sheet(2)
+    book = Mesh(
+        np.concatenate([layer.vertices + [0, 0, i * 1e-4] for i in range(1000)]),
+        np.concatenate([layer.faces + 4 * i for i in range(1000)]).astype(np.int32),
+    )
+    length = affordable_edge_length(book, 0.01)
+    # 1000 leaves of half a squared diagonal; a vertex has sqrt(3) / 2 squared edges.
+    assert 500 / (length**2 * 3**0.5 / 2) == pytest.approx(MAX_VERTICES, rel=0.01)
+
+
+def test_parts_without_number_are_refused(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(sys.modules["shapeviz_report.mesh.prepare"], "MAX_PARTS", 3)
+    path = tmp_path / "parts.stl"
+    small = [trimesh.creation.box().apply_translation([3 * i, 0, 0]) for i in range(4)]
+    trimesh.util.concatenate(small).export(path)
+    with pytest.raises(MeshError, match="4 parts that share no vertices, more than 3; join"):
+        prepare(path, 0.05)
+
+
+def test_specks_are_refused_with_a_reason() -> None:
+    specks = [ball(0).vertices * 1e-5 + place for place in np.eye(3)]
+    faces = np.concatenate([ball(0).faces + 12 * i for i in range(3)])
+    with pytest.raises(MeshError, match="specks"):
+        remesh(Mesh(np.concatenate(specks), faces), 0.02)
