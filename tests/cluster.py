@@ -63,7 +63,8 @@ class Cluster:
         environment = os.environ | {
             "HOME": str(home),
             "XDG_CACHE_HOME": str(home / "cache"),
-            "PYTHONPATH": str(Path(__file__).parent),  # for `lack_something`
+            # For `lack_something`; and our own package, whatever puts it on the path here.
+            "PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path]),
         }
         with (self._folder / f"{name}.log").open("wb") as log:
             return subprocess.Popen(
