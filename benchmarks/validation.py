@@ -236,12 +236,19 @@ def relative(values: FloatArray, expected: FloatArray) -> float:
     return float(np.abs(values - expected).mean() / np.abs(expected).mean())
 
 
+def show(value: float) -> str:
+    """As per cent; rounding errors as powers of ten."""
+    if value == 0:
+        return "0"
+    return f"{100 * value:.2f} %" if value >= 1e-4 else f"{value:.0e}"
+
+
 def print_table(results: dict[tuple[str, str], list[float]], wanted: Callable[[str], bool]) -> None:
     """The median and the worst mesh of every comparison with a wanted measure."""
     print("\n| descriptor, against | measure | median mesh | worst mesh |\n|---|---|---|---|")
     for (subject, measure), values in results.items():
         if wanted(measure):
-            print(f"| {subject} | {measure} | {np.median(values):.1e} | {max(values):.1e} |")
+            print(f"| {subject} | {measure} | {show(np.median(values))} | {show(max(values))} |")
 
 
 def main() -> None:
@@ -259,7 +266,7 @@ def main() -> None:
     print_table(results, lambda measure: measure == MOVED)
     print("\n| descriptor, against | measure | |\n|---|---|---|")
     for subject, measure, value in compare_analytic(options.edge_length):
-        print(f"| {subject} | {measure} | {value:.1e} |")
+        print(f"| {subject} | {measure} | {show(value)} |")
 
 
 if __name__ == "__main__":
