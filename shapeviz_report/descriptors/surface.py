@@ -19,6 +19,9 @@ from shapeviz_report.types import FloatArray, IntArray, Mesh
 NEIGHBOURS = 30
 """k of the paper's nearest neighbours (3.3)."""
 
+SAME_LENGTH = 1e-6
+"""Gaps that differ by less than this are equally wide."""
+
 CELLS = 64
 """Parts that a surface is cut into; as many as vertices, where there are fewer."""
 
@@ -113,7 +116,7 @@ class Surface:
         starts[..., -1] = ends[places::places].reshape(rows, columns)
         points = np.ascontiguousarray(self.vertices[order].T)
         squared, nearest = find_nearest(points, cells[order], starts, width, order, wanted)
-        return np.sqrt(squared), nearest
+        return np.sqrt(squared, out=squared), nearest
 
     @property
     def neighbours(self) -> IntArray:
@@ -192,9 +195,16 @@ class Surface:
         parts, part = connected_components(links, directed=False)
         if parts == 1:
             return np.empty((0, 2), np.int32)
-        largest = np.bincount(part).argmax()
-        main, rest = np.flatnonzero(part == largest), np.flatnonzero(part != largest)
+        # Of equals, such as the two sides of a plate, the one nearest to the barycentre: numbers must not decide.
+        centrality = np.linalg.norm(self.vertices - self.barycentre, axis=1)
+        sizes = np.bincount(part)
+        first = np.lexsort((centrality, -sizes[part]))[0]
+        main, rest = np.flatnonzero(part == part[first]), np.flatnonzero(part != part[first])
         distances, nearest = cKDTree(self.vertices[main]).query(self.vertices[rest])
-        order = np.lexsort((distances, part[rest]))
-        closest = order[np.unique(part[rest][order], return_index=True)[1]]
-        return np.stack([rest[closest], main[nearest[closest]]], axis=1).astype(np.int32)
+        least = np.full(parts, np.inf)
+        np.minimum.at(least, part[rest], distances)
+        equal = np.flatnonzero(distances <= least[part[rest]] + SAME_LENGTH)
+        main, rest = main[nearest[equal]], rest[equal]
+        order = np.lexsort((centrality[main] + centrality[rest], part[rest]))
+        chosen = order[np.unique(part[rest][order], return_index=True)[1]]
+        return np.stack([rest[chosen], main[chosen]], axis=1).astype(np.int32)

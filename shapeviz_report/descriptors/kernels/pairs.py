@@ -14,7 +14,7 @@ WIDTH = 16
 SMALLEST = np.float32(1e-5)
 """Sines below this count as this: where d is parallel to u there is no v, and alpha becomes 0.
 
-Also the least w . n that counts as positive: opposite normals have theta = -pi, whatever the rounding."""
+Also the least (w . n) |d x m| that counts as positive: opposite normals have theta = -pi, whatever the rounding."""
 
 FIFTH = np.tan(np.pi * np.arange(1, 5, 2) / 5).astype(np.float32)
 """Tangents of the limits between fifths of the circle: 36 and 108 degrees."""
@@ -68,7 +68,7 @@ def _cell(along_m, along_n, agreement, volume, sine):  # pragma: no cover - comp
     """The cell of PFH for one direction of a pair: ``25 * alpha + 5 * phi + theta``, fifths of each."""
     y, x = along_n - along_m * agreement, agreement * sine
     beyond = np.int32(abs(y) >= x * FIFTH[0]) + np.int32(abs(y) <= x * FIFTH[1])
-    side = np.int32(2) * np.int32(y > SMALLEST * sine) - np.int32(1)
+    side = np.int32(2) * np.int32(y > SMALLEST) - np.int32(1)
     theta = np.int32(2) + side * beyond
     alpha, phi = _fifth(volume, sine), _fifth(along_m, np.float32(1.0))
     return np.int32(25) * alpha + np.int32(5) * phi + theta
@@ -160,7 +160,7 @@ def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
                 abs(height) <= side * ELEVENTH[3]
             )
             beyond += np.int32(abs(height) <= side * ELEVENTH[4])
-            turn = np.int32(2) * np.int32(height > SMALLEST * sine) - np.int32(1)
+            turn = np.int32(2) * np.int32(height > SMALLEST) - np.int32(1)
             bins[0, s] = np.int32(min(last, (volume / sine + one) * half))
             bins[1, s] = np.int32(11) + np.int32(min(last, (phi + one) * half))
             bins[2, s] = np.int32(27) + turn * beyond

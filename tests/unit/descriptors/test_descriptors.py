@@ -8,12 +8,13 @@ import trimesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.sparse.csgraph import dijkstra
-from scipy.spatial import cKDTree
+from scipy.spatial import Delaunay, cKDTree
 from solids import ball, from_trimesh, lump, rotation, sheet, torus, tube
 
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.descriptors.shape_context import SEEN, SHELLS
 from shapeviz_report.descriptors.surface import CELLS
+from shapeviz_report.features import compute_histograms, fixed_edges
 from shapeviz_report.mesh import normalise
 from shapeviz_report.types import Mesh
 
@@ -293,6 +294,42 @@ def test_invariance_under_rigid_motion_and_scale(descriptor, turn, scale, shift)
     # Rounding may push a pair or a point over the edge of a cell; a histogram of the values hardly notices.
     assert np.mean(np.abs(before - after) < 1e-5) > 0.999
     assert np.abs(before - after).mean() < 1e-5
+
+
+def renumbered(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
+    """A mesh with its vertices and faces in another order, and that order of its vertices."""
+    random = np.random.default_rng(0)
+    order = random.permutation(len(mesh.vertices))
+    faces = np.roll(np.argsort(order)[mesh.faces], 1, axis=1)[random.permutation(len(mesh.faces))]
+    return Mesh(mesh.vertices[order], faces.astype(np.int32)), order
+
+
+@pytest.mark.parametrize("descriptor", DESCRIPTORS, ids=lambda d: d.name)
+def test_the_numbering_of_vertices_and_faces_does_not_matter(descriptor) -> None:
+    mesh = normalise(lump(1))
+    other, order = renumbered(mesh)
+    before, after = descriptor.compute(Surface(mesh))[order], descriptor.compute(Surface(other))
+    assert np.mean(np.abs(before - after) < 1e-5) > 0.999
+    assert np.abs(before - after).mean() < 1e-5
+
+
+def test_rounding_decides_nothing_on_a_flat_plate() -> None:
+    # Where all angles are 0 or a half turn, and all else lies in one plane with a vertex, a turn that adds errors of
+    # rounding must not send a vertex into another bin.
+    random = np.random.default_rng(0)
+    square = random.random((500, 2)) * [2, 1]
+    above = Delaunay(square).simplices
+    below = above[:, ::-1] + len(square)
+    vertices = np.column_stack([np.tile(square, (2, 1)), np.repeat([0.01, -0.01], len(square))])
+    mesh = normalise(Mesh(vertices, np.concatenate([above, below]).astype(np.int32)))
+    before = compute_histograms(mesh, fixed_edges(), by_area=True)
+    for turn in range(3):
+        moved = normalise(renumbered(Mesh(mesh.vertices @ rotation(turn).T, mesh.faces))[0])
+        after = compute_histograms(moved, fixed_edges(), by_area=True)
+        # Half the sum of the differences is the share of the surface that changed bins.
+        moves = np.abs(after - before).reshape(187, 10).sum(axis=1) / 2
+        assert moves.max() < 0.02
+        assert moves.mean() < 0.001
 
 
 @pytest.mark.parametrize("name", ["Gc", "Agd", "Nd", "Na", "Pa", "Sc"])
