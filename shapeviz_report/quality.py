@@ -56,7 +56,7 @@ def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, 
         return Quality(max(k, 0), nh, {}, None, None, None)
 
     weights = neighbour_weights(xy, k)
-    hits = _hits(weights, codes)
+    hits = neighbourhood_hits(weights, codes)
     nh[labelled] = hits[labelled]
     nh_c = {label: float(nh[codes == i].mean()) for i, label in enumerate(classes)}
     # A canonical order of the points makes the same permutations meet the same shapes in any input order.
@@ -67,7 +67,7 @@ def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, 
     shuffled = codes.copy()
     for i in range(PERMUTATIONS):
         shuffled[order] = random.permutation(codes[order])
-        null[i] = _hits(weights, shuffled)[labelled].mean()
+        null[i] = neighbourhood_hits(weights, shuffled)[labelled].mean()
     return Quality(
         k=k,
         nh=nh,
@@ -113,8 +113,20 @@ def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
     return csr_matrix(entries, shape=(count, count))
 
 
-def _hits(weights: csr_matrix, codes: np.ndarray) -> FloatArray:
-    """Per row: the weight of the neighbours with the row's own code."""
-    own = np.repeat(codes, np.diff(weights.indptr))
+def neighbourhood_hits(weights: csr_matrix, codes: np.ndarray) -> FloatArray:
+    """The NH of every shape on one map or several: the weight of the neighbours with its own class.
+
+    Parameters
+    ----------
+    weights : (S n, n) sparse matrix
+        As :func:`neighbour_weights` gives them, those of several maps one below the other.
+    codes : (n,) int array
+        The class of each shape.
+
+    Returns
+    -------
+    (S n,) float64 array
+    """
+    own = np.repeat(np.resize(codes, weights.shape[0]), np.diff(weights.indptr))
     same = weights.data * (own == codes[weights.indices])
     return np.add.reduceat(same, weights.indptr[:-1])

@@ -7,6 +7,7 @@ from shapeviz_report.projections.base import (
     canonical_order,
     project,
     squared_distances,
+    turn_towards,
 )
 from shapeviz_report.projections.pca import PCA_METHOD
 from shapeviz_report.projections.tsne import TSNE_METHOD
@@ -14,4 +15,13 @@ from shapeviz_report.projections.umap import UMAP_METHOD
 
 PROJECTIONS: tuple[Method, ...] = (TSNE_METHOD, UMAP_METHOD, PCA_METHOD)
 
-__all__ = ["PROJECTIONS", "Method", "align", "arrange", "canonical_order", "project", "squared_distances"]
+__all__ = [
+    "PROJECTIONS",
+    "Method",
+    "align",
+    "arrange",
+    "canonical_order",
+    "project",
+    "squared_distances",
+    "turn_towards",
+]

@@ -162,6 +162,11 @@ def align(projection: Projection, reference: Projection) -> Projection:
     Distances within the map keep their ratios. Orthogonal Procrustes: a reader who switches between maps
     keeps their bearings.
     """
-    left, _, right = np.linalg.svd(projection.xy.T @ reference.xy)
-    turned = fit_square(projection.xy @ (left @ right))
+    turned = turn_towards(projection.xy, reference.xy)
     return Projection(projection.method, projection.features, projection.seed, turned)
+
+
+def turn_towards(xy: FloatArray, reference: FloatArray) -> FloatArray:
+    """As :func:`align`, for the points (n, 2) alone."""
+    left, _, right = np.linalg.svd(xy.T @ reference)
+    return fit_square(xy @ (left @ right))

@@ -1,0 +1,129 @@
+"""How sure is a search? Seeds, shapes whose labels it has not seen, and labels without meaning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from scipy.sparse import csr_matrix
+
+from shapeviz_report.quality import neighbourhood_hits
+from shapeviz_report.types import FloatArray, SeedSpread
+
+Codes = npt.NDArray[np.intp]
+
+FOLDS = 5
+"""Parts of the shapes that are held out in turn."""
+
+PERMUTATIONS = 200
+"""Random labelings behind the best NH_s that chance finds."""
+
+NORMAL_95 = 1.96
+"""Standard errors on either side of a mean that hold 95 % of a normal distribution."""
+
+
+def compare_spreads(names: Sequence[tuple[str, ...]], hits: FloatArray) -> tuple[SeedSpread, ...]:
+    """Which subsets are as good as the best, as far as seeds and shapes can tell.
+
+    The difference to the best subset has two sources of chance: another seed, and other shapes of the same kind.
+    Its standard error adds up both: the variance over seeds of the two NH_s, and the variance over shapes of the
+    difference of their NH, each shape compared with itself.
+
+    Parameters
+    ----------
+    names : the features of c subsets
+    hits : (c, seeds, m) float array
+        NH of every labelled shape.
+
+    Returns
+    -------
+    tuple of SeedSpread
+        By falling mean.
+    """
+    by_seed = hits.mean(axis=2)
+    by_shape = hits.mean(axis=1)
+    seeds, shapes = hits.shape[1:]
+    variances = by_seed.var(axis=1, ddof=1) if seeds > 1 else np.zeros(len(hits))
+    means = by_seed.mean(axis=1)
+    best = int(means.argmax())
+    spreads = []
+    for i in np.argsort(-means, kind="stable"):
+        differences = by_shape[best] - by_shape[i]
+        over_shapes = differences.var(ddof=1) / shapes if shapes > 1 else 0.0
+        over_seeds = (variances[best] + variances[i]) / seeds if i != best else 0.0
+        behind = float(means[best] - means[i])
+        margin = float(NORMAL_95 * np.sqrt(over_shapes + over_seeds))
+        spreads.append(
+            SeedSpread(
+                features=names[i],
+                nh_s=by_seed[i],
+                mean=float(means[i]),
+                std=float(np.sqrt(variances[i])),
+                behind=behind,
+                margin=margin,
+                told_apart=behind > margin,
+            )
+        )
+    return tuple(spreads)
+
+
+def deal_folds(codes: Codes, seed: int) -> tuple[Codes, ...]:
+    """Part the labelled shapes into folds in which each class has its share; indices.
+
+    Classes are dealt out one after the other, so that the folds differ by at most one shape.
+    """
+    random = np.random.default_rng(seed)
+    classes = range(codes.max(initial=-1) + 1)
+    dealt = np.concatenate([random.permutation(np.flatnonzero(codes == c)) for c in classes])
+    return tuple(np.sort(dealt[i::FOLDS]) for i in range(FOLDS) if len(dealt[i::FOLDS]))
+
+
+def seen_scores(weights: csr_matrix, codes: Codes, held_out: Codes) -> FloatArray:
+    """NH_s of each map as it looks without the labels of some shapes.
+
+    Held-out shapes are neither scored nor counted as neighbours, since nobody knows whether they would be hits. A
+    shape with held-out neighbours only has no part in the mean.
+
+    Parameters
+    ----------
+    weights : (S m, m) sparse matrix
+        The neighbours on S maps, one map below the other.
+    codes : (m,) int array
+        -1 for a shape without a label.
+    held_out : int array
+        Indices of shapes.
+
+    Returns
+    -------
+    (S,) float64 array
+        0 where no shape can be scored.
+    """
+    seen = np.ones(len(codes), dtype=bool)
+    seen[held_out] = False
+    kept = weights.copy()
+    kept.data = weights.data * seen[weights.indices]
+    hits = neighbourhood_hits(kept, codes).reshape(-1, len(codes))
+    known = np.add.reduceat(kept.data, kept.indptr[:-1]).reshape(hits.shape)
+    counts = (known > 0) & seen & (codes >= 0)
+    shares = np.divide(hits, known, out=np.zeros_like(hits), where=counts)
+    return shares.sum(axis=1) / np.maximum(counts.sum(axis=1), 1)
+
+
+def best_by_chance(weights: csr_matrix, codes: Codes, seed: int) -> FloatArray:
+    """The best NH_s over S maps for labels dealt out anew, ``PERMUTATIONS`` times; sorted.
+
+    Maps do not depend on labels, so that the whole search is repeated by counting alone. Parameters as for
+    :func:`seen_scores`.
+    """
+    random = np.random.default_rng(seed)
+    labelled = np.flatnonzero(codes >= 0)
+    # Sorted, so that the names of the classes alone matter and not which shape had which.
+    labels = np.sort(codes[labelled])
+    shuffled = codes.copy()
+    best = np.empty(PERMUTATIONS)
+    for i in range(PERMUTATIONS):
+        shuffled[labelled] = random.permutation(labels)
+        hits = neighbourhood_hits(weights, shuffled).reshape(-1, len(codes))
+        best[i] = hits[:, labelled].mean(axis=1).max()
+    return np.sort(best)
