@@ -19,12 +19,13 @@ from pathlib import Path
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from shapeviz_report.features import BLOCKS, PRESETS, scale
+from benchmarks.sites import load_features
+from shapeviz_report.features import PRESETS
 from shapeviz_report.projections import squared_distances, tsne
 from shapeviz_report.projections.base import principal_components
 from shapeviz_report.projections.kernels import exact_tsne
 from shapeviz_report.quality import NEIGHBOURS, neighbour_weights
-from shapeviz_report.types import FeatureTable, FloatArray
+from shapeviz_report.types import FloatArray
 
 SEEDS = range(10)
 PERPLEXITY = tsne.PERPLEXITY
@@ -91,10 +92,8 @@ def measure(layout: Layout, values: FloatArray, seed: int) -> tuple[float, Float
 
 def compare_seeds(file: Path, preset: str) -> None:
     """Print a table over seeds."""
-    with np.load(file) as archive:
-        ids = tuple(archive["shape_ids"].tolist())
-        values = scale(FeatureTable(ids, BLOCKS, archive["values"]), PRESETS[preset])
-    labels = np.array([name.rpartition("/")[0] for name in ids])
+    _, values, folders = load_features(file, preset)
+    labels = np.array(folders)
     print("| | CPU seconds | KL divergence | NH_s |\n|---|---|---|---|")
     for name, layout in (LAYOUTS | {"scikit-learn, exact": by_scikit_learn_exactly}).items():
         runs = [measure(layout, values, seed) for seed in SEEDS]
