@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 
 from shapeviz_report.pages.base import METHODS, PageContent, class_names
 from shapeviz_report.types import Report
@@ -27,6 +28,8 @@ class AboutPage:
                 "versions": list(report.versions.items()),
                 "meshes": _meshes(report),
                 "repaired": sum(bool(facts.repairs) for facts in report.facts),
+                "repairs": _repairs(report),
+                "open": sum(not facts.watertight for facts in report.facts),
                 "feature_blocks": [
                     {"name": block.name, "dimensions": block.dimensions, "columns": block.width}
                     for block in report.features.blocks
@@ -96,9 +99,21 @@ def _meshes(report: Report) -> list[dict[str, object]]:
             "components": facts.components,
             "watertight": facts.watertight,
             "deviation": facts.deviation,
-            "repairs": "; ".join(f"{repair}: {count}" for repair, count in facts.repairs.items()),
+            "repairs": list(facts.repairs.items()),
         }
         for shape, facts in zip(report.shapes, report.facts, strict=True)
+    ]
+
+
+def _repairs(report: Report) -> list[tuple[str, int, int]]:
+    """What was mended, in how many meshes, and how often in all; by falling number of meshes."""
+    meshes, times = Counter[str](), Counter[str]()
+    for facts in report.facts:
+        meshes.update(facts.repairs.keys())
+        times.update(facts.repairs)
+    return [
+        (repair, count, times[repair])
+        for repair, count in sorted(meshes.items(), key=lambda x: (-x[1], x[0]))
     ]
 
 

@@ -21,3 +21,19 @@ def test_the_theme_button_works(open_page):
     page = open_page("plain", "about.html", color_scheme="light")
     page.click("#theme")
     assert page.evaluate("document.documentElement.dataset.theme") == "dark"
+
+
+def test_meshes_are_found_by_name_and_by_repair(open_page):
+    page = open_page("plain", "about.html")
+    page.locator("details summary").click()
+    rows = page.locator("#meshes tbody tr:visible")
+    every = rows.count()
+    page.fill("#find-mesh", "duplicate FACES")
+    assert 0 < rows.count() < every
+    assert all("duplicate faces removed: 4" in row for row in rows.all_text_contents())
+    page.fill("#find-mesh", "0003")
+    assert 0 < rows.count() < every
+    assert all("0003" in row for row in rows.all_text_contents())
+    page.fill("#find-mesh", "no such thing")
+    assert rows.count() == 0
+    assert page.locator("#meshes [role=status]").text_content().startswith("0 of ")

@@ -1,5 +1,20 @@
-// The About page is plain HTML; only the theme button needs a script.
+// The About page is plain HTML; scripts serve the theme button, and the search among the meshes.
 
 import { watchTheme } from "../theme.js";
 
 watchTheme(() => {});
+
+const meshes = document.getElementById("meshes");
+const field = document.getElementById("find-mesh");
+const status = meshes.querySelector("[role=status]");
+const rows = [...meshes.querySelectorAll("tbody tr")].map((row) => ({ row, text: row.textContent.toLocaleLowerCase() }));
+field.closest("p").hidden = false;
+field.addEventListener("input", () => {
+  const words = field.value.toLocaleLowerCase().split(/\s+/);
+  let found = 0;
+  for (const { row, text } of rows) {
+    row.hidden = !words.every((word) => text.includes(word));
+    if (!row.hidden) found += 1;
+  }
+  status.textContent = field.value.trim() === "" ? "" : `${found} of ${rows.length}`;
+});

@@ -1,5 +1,7 @@
 """The About page says what was built, from what, and what failed."""
 
+from dataclasses import replace
+
 import pytest
 from reports import make_report
 
@@ -42,3 +44,18 @@ def test_a_database_without_failures_says_so(tmp_path):
     assert "None: every file of the database is on the map." in (tmp_path / "about.html").read_text(
         encoding="utf-8"
     )
+
+
+def test_repairs_are_summed_up_over_the_meshes():
+    report = make_report(["ant"], 3)
+    mended = [
+        {"vertices welded": 5},
+        {"vertices welded": 2, "empty faces dropped": 1},
+        {},
+    ]
+    facts = tuple(
+        replace(f, repairs=r, watertight=bool(r)) for f, r in zip(report.facts, mended, strict=True)
+    )
+    context = AboutPage().content(replace(report, facts=facts)).context
+    assert context["repairs"] == [("vertices welded", 2, 7), ("empty faces dropped", 1, 1)]
+    assert (context["repaired"], context["open"]) == (2, 1)
