@@ -38,6 +38,7 @@ STAGES = {
     "describe": "Describing shapes",
     "render": "Drawing thumbnails",
     "project": "Projecting",
+    "search": "Searching features",
     "score": "Scoring",
     "write": "Writing the site",
 }
@@ -99,7 +100,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     _add_destination(demo)
-    _add_options(demo, ["preset", "seed", "jobs", "scheduler", "cache"])
+    _add_options(demo, ["preset", "search", "seed", "jobs", "scheduler", "cache"])
     demo.set_defaults(command=_demo)
 
     check = commands.add_parser(

@@ -16,6 +16,7 @@ FILE_NAME = "shapeviz.toml"
 """The options' file; it lies in the database's folder."""
 
 PRESETS = ("default", "paper")
+SEARCHES = ("tsne", "umap", "none")
 
 
 def _option(default: Any, text: str, metavar: str | None = None) -> Any:
@@ -50,6 +51,11 @@ class Config:
         "FILE",
     )
     neighbours: int = _option(10, "k of the neighbourhood hit", "K")
+    search: str = _option(
+        "tsne",
+        "method of the maps among which the best features are searched: 'tsne', 'umap', or 'none' for no search",
+        "METHOD",
+    )
     edge_length: float = _option(
         0.01, "edge length after remeshing, as a fraction of the diagonal", "FRACTION"
     )
@@ -73,6 +79,8 @@ class Config:
     def __post_init__(self) -> None:
         if self.preset not in PRESETS:
             raise ConfigError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset!r}")
+        if self.search not in SEARCHES:
+            raise ConfigError(f"search must be one of {', '.join(SEARCHES)}, not {self.search!r}")
         if self.up not in (None, "y", "z"):
             raise ConfigError(f"up must be y or z, not {self.up!r}")
         if self.scheduler is not None and self.jobs is not None:

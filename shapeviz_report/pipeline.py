@@ -1,16 +1,17 @@
-"""The stages of a build, in order: read, prepare, describe, project, score, render, write."""
+"""The stages of a build, in order: read, prepare, describe, render, project, search, score, write."""
 
 from __future__ import annotations
 
 import logging
 import platform
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field, replace
+from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
@@ -32,11 +33,13 @@ from shapeviz_report.mesh import collect_files, content_hash
 from shapeviz_report.projections import PROJECTIONS, align
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
+from shapeviz_report.search import SubsetMaps, make_space, planned_runs, search_features
 from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import (
     Database,
     Failure,
     FeatureBlock,
+    FeatureSearch,
     FeatureTable,
     FloatArray,
     Projection,
@@ -49,6 +52,11 @@ logger = logging.getLogger(__name__)
 
 SAMPLED_VERTICES = 400_000
 """Vertices behind data-driven histogram ranges, over all shapes; at least 16 and at most 1000 of each."""
+
+SUBSETS_A_TASK = 16
+"""Maps that a worker makes before it reports back: few enough to lose little, many enough to send distances seldom."""
+
+Name = TypeVar("Name", bound=Hashable)
 
 LIBRARIES = (
     "numpy", "scipy", "numba", "scikit-learn", "umap-learn", "mmgpy", "trimesh", "pyrender-maintained", "altair",
@@ -202,10 +210,11 @@ def build_report(
                 [[described[s.id].value for s in shapes], *(values[rows] for _, values in external)]
             ),
         )
-        projections = _project(run, features, scale(features, preset), config.seed)
-
-    labeling = database.labelings[0] if database.labelings else None
-    labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)
+        scaled = scale(features, preset)
+        projections = _project(run, features, scaled, config.seed)
+        labeling = database.labelings[0] if database.labelings else None
+        labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)
+        search = _search(run, features, scaled, labels, config)
     with clock.stage("score"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
@@ -226,6 +235,7 @@ def build_report(
         | {"python": platform.python_version()},
         seconds=clock.seconds,
         cpu_seconds=clock.cpu_seconds,
+        search=search,
     )
     with clock.stage("write"):
         write_site(report, destination)
@@ -352,44 +362,71 @@ class _Runner:
             By shape id, in the order of ``shapes``; those that failed are missing.
         """
         ids = list(shapes)
-        keys: list[tuple[str, str]] = []  # Shape and key of each task that is not in the cache.
         results: dict[str, _Result] = {}
         failed: dict[str, str] = {}
+        with self.clock.stage(name, len(ids)) as step:
 
-        def take(shape: str, key: str, content: bytes) -> None:
-            try:
-                results[shape] = _Result(key, read(content))
-            except MeshError as error:
-                failed[shape] = str(error)
-
-        def open_tasks() -> Iterator[tuple[Any, ...]]:
-            for shape in ids:
+            def take(shape: str, key: str, content: bytes, cpu_seconds: float) -> None:
                 try:
-                    task = plan(shape)
+                    results[shape] = _Result(key, read(content))
                 except MeshError as error:
                     failed[shape] = str(error)
-                    step(0.0)
-                    continue
-                content = self._cache.load(stage.folder, task.key)
-                if content is None:
-                    keys.append((shape, task.key))
-                    yield task.arguments()
-                else:
-                    take(shape, task.key, content)
-                    step(0.0)
+                step(cpu_seconds)
 
-        with self.clock.stage(name, len(ids)) as step:
-            for outcome in self.executor.run(stage.function, open_tasks()):
-                shape, key = keys[outcome.index]
-                if outcome.reason is None:
-                    self._cache.store(stage.folder, key, outcome.value)
-                    take(shape, key, outcome.value)
-                else:
-                    failed[shape] = outcome.reason
-                step(outcome.cpu_seconds)
+            def drop(shape: str, reason: str, cpu_seconds: float) -> None:
+                failed[shape] = reason
+                step(cpu_seconds)
+
+            self.find(stage, ids, plan, take, drop)
         # Workers finish in any order; the report must not show which.
         self._failures.extend(Failure(self._paths[i], name, failed[i]) for i in ids if i in failed)
         return {shape: results[shape] for shape in ids if shape in results}
+
+    def find(
+        self,
+        stage: stages.Stage,
+        names: Iterable[Name],
+        plan: Callable[[Name], _Task],
+        take: Callable[[Name, str, bytes, float], None],
+        drop: Callable[[Name, str, float], None],
+    ) -> None:
+        """Find results in the cache or have them computed and kept, in any order.
+
+        Parameters
+        ----------
+        stage : Stage
+        names : iterable
+            Of the tasks.
+        plan : callable
+            The task of a name; called when its turn comes. May raise :class:`MeshError`.
+        take : callable
+            Gets each name, key, result and CPU seconds spent on it.
+        drop : callable
+            Gets each name that has no result, the reason, and the CPU seconds spent on it.
+        """
+        sent: list[tuple[Name, str]] = []
+
+        def open_tasks() -> Iterator[tuple[Any, ...]]:
+            for name in names:
+                try:
+                    task = plan(name)
+                except MeshError as error:
+                    drop(name, str(error), 0.0)
+                    continue
+                content = self._cache.load(stage.folder, task.key)
+                if content is None:
+                    sent.append((name, task.key))
+                    yield task.arguments()
+                else:
+                    take(name, task.key, content, 0.0)
+
+        for outcome in self.executor.run(stage.function, open_tasks()):
+            name, key = sent[outcome.index]
+            if outcome.reason is None:
+                self._cache.store(stage.folder, key, outcome.value)
+                take(name, key, outcome.value, outcome.cpu_seconds)
+            else:
+                drop(name, outcome.reason, outcome.cpu_seconds)
 
 
 def _identity(path: Path, files: Mapping[str, bytes]) -> str:
@@ -400,18 +437,63 @@ def _identity(path: Path, files: Mapping[str, bytes]) -> str:
 def _project(run: _Runner, features: FeatureTable, values: FloatArray, seed: int) -> dict[str, Projection]:
     """The map of every method, turned to agree with the first."""
     names = tuple(block.name for block in features.blocks)
-    tasks = [(method.name, values, names, seed) for method in PROJECTIONS]
     found: dict[str, Projection] = {}
-    with run.clock.stage("project", len(tasks)) as step:
-        for outcome in run.executor.run(stages.project_features, tasks):
-            if outcome.reason is not None:
-                raise DatabaseError(
-                    f"The projection {tasks[outcome.index][0]} failed: {outcome.reason}. A larger time_limit may help."
-                )
-            found[outcome.value.method] = outcome.value
-            step(outcome.cpu_seconds)
+    with run.clock.stage("project", len(PROJECTIONS)) as step:
+
+        def plan(method: str) -> _Task:
+            key = stages.PROJECT.key(method, values.shape, sha256(values.tobytes()).hexdigest(), seed)
+            return _Task(key, lambda: (method, values, seed))
+
+        def take(method: str, _: str, content: bytes, cpu_seconds: float) -> None:
+            found[method] = Projection(method, names, seed, stages.read_array(content))
+            step(cpu_seconds)
+
+        def drop(method: str, reason: str, _: float) -> None:
+            raise DatabaseError(f"The projection {method} failed: {reason}. A larger time_limit may help.")
+
+        run.find(stages.PROJECT, [method.name for method in PROJECTIONS], plan, take, drop)
     reference = found[PROJECTIONS[0].name]
     return {m.name: align(found[m.name], reference) for m in PROJECTIONS}
+
+
+def _search(
+    run: _Runner, features: FeatureTable, scaled: FloatArray, labels: Sequence[str | None], config: Config
+) -> FeatureSearch | None:
+    """The search for the best subset of features, its maps made by the executor and kept."""
+    if config.search == "none":
+        return None
+    space = make_space(features, scaled, labels, seed=config.seed)
+    with run.clock.stage("search", planned_runs(len(space.features)) or 0) as step:
+
+        def evaluate(seed: int, subsets: Sequence[int]) -> SubsetMaps:
+            chunks = [tuple(subsets[i : i + SUBSETS_A_TASK]) for i in range(0, len(subsets), SUBSETS_A_TASK)]
+            made: dict[tuple[int, ...], SubsetMaps] = {}
+
+            def plan(chunk: tuple[int, ...]) -> _Task:
+                key = stages.SEARCH.key(space.key, config.search, seed, chunk)
+                return _Task(key, lambda: (space.squared, config.search, seed, chunk))
+
+            def take(chunk: tuple[int, ...], _: str, content: bytes, cpu_seconds: float) -> None:
+                made[chunk] = stages.read_maps(content)
+                step(cpu_seconds)
+                for _ in chunk[1:]:
+                    step(0.0)
+
+            def drop(_: tuple[int, ...], reason: str, __: float) -> None:
+                raise DatabaseError(
+                    f"The search for the best features failed: {reason}. A larger time_limit may help; --search none "
+                    "leaves it out."
+                )
+
+            run.find(stages.SEARCH, chunks, plan, take, drop)
+            return SubsetMaps(
+                np.concatenate([made[chunk].xy for chunk in chunks]),
+                np.concatenate([made[chunk].cpu_seconds for chunk in chunks]),
+            )
+
+        return search_features(
+            space, labels, config.search, evaluate=evaluate, seed=config.seed, k=config.neighbours
+        )
 
 
 def _load_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:

@@ -22,7 +22,8 @@ from shapeviz_report.features import compute_histograms, sample_values
 from shapeviz_report.mesh import clean, prepare, read_mesh
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import UpAxis, render_thumbnail
-from shapeviz_report.types import FloatArray, Mesh, Projection, ShapeFacts
+from shapeviz_report.search import SubsetMaps, map_subsets
+from shapeviz_report.types import FloatArray, Mesh, ShapeFacts
 
 
 def examine_shape(files: Mapping[str, bytes]) -> bytes:
@@ -81,7 +82,7 @@ def describe_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
 
 
 def read_array(content: bytes) -> FloatArray:
-    """The array in a result of :func:`sample_shape` or :func:`describe_shape`."""
+    """The array in a result of :func:`sample_shape`, :func:`describe_shape` or :func:`project_features`."""
     return np.load(io.BytesIO(content), allow_pickle=False)
 
 
@@ -95,9 +96,23 @@ def generate_shape(class_name: str, index: int, seed: int) -> bytes:
     return demo.encode_shape(class_name, index, seed)
 
 
-def project_features(method: str, values: FloatArray, features: tuple[str, ...], seed: int) -> Projection:
-    """Lay out the rows of ``values`` with the method of that name."""
-    return project(next(m for m in PROJECTIONS if m.name == method), values, features, seed)
+def project_features(method: str, values: FloatArray, seed: int) -> bytes:
+    """Lay out the rows of ``values`` with the method of that name; an array (n, 2) as a file."""
+    return _pack_array(project(next(m for m in PROJECTIONS if m.name == method), values, (), seed).xy)
+
+
+def map_features(squared: FloatArray, method: str, seed: int, subsets: tuple[int, ...]) -> bytes:
+    """Maps of some subsets of the features, for :func:`read_maps`; see :func:`~shapeviz_report.search.map_subsets`."""
+    maps = map_subsets(squared, method, seed, subsets)
+    buffer = io.BytesIO()
+    np.savez(buffer, xy=maps.xy, cpu_seconds=maps.cpu_seconds)
+    return buffer.getvalue()
+
+
+def read_maps(content: bytes) -> SubsetMaps:
+    """The maps in a result of :func:`map_features`."""
+    with np.load(io.BytesIO(content), allow_pickle=False) as archive:
+        return SubsetMaps(archive["xy"], archive["cpu_seconds"])
 
 
 @dataclass(frozen=True)
@@ -140,13 +155,16 @@ DESCRIBE = Stage("described", describe_shape, ("descriptors", "features"), ("num
 RENDER = Stage(
     "rendered", render_shape, ("render",), ("pillow", "pyrender-maintained", "PyOpenGL", "numpy", "scipy")
 )
+_PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
+PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
+SEARCH = Stage("searched", map_features, ("search", "projections"), _PROJECTORS)
 GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "scipy"))
 
 
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
-    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, GENERATE)
-    libraries = {library for stage in stages for library in stage.libraries} | {"scikit-learn", "umap-learn"}
+    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PROJECT, SEARCH, GENERATE)
+    libraries = {library for stage in stages for library in stage.libraries}
     return code_version(("shapeviz_report",), tuple(sorted(libraries)))
 
 
