@@ -17,6 +17,7 @@ from typing import Literal
 
 import numpy as np
 
+from shapeviz_report.descriptors.kernels.pairs import SMALLEST
 from shapeviz_report.types import FloatArray, IntArray
 
 Source = Literal["first", "flatter", "both"]
@@ -49,7 +50,11 @@ def pair_angles(
     v = v / np.where(width > 0, width, 1)
     w = np.cross(u, v)
     alpha, phi = (v * other).sum(axis=-1), (u * line).sum(axis=-1)
-    theta = np.arctan2((w * other).sum(axis=-1), (u * other).sum(axis=-1))
+    height = (w * other).sum(axis=-1)
+    theta = np.arctan2(height, (u * other).sum(axis=-1))
+    if source == "first":
+        # Opposite normals turn by pi or by -pi, as rounding has it: ours take the latter.
+        theta = np.where(height * width[..., 0] > SMALLEST, theta, -np.abs(theta))
     scaled = np.stack([(alpha + 1) / 2, (phi + 1) / 2, (theta / np.pi + 1) / 2])
     return np.where(width[..., 0] > 0, scaled, 0.5)
 

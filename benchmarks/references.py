@@ -6,6 +6,7 @@ import numpy as np
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
 
+from shapeviz_report.descriptors.kernels.contexts import BESIDE
 from shapeviz_report.types import FloatArray, IntArray, Mesh
 
 CHUNK = 200
@@ -135,7 +136,7 @@ def shape_context(
         rows = chosen[start : start + CHUNK]
         ways = vertices - vertices[rows][:, None]
         shell = np.searchsorted(limits, np.linalg.norm(ways, axis=2) / 2)
-        octant = (np.matmul(ways, frames[start : start + CHUNK]) > 0) @ np.array([1, 2, 4])
+        octant = (np.matmul(ways, frames[start : start + CHUNK]) > BESIDE) @ np.array([1, 2, 4])
         cells = 24 * np.arange(len(rows))[:, None] + 8 * shell + octant
         keep = np.arange(len(vertices)) != rows[:, None]
         tally = np.bincount(cells[keep], minlength=24 * len(rows)).reshape(-1, 24)
