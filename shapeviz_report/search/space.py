@@ -22,8 +22,8 @@ from shapeviz_report.projections import PROJECTIONS, arrange, canonical_order, s
 from shapeviz_report.types import FeatureTable, FloatArray, IntArray
 
 SAMPLE_LIMIT = 1000
-"""Most shapes that a search takes; of larger databases, a stratified sample. At this size a t-SNE map costs half a
-CPU second, all 255 two minutes."""
+"""Most shapes that a search takes; of larger databases, a stratified sample. At this size a t-SNE map costs 0.7 CPU
+seconds, all 255 three minutes."""
 
 
 @dataclass(frozen=True)
