@@ -63,9 +63,7 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
         )
     length = affordable_edge_length(cleaned, edge_length)
     if length > edge_length:
-        repairs["edges lengthened, for its surface is folded many times over (%)"] = round(
-            100 * length / edge_length
-        )
+        repairs["edges lengthened, for the surface is folded many times over"] = 1
     remeshed = remesh(cleaned, length)
     distance = deviation(cleaned, remeshed)
     if distance > MAX_DEVIATION:

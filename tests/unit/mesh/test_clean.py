@@ -166,7 +166,7 @@ def test_nothing_left_is_an_error(vertices, reason) -> None:
 @pytest.mark.parametrize("size", [1e-310, 1e-200, 1e-18, 1e18, 1e150, 1e307])
 def test_size_and_place_do_not_matter(size) -> None:
     # Squares of these sizes are out of range; a denormal has few digits left.
-    mended, repairs = clean(Mesh((ball(2).vertices + [5, 0, 0]) * size, ball(2).faces))
+    mended, repairs = clean(Mesh((ball(2).vertices + np.array([5, 0, 0])) * size, ball(2).faces))
     assert repairs == {}
     assert np.linalg.norm(np.ptp(mended.vertices, axis=0)) == pytest.approx(1)
     assert volume(mended) == pytest.approx(volume(ball(2)))

@@ -92,7 +92,7 @@ def test_a_surface_stacked_many_times_over_gets_longer_edges() -> None:
     assert affordable_edge_length(ball(3), 0.01) == 0.01
     layer = sheet(2)
     book = Mesh(
-        np.concatenate([layer.vertices + [0, 0, i * 1e-4] for i in range(1000)]),
+        np.concatenate([layer.vertices + np.array([0, 0, i * 1e-4]) for i in range(1000)]),
         np.concatenate([layer.faces + 4 * i for i in range(1000)]).astype(np.int32),
     )
     length = affordable_edge_length(book, 0.01)

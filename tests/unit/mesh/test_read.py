@@ -312,6 +312,16 @@ def test_off_that_is_wrong(tmp_path, text, reason):
         read_text(tmp_path, "mesh.off", text)
 
 
+def test_reasons_are_for_the_owner_of_a_file(tmp_path):
+    # The parser's own words would be: invalid literal for int() with base 10: '3.5'
+    with pytest.raises(
+        MeshError, match="^it is damaged, cut off, or not OFF at all; open it in .* export it anew$"
+    ):
+        read_text(tmp_path, "mesh.off", off("OFF\n4 1 6", TETRAHEDRON, ["3.5 0 2 1"]))
+    with pytest.raises(MeshError, match="something else stands where a number belongs"):
+        read_text(tmp_path, "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 x\n")
+
+
 def test_extreme_coordinates_are_kept(tmp_path):
     vertices = ["1e300 -1e300 5e-324", "nan 0 0", "inf -inf 0", "0 0 1"]
     mesh = read_text(tmp_path, "mesh.off", off("OFF\n4 2 0", vertices, ["3 0 1 2", "4 0 1 2 3"]))
