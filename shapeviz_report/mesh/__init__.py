@@ -5,4 +5,13 @@ from shapeviz_report.mesh.prepare import deviation, normalise, prepare
 from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
 from shapeviz_report.mesh.remesh import remesh
 
-__all__ = ["clean", "collect_files", "content_hash", "deviation", "normalise", "prepare", "read_mesh", "remesh"]
+__all__ = [
+    "clean",
+    "collect_files",
+    "content_hash",
+    "deviation",
+    "normalise",
+    "prepare",
+    "read_mesh",
+    "remesh",
+]

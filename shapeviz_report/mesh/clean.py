@@ -131,7 +131,9 @@ def _in_diagonals(vertices: FloatArray) -> FloatArray:
     longest = float(extent.max())
     farthest = float(np.abs(vertices).max())
     if not np.isfinite(longest):
-        raise MeshError(f"its coordinates, up to {farthest:.0e}, exceed what can be computed with; scale it down")
+        raise MeshError(
+            f"its coordinates, up to {farthest:.0e}, exceed what can be computed with; scale it down"
+        )
     if longest == 0:
         raise MeshError("all its vertices lie in one point")
     if longest <= RESOLUTION * farthest:

@@ -297,7 +297,7 @@ def test_off_polygons(tmp_path):
         ),
         (off("OFF\n4 4 6", TETRAHEDRON, TETRAHEDRON_FACES[:2]), "4 faces, and has only 6 lines"),
         (off("OFF\n999999999999 4 6", TETRAHEDRON, TETRAHEDRON_FACES), "only 8 lines"),
-        (off("OFF\n4 4 6", ["0 0 zero", *TETRAHEDRON[1:]], TETRAHEDRON_FACES), "zero|match"),
+        (off("OFF\n4 4 6", ["0 0 zero", *TETRAHEDRON[1:]], TETRAHEDRON_FACES), "a number belongs"),
         (
             off("4OFF\n4 4 6", [f"{vertex} 1" for vertex in TETRAHEDRON], TETRAHEDRON_FACES),
             "three dimensions",
@@ -315,7 +315,7 @@ def test_off_that_is_wrong(tmp_path, text, reason):
 def test_reasons_are_for_the_owner_of_a_file(tmp_path):
     # The parser's own words would be: invalid literal for int() with base 10: '3.5'
     with pytest.raises(
-        MeshError, match="^it is damaged, cut off, or not OFF at all; open it in .* export it anew$"
+        MeshError, match=r"^it is damaged, cut off, or not OFF at all; open it in .* export it anew$"
     ):
         read_text(tmp_path, "mesh.off", off("OFF\n4 1 6", TETRAHEDRON, ["3.5 0 2 1"]))
     with pytest.raises(MeshError, match="something else stands where a number belongs"):
@@ -407,7 +407,7 @@ def test_obj_as_found_in_the_wild(tmp_path):
         ("f 0 1 2", "counts from 1"),
         ("f 1 2 4", "vertex 3 "),
         ("f -4 1 2", "vertex -1 "),
-        ("f 1 2 x", "number|match"),
+        ("f 1 2 x", "a number belongs"),
     ],
 )
 def test_obj_that_is_wrong(tmp_path, face, reason):
