@@ -17,7 +17,7 @@ import numpy as np
 
 from shapeviz_report import demo, stages
 from shapeviz_report.cache import Cache, default_root, write_atomically
-from shapeviz_report.config import Config
+from shapeviz_report.config import SEARCHES, Config
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
 from shapeviz_report.executor import Executor, LocalExecutor
@@ -33,7 +33,7 @@ from shapeviz_report.mesh import collect_files, content_hash
 from shapeviz_report.projections import PROJECTIONS, align
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
-from shapeviz_report.search import SubsetMaps, make_space, planned_runs, search_features
+from shapeviz_report.search import SearchSpace, SubsetMaps, make_space, planned_runs, search_features
 from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import (
     Database,
@@ -211,10 +211,11 @@ def build_report(
             ),
         )
         scaled = scale(features, preset)
-        projections = _project(run, features, scaled, config.seed)
         labeling = database.labelings[0] if database.labelings else None
         labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)
-        search = _search(run, features, scaled, labels, config)
+        space = make_space(features, scaled, labels, seed=config.seed)
+        projections = _project(run, space, features, scaled, config.seed)
+        search = _search(run, space, labels, config)
     with clock.stage("score"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
@@ -434,35 +435,50 @@ def _identity(path: Path, files: Mapping[str, bytes]) -> str:
     return f"{path.suffix.lower()} {content_hash(files)}"
 
 
-def _project(run: _Runner, features: FeatureTable, values: FloatArray, seed: int) -> dict[str, Projection]:
+def _project(
+    run: _Runner, space: SearchSpace, features: FeatureTable, values: FloatArray, seed: int
+) -> dict[str, Projection]:
     """The map of every method, turned to agree with the first."""
     names = tuple(block.name for block in features.blocks)
-    found: dict[str, Projection] = {}
+    found: dict[str, FloatArray] = {}
+    # Where the search takes all shapes, its map of all features is the map: t-SNE and UMAP make another one of sums
+    # that differ in their last digits.
+    shared = {m.name for m in PROJECTIONS if m.name in SEARCHES and len(space.rows) == len(values)}
+    everything = (space.everything,)
     with run.clock.stage("project", len(PROJECTIONS)) as step:
 
         def plan(method: str) -> _Task:
             key = stages.PROJECT.key(method, values.shape, sha256(values.tobytes()).hexdigest(), seed)
             return _Task(key, lambda: (method, values, seed))
 
+        def plan_shared(method: str) -> _Task:
+            key = stages.SEARCH.key(space.key, method, seed, everything)
+            return _Task(key, lambda: (space.squared, method, seed, everything))
+
         def take(method: str, _: str, content: bytes, cpu_seconds: float) -> None:
-            found[method] = Projection(method, names, seed, stages.read_array(content))
+            if method in shared:
+                found[method] = np.empty((len(values), 2))
+                found[method][space.rows] = stages.read_maps(content).xy[0]
+            else:
+                found[method] = stages.read_array(content)
             step(cpu_seconds)
 
         def drop(method: str, reason: str, _: float) -> None:
             raise DatabaseError(f"The projection {method} failed: {reason}. A larger time_limit may help.")
 
-        run.find(stages.PROJECT, [method.name for method in PROJECTIONS], plan, take, drop)
-    reference = found[PROJECTIONS[0].name]
-    return {m.name: align(found[m.name], reference) for m in PROJECTIONS}
+        methods = [method.name for method in PROJECTIONS]
+        run.find(stages.PROJECT, [m for m in methods if m not in shared], plan, take, drop)
+        run.find(stages.SEARCH, [m for m in methods if m in shared], plan_shared, take, drop)
+    maps = {method: Projection(method, names, seed, found[method]) for method in methods}
+    return {method: align(maps[method], maps[methods[0]]) for method in methods}
 
 
 def _search(
-    run: _Runner, features: FeatureTable, scaled: FloatArray, labels: Sequence[str | None], config: Config
+    run: _Runner, space: SearchSpace, labels: Sequence[str | None], config: Config
 ) -> FeatureSearch | None:
     """The search for the best subset of features, its maps made by the executor and kept."""
     if config.search == "none":
         return None
-    space = make_space(features, scaled, labels, seed=config.seed)
     with run.clock.stage("search", planned_runs(len(space.features)) or 0) as step:
 
         def evaluate(seed: int, subsets: Sequence[int]) -> SubsetMaps:

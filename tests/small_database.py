@@ -7,8 +7,11 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-OPTIONS = {"edge_length": 0.06, "thumbnail_size": 64, "jobs": 2}
-"""Coarse meshes and small pictures: the same way through, in seconds."""
+OPTIONS = {"edge_length": 0.06, "thumbnail_size": 64, "jobs": 2, "search": "none"}
+"""Coarse meshes, small pictures and no search: the same way through, in seconds."""
+
+WITH_SEARCH = OPTIONS | {"search": "tsne"}
+"""The same with all subsets of features."""
 
 
 def make_shape(kind: str, index: int) -> trimesh.Trimesh:

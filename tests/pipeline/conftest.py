@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from small_database import OPTIONS, write_database
+from small_database import WITH_SEARCH, write_database
 
 import shapeviz_report
 
@@ -24,4 +24,4 @@ def database(tmp_path_factory) -> Path:
 def built(database, cache, tmp_path_factory):
     """The site of ``database`` and its report."""
     site = tmp_path_factory.mktemp("sites") / "site"
-    return site, shapeviz_report.build(database, site, cache=cache, **OPTIONS)
+    return site, shapeviz_report.build(database, site, cache=cache, **WITH_SEARCH)

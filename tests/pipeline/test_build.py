@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from small_database import OPTIONS, make_shape, read_site, write_database
+from small_database import OPTIONS, WITH_SEARCH, make_shape, read_site, write_database
 
 import shapeviz_report
 from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
@@ -46,6 +46,29 @@ def test_a_site_is_complete(built) -> None:
         assert len(list(csv.DictReader(file))) == 15
 
 
+def test_the_search_goes_over_all_subsets(built) -> None:
+    _, report = built
+    search = report.search
+    assert search.exhaustive
+    assert len(search.subsets.members) == 255
+    everything = search.subsets.nh_s[search.subsets.members.all(axis=1)]
+    assert everything == pytest.approx(report.projections["tsne"][1].nh_s)
+    assert search.subsets.nh_s.max() >= everything
+    assert "search" in report.seconds
+
+
+def test_a_search_that_was_stopped_continues(database, cache, built, tmp_path) -> None:
+    found = entries(cache, "searched")
+    lost = sorted(found)[::2]
+    for path in lost:
+        path.unlink()
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, **WITH_SEARCH)
+    again = entries(cache, "searched")
+    assert again.keys() == found.keys()
+    assert [path for path in found if again[path] != found[path]] == lost
+    np.testing.assert_array_equal(report.search.subsets.xy, built[1].search.subsets.xy)
+
+
 def test_groups_are_found(built) -> None:
     _, report = built
     # Four of the ten neighbours can be of the own class.
@@ -59,7 +82,7 @@ def test_the_same_site_again_whatever_the_order_jobs_and_cache(built, database, 
     for path in sorted(database.rglob("*.off"), reverse=True):
         (copy / path.parent.name).mkdir(parents=True, exist_ok=True)
         shutil.copy(path, copy / path.parent.name)
-    shapeviz_report.build(copy, tmp_path / "site", cache=tmp_path / "cache", **OPTIONS | {"jobs": 1})
+    shapeviz_report.build(copy, tmp_path / "site", cache=tmp_path / "cache", **WITH_SEARCH | {"jobs": 1})
     first, second = read_site(site), read_site(tmp_path / "site")
     assert first.keys() == second.keys()
     assert [name for name in first if first[name] != second[name]] == []
@@ -81,7 +104,18 @@ def test_killed_at_any_moment_a_second_run_continues(tmp_path) -> None:
     database = write_database(tmp_path / "solids", per_class=8)
     cache, site = tmp_path / "cache", tmp_path / "site"
     command = [sys.executable, "-m", "shapeviz_report.cli", "build", str(database), "-o", str(site)]
-    command += ["--cache", str(cache), "--edge-length", "0.06", "--thumbnail-size", "64", "--jobs", "2"]
+    command += [
+        "--cache",
+        str(cache),
+        "--edge-length",
+        "0.06",
+        "--thumbnail-size",
+        "64",
+        "--jobs",
+        "2",
+        "--search",
+        "none",
+    ]
     kept = 0
     for moment in ("prepared", "described", "rendered"):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -6,13 +6,13 @@ from contextlib import contextmanager
 
 import pytest
 from cluster import running_cluster
-from small_database import OPTIONS, read_site
+from small_database import WITH_SEARCH, read_site
 
 import shapeviz_report
 from shapeviz_report.config import Config
 from shapeviz_report.pipeline import build_report
 
-CLUSTER_OPTIONS = {name: value for name, value in OPTIONS.items() if name != "jobs"}
+CLUSTER_OPTIONS = {name: value for name, value in WITH_SEARCH.items() if name != "jobs"}
 
 
 class Watcher:
