@@ -16,7 +16,7 @@ import numpy as np
 from mmgpy import MmgMeshS
 
 from benchmarks.shapes import parser_of_meshes
-from shapeviz_report.mesh import clean, deviation, read_mesh
+from shapeviz_report.mesh import clean, deviation, read_mesh, surface_size
 from shapeviz_report.types import FloatArray, Mesh
 
 OPTIONS: Mapping[str, Mapping[str, float]] = {
@@ -78,7 +78,7 @@ def main() -> None:
         (mesh, _), seconds = timed(clean, original)
         steps["clean"].append(seconds)
         for name, options in OPTIONS.items():
-            result, seconds = timed(remesh_with, mesh, arguments.edge_length, options)
+            result, seconds = timed(remesh_with, mesh, arguments.edge_length * surface_size(mesh), options)
             strays, checking = timed(deviation, mesh, result)
             steps["check"].append(checking)
             lengths = edge_lengths(result)

@@ -81,11 +81,6 @@ def noise(mesh: Mesh, histograms: FloatArray) -> FloatArray:
     return by_descriptor(np.sqrt(2 / np.pi * np.maximum(variance, 0)).sum(axis=1) / 2)
 
 
-def diagonal(mesh: Mesh) -> float:
-    """Of the bounding box."""
-    return float(np.linalg.norm(mesh.vertices.max(axis=0) - mesh.vertices.min(axis=0)))
-
-
 def write(mesh: Mesh, path: Path) -> Path:
     """Write a mesh as OFF, with the digits of float32."""
     with path.open("w") as file:
@@ -108,11 +103,6 @@ def measure(path: Path, edge_length: float, folder: Path) -> dict[str, FloatArra
     for name, move in (ways | {"denser": refine}).items():
         moved = write(move(original), folder / f"{name}.off")
         rows[f"file, {name}"] = difference(before, describe(prepare(moved, edge_length)[0]))
-    # The edge length is a fraction of the bounding box, whose size changes as a shape turns.
-    turned = rotate(original)
-    same = edge_length * diagonal(original) / diagonal(turned)
-    moved = write(turned, folder / "turned.off")
-    rows["file, rotated, same edges"] = difference(before, describe(prepare(moved, same)[0]))
     return rows
 
 

@@ -18,7 +18,7 @@ from benchmarks.shapes import RoundedSurface, parser_of_meshes, prepared_shapes
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.descriptors.normal_diameter import SAME_PLACE
 from shapeviz_report.descriptors.shape_context import SHELLS
-from shapeviz_report.mesh import normalise, remesh
+from shapeviz_report.mesh import normalise, remesh, surface_size
 from shapeviz_report.types import FloatArray, IntArray, Mesh
 
 EVERY = 4
@@ -193,10 +193,15 @@ COMPARISONS: tuple[Callable[[Mesh], Iterator[Row]], ...] = (
 )
 
 
+def _remeshed(original: trimesh.Trimesh, edge_length: float) -> Mesh:
+    mesh = Mesh(original.vertices, original.faces.astype(np.int32))
+    return remesh(mesh, edge_length * surface_size(mesh))
+
+
 def compare_analytic(edge_length: float) -> Iterator[Row]:
     """Gc and Nd on a sphere and a torus, remeshed as any shape."""
     ball = trimesh.creation.icosphere(subdivisions=5)
-    surface = Surface(normalise(remesh(Mesh(ball.vertices, ball.faces.astype(np.int32)), edge_length)))
+    surface = Surface(normalise(_remeshed(ball, edge_length)))
     values = describe("Gc", surface)
     yield (
         "Gc, sphere: K × area of the vertex",
@@ -211,7 +216,7 @@ def compare_analytic(edge_length: float) -> Iterator[Row]:
     yield "Nd, sphere: 2", "largest difference / value", largest(describe("Nd", surface), np.float64(2)) / 2
 
     ring = trimesh.creation.torus(0.7, 0.3, major_sections=240, minor_sections=100)
-    surface = Surface(remesh(Mesh(ring.vertices, ring.faces.astype(np.int32)), edge_length))
+    surface = Surface(_remeshed(ring, edge_length))
     values = describe("Gc", surface)
     x, y, z = surface.vertices.T
     around = np.arctan2(z, np.hypot(x, y) - 0.7)

@@ -57,7 +57,7 @@ class Config:
         "METHOD",
     )
     edge_length: float = _option(
-        0.01, "edge length after remeshing, as a fraction of the diagonal", "FRACTION"
+        0.01, "edge length after remeshing, as a fraction of the shape's size", "FRACTION"
     )
     up: str | None = _option(
         None,

@@ -3,7 +3,7 @@
 from shapeviz_report.mesh.clean import clean
 from shapeviz_report.mesh.prepare import deviation, normalise, prepare
 from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
-from shapeviz_report.mesh.remesh import remesh
+from shapeviz_report.mesh.remesh import remesh, surface_size
 
 __all__ = [
     "clean",
@@ -14,4 +14,5 @@ __all__ = [
     "prepare",
     "read_mesh",
     "remesh",
+    "surface_size",
 ]

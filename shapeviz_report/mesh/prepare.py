@@ -11,7 +11,7 @@ from trimesh.triangles import closest_point
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.clean import clean, count_components, is_watertight
 from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
-from shapeviz_report.mesh.remesh import affordable_edge_length, remesh
+from shapeviz_report.mesh.remesh import affordable_edge_length, remesh, surface_size
 from shapeviz_report.types import FloatArray, IntArray, Mesh, ShapeFacts
 
 MAX_DEVIATION = 0.05
@@ -40,7 +40,7 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
     path : Path
         A mesh file.
     edge_length : float
-        Target edge length as a fraction of the bounding-box diagonal.
+        Target edge length as a fraction of :func:`~shapeviz_report.mesh.remesh.surface_size`.
 
     Returns
     -------
@@ -61,15 +61,16 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
             f"its surface falls into {parts:,} parts that share no vertices, more than {MAX_PARTS:,}; join what "
             "belongs together (weld or merge its vertices) before it is exported"
         )
-    length = affordable_edge_length(cleaned, edge_length)
-    if length > edge_length:
+    wanted = edge_length * surface_size(cleaned)
+    length = affordable_edge_length(cleaned, wanted)
+    if length > wanted:
         repairs["edges lengthened, for the surface is folded many times over"] = 1
     remeshed = remesh(cleaned, length)
     distance = deviation(cleaned, remeshed)
     if distance > MAX_DEVIATION:
         raise MeshError(
             f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}; its parts "
-            f"may be thinner than the edge length of {length:.2%}, or lie apart far off"
+            "may be thinner than an edge, or lie apart far off"
         )
     facts = ShapeFacts(
         sha256=content_hash(collect_files(path)),

@@ -17,20 +17,45 @@ _FAILED = (
 )
 
 
+def surface_size(mesh: Mesh) -> float:
+    """How large a shape is, whichever way it is turned: the unit of the edge length.
+
+    Four times the root mean square distance of the surface from its centroid. The diagonal of the bounding box,
+    which the paper takes (3.2), changes by up to a half as a shape turns, and with it the whole mesh and every
+    feature. Over shapes standing upright the two agree: the median of their ratio is 0.99 on the Princeton benchmark.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With some area.
+
+    Returns
+    -------
+    float
+        Above 0, in the unit of the vertices.
+    """
+    corners = mesh.vertices[mesh.faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    middles = corners.mean(axis=1)
+    centroid = areas @ middles / areas.sum()
+    # The second moment of a triangle of area A with corners p and middle m: A (sum |p|^2 + 9 |m|^2) / 12.
+    squares = np.square(corners - centroid).sum(axis=(1, 2)) + 9 * np.square(middles - centroid).sum(axis=1)
+    return 4 * float(np.sqrt(areas @ squares / 12 / areas.sum()))
+
+
 def affordable_edge_length(mesh: Mesh, edge_length: float) -> float:
     """The wanted edge length, or the one at which a mesh takes ``MAX_VERTICES`` if that is longer.
 
-    Only a surface folded or stacked many times over inside its bounding box, such as a book of hundreds of leaves,
-    needs it. What it takes to describe a shape is then bounded as well.
+    Only a surface folded or stacked many times over, such as a book of hundreds of leaves, needs it. What it takes
+    to describe a shape is then bounded as well.
 
     Parameters
     ----------
     mesh : Mesh
     edge_length : float
-        As a fraction of the bounding-box diagonal.
+        In the unit of the vertices, as the result.
     """
-    diagonal = float(np.linalg.norm(np.ptp(mesh.vertices, axis=0)))
-    a, b, c = (mesh.vertices[mesh.faces[:, i]] / diagonal for i in range(3))
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
     area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
     # Euler: an even triangulation has 2 faces a vertex, each of sqrt(3) / 4 squared edges.
     return max(edge_length, float(np.sqrt(area / (MAX_VERTICES * np.sqrt(3) / 2))))
@@ -46,7 +71,7 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
     mesh : Mesh
         As :func:`shapeviz_report.mesh.clean.clean` returns it.
     edge_length : float
-        Target length of every edge as a fraction of the bounding-box diagonal, 0.01 in the paper (3.2).
+        Target length of every edge, in the unit of the vertices.
 
     Returns
     -------
@@ -61,15 +86,17 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
     # Importing mmgpy costs 0.1 s and loads native libraries: only the processes that remesh pay.
     from mmgpy import MmgMeshS
 
+    # Mmg judges some things by absolute size.
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
+    target = edge_length / diagonal
     surface = MmgMeshS()
     surface.set_mesh_size(vertices=len(mesh.vertices), triangles=len(mesh.faces))
     surface.set_vertices((mesh.vertices - low) / diagonal)
     surface.set_triangles(mesh.faces)
     try:
         # Moving vertices would take as long as all the rest, and the edges are as even as is needed without.
-        surface.remesh(hsiz=edge_length, hausd=edge_length / 2, nomove=1, verbose=-1)
+        surface.remesh(hsiz=target, hausd=target / 2, nomove=1, verbose=-1)
     except RuntimeError as error:
         raise MeshError(_FAILED) from error
     vertices, faces = surface.get_vertices(), surface.get_triangles()

@@ -11,7 +11,7 @@ from solids import ball, from_trimesh, rotation, sheet
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh import deviation, normalise, prepare, remesh
-from shapeviz_report.mesh.remesh import MAX_VERTICES, affordable_edge_length
+from shapeviz_report.mesh.remesh import MAX_VERTICES, affordable_edge_length, surface_size
 from shapeviz_report.types import Mesh
 
 
@@ -28,11 +28,31 @@ def diagonal(mesh: Mesh) -> float:
 @pytest.mark.parametrize("subdivisions", [2, 6])
 def test_remeshing_gives_even_edges_of_the_wanted_length(subdivisions) -> None:
     coarse = ball(subdivisions)
-    result = remesh(coarse, 0.02)
-    lengths = edge_lengths(result) / diagonal(coarse)
-    assert lengths.mean() == pytest.approx(0.02, rel=0.1)
+    result = remesh(coarse, 0.07)
+    lengths = edge_lengths(result)
+    assert lengths.mean() == pytest.approx(0.07, rel=0.1)
     assert lengths.std() < 0.25 * lengths.mean()
     assert deviation(coarse, result) < 0.01
+
+
+def test_the_size_of_a_shape() -> None:
+    # The surface of a ball of radius 2 lies 2 from its centroid.
+    assert surface_size(Mesh(2 * ball(5).vertices, ball(5).faces)) == pytest.approx(8, rel=1e-3)
+    # Faces of a cube of side 1: the squared distance from the centre is 1/4 + 2/12 on average.
+    cube = from_trimesh(trimesh.creation.box())
+    assert surface_size(cube) == pytest.approx(4 * (1 / 4 + 2 / 12) ** 0.5)
+    finer = from_trimesh(trimesh.creation.box().subdivide().subdivide())
+    moved = Mesh(finer.vertices @ rotation(5).T + 3, finer.faces)
+    assert surface_size(moved) == pytest.approx(surface_size(cube))
+
+
+def test_edges_are_as_long_however_a_shape_is_turned(tmp_path) -> None:
+    rod = trimesh.creation.box(extents=(6, 1, 1))
+    lengths = []
+    for name, turn in (("upright", np.eye(3)), ("turned", rotation(5))):
+        trimesh.Trimesh(rod.vertices @ turn.T, rod.faces).export(tmp_path / f"{name}.off")
+        lengths.append(edge_lengths(prepare(tmp_path / f"{name}.off", 0.02)[0]).mean())
+    assert lengths[1] == pytest.approx(lengths[0], rel=0.01)
 
 
 def test_prepared_file(tmp_path) -> None:
@@ -89,15 +109,15 @@ def test_flat_sheet_is_prepared(tmp_path) -> None:
 
 
 def test_a_surface_stacked_many_times_over_gets_longer_edges() -> None:
-    assert affordable_edge_length(ball(3), 0.01) == 0.01
+    assert affordable_edge_length(ball(3), 0.04) == 0.04
     layer = sheet(2)
     book = Mesh(
         np.concatenate([layer.vertices + np.array([0, 0, i * 1e-4]) for i in range(1000)]),
         np.concatenate([layer.faces + 4 * i for i in range(1000)]).astype(np.int32),
     )
     length = affordable_edge_length(book, 0.01)
-    # 1000 leaves of half a squared diagonal; a vertex has sqrt(3) / 2 squared edges.
-    assert 500 / (length**2 * 3**0.5 / 2) == pytest.approx(MAX_VERTICES, rel=0.01)
+    # 1000 leaves of area 1; a vertex has sqrt(3) / 2 squared edges.
+    assert 1000 / (length**2 * 3**0.5 / 2) == pytest.approx(MAX_VERTICES, rel=0.01)
 
 
 def test_parts_without_number_are_refused(tmp_path, monkeypatch) -> None:
