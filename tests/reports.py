@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from shapeviz_report import quality
+from shapeviz_report.search import make_space, search_features
 from shapeviz_report.types import (
     Database,
     Failure,
@@ -41,13 +43,15 @@ def make_report(
     name: str = "Test shapes",
     root: Path = Path("/database"),
     methods: Sequence[str] = ("tsne", "umap", "pca"),
+    features: Sequence[str] = ("Gc", "Sc"),
     failures: Sequence[Failure] = (),
     metadata: Mapping[str, str] | None = None,
     seed: int = 0,
 ) -> Report:
     """A report with one cluster of points a class; a class of None has no label.
 
-    The layouts are drawn from ``seed``. Neighbourhood hit is computed, not made up.
+    The layouts are drawn from ``seed``. Neighbourhood hit is computed, not made up. The first feature is noise; the
+    others know the classes, each more than the one before.
     """
     random = np.random.default_rng(seed)
     shapes, labels = [], []
@@ -66,15 +70,23 @@ def make_report(
             labels.append(label)
     labelled = any(label is not None for label in labels)
     count = len(shapes)
-    blocks = (FeatureBlock("Gc", 1, 10), FeatureBlock("Sc", 2, 10))
-    features = FeatureTable(tuple(shape.id for shape in shapes), blocks, random.random((count, 30)))
+    blocks = tuple(FeatureBlock(name, 2 if name == "Sc" else 1, 10) for name in features)
+    table = FeatureTable(
+        tuple(shape.id for shape in shapes),
+        blocks,
+        random.random((count, sum(block.width for block in blocks))),
+    )
+    kinds = np.random.default_rng(seed).normal(0, 1, (len(classes), table.values.shape[1]))
+    for number, block in enumerate(blocks):
+        columns = table.slice_of(block.name)
+        table.values[:, columns] += 0.12 * number * np.repeat(kinds[:, columns], per_class, axis=0)
     projections = {}
     for method in methods:
         centres = random.uniform(-1, 1, (len(classes), 2))
         xy = np.repeat(centres, per_class, axis=0) + random.normal(0, 0.1, (count, 2))
         xy -= (xy.max(axis=0) + xy.min(axis=0)) / 2
         xy /= max(np.abs(xy).max(), 1e-9)
-        projection = Projection(method, ("Gc", "Sc"), seed, xy)
+        projection = Projection(method, tuple(features), seed, xy)
         projections[method] = (projection, quality.score(xy, labels))
     return Report(
         database=Database(name, root, "class folders", tuple(shapes), ("folder",) if labelled else ()),
@@ -83,7 +95,7 @@ def make_report(
         thumbnails=tuple(picture(index // per_class, index % per_class) for index in range(count)),
         labeling="folder" if labelled else None,
         labels=tuple(labels),
-        features=features,
+        features=table,
         projections=projections,
         failures=tuple(failures),
         parameters={"seed": seed, "edge_length": 0.01, "preset": "default"},
@@ -91,6 +103,12 @@ def make_report(
         seconds={"read": 0.1, "prepare": 12.5, "project": 3.25},
         cpu_seconds={"read": 0.1, "prepare": 24.0, "project": 3.0},
     )
+
+
+def with_search(report: Report, *, limit: int = 1000) -> Report:
+    """The report with a real search of two rounds over its features, of ``limit`` shapes at most."""
+    space = make_space(report.features, report.features.values, report.labels, limit=limit)
+    return replace(report, search=search_features(space, report.labels, "tsne", rounds=2))
 
 
 def _facts(index: int) -> ShapeFacts:

@@ -10,6 +10,14 @@ from shapeviz_report.charts.palette import (
     Theme,
     class_color_indices,
     class_symbol_indices,
+    feature_color_indices,
+)
+from shapeviz_report.charts.subsets import (
+    class_boxes,
+    effect_dots,
+    feature_matrix,
+    seed_dots,
+    subset_bars,
 )
 from shapeviz_report.charts.theme import theme_config
 
@@ -20,10 +28,16 @@ __all__ = [
     "THEMES",
     "Theme",
     "class_bars",
+    "class_boxes",
     "class_color_indices",
     "class_map",
     "class_symbol_indices",
+    "effect_dots",
+    "feature_color_indices",
+    "feature_matrix",
     "hit_map",
+    "seed_dots",
+    "subset_bars",
     "theme_config",
     "thumbnail_map",
 ]

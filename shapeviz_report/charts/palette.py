@@ -44,6 +44,12 @@ class Theme:
     classes : tuple of str
     hit : tuple of str
         Neighbourhood hit from 0 (red) to 1 (yellow), with rising lightness.
+    features : tuple of str
+        One hue a feature. They are no class colours, but may stand beside them.
+    bar : str
+        Marks that stand for no feature and no class.
+    grid : str
+        Lines behind marks.
     """
 
     name: str
@@ -53,6 +59,9 @@ class Theme:
     outline: str
     classes: tuple[str, ...]
     hit: tuple[str, ...]
+    features: tuple[str, ...]
+    bar: str
+    grid: str
 
 
 LIGHT = Theme(
@@ -84,6 +93,20 @@ LIGHT = Theme(
         "#f0907a",
     ),
     hit=("#9c0824", "#c02a22", "#da5120", "#ec7a1c", "#f6a21d", "#fbc93a", "#fdec6b"),
+    features=(
+        "#43b7b9",
+        "#157c9e",
+        "#38a31f",
+        "#80200d",
+        "#a2ad61",
+        "#c13475",
+        "#8c72d8",
+        "#886718",
+        "#0d3bae",
+        "#7b0e86",
+    ),
+    bar="#bdb9b1",
+    grid="#e9e5dd",
 )
 
 DARK = Theme(
@@ -115,6 +138,20 @@ DARK = Theme(
         "#febbab",
     ),
     hit=("#b5203a", "#cf3a2e", "#e05c28", "#ee8225", "#f6a628", "#fbcb42", "#fdec6b"),
+    features=(
+        "#2af4f8",
+        "#2cbded",
+        "#84b77b",
+        "#a45241",
+        "#d4e093",
+        "#d96894",
+        "#9281d0",
+        "#c39211",
+        "#3461c7",
+        "#89588e",
+    ),
+    bar="#565b63",
+    grid="#2a2e34",
 )
 
 THEMES: tuple[Theme, ...] = (LIGHT, DARK)
@@ -123,6 +160,11 @@ THEMES: tuple[Theme, ...] = (LIGHT, DARK)
 def class_color_indices(count: int) -> tuple[int, ...]:
     """Index into :attr:`Theme.classes` for each of ``count`` classes in sorted order."""
     return tuple(index % len(LIGHT.classes) for index in range(count))
+
+
+def feature_color_indices(count: int) -> tuple[int, ...]:
+    """Index into :attr:`Theme.features` for each of ``count`` features."""
+    return tuple(index % len(LIGHT.features) for index in range(count))
 
 
 def class_symbol_indices(count: int) -> tuple[int, ...]:

@@ -6,7 +6,7 @@ import json
 from collections import Counter
 
 from shapeviz_report.pages.base import METHODS, PageContent, class_names
-from shapeviz_report.types import Report
+from shapeviz_report.types import FeatureSearch, Report
 
 
 class AboutPage:
@@ -127,4 +127,16 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
             (f"projection-{method}.csv", f"coordinates of the {METHODS[method].title} map")
             for method in report.projections
         ),
+        *(_search_downloads(report.search) if report.search is not None else ()),
+    ]
+
+
+def _search_downloads(search: FeatureSearch) -> list[tuple[str, str]]:
+    subsets = ("subsets.csv", "one row a subset of the features: NH of the database and of every class")
+    if not search.table:
+        return [subsets]
+    return [
+        subsets,
+        ("greedy.csv", "the steps of the greedy search"),
+        ("table2.csv", "the exhaustive and the greedy search side by side, round by round"),
     ]

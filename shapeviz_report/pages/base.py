@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import numpy as np
+
 from shapeviz_report.projections import PROJECTIONS
-from shapeviz_report.types import Report
+from shapeviz_report.types import FloatArray, Report
 
 #: The projections by name.
 METHODS = {method.name: method for method in PROJECTIONS}
@@ -54,3 +56,9 @@ class Page(Protocol):
 def class_names(report: Report) -> tuple[str, ...]:
     """The classes of the active labeling that have a shape, sorted."""
     return tuple(sorted({label for label in report.labels if label is not None}))
+
+
+def rounded(values: FloatArray, decimals: int) -> list[float | None]:
+    """Values for a chunk; None for NaN."""
+    # Adding zero turns -0.0 into 0.0, which would otherwise differ between equal builds.
+    return [float(value) + 0.0 if np.isfinite(value) else None for value in np.round(values, decimals)]

@@ -7,8 +7,8 @@ from hashlib import sha256
 import numpy as np
 
 from shapeviz_report import charts
-from shapeviz_report.pages.base import METHODS, PageContent, class_names
-from shapeviz_report.types import FloatArray, Projection, Quality, Report
+from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
+from shapeviz_report.types import Projection, Quality, Report
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
@@ -30,6 +30,7 @@ class OverviewPage:
             context={
                 "methods": [{"key": method["key"], "title": method["title"]} for method in methods],
                 "classes": len(classes),
+                "subsets": _subsets(report) is not None,
             },
             chunks={
                 "overview": {
@@ -37,6 +38,7 @@ class OverviewPage:
                     "classes": list(classes),
                     "labeling": report.labeling,
                     "methods": methods,
+                    "subsets": _subsets(report),
                     "charts": {
                         "class": charts.class_map(len(classes)).to_dict(),
                         "hit": charts.hit_map().to_dict(),
@@ -72,11 +74,11 @@ def _method(projection: Projection, quality: Quality, classes: tuple[str, ...]) 
         "title": METHODS[projection.method].title,
         "note": METHODS[projection.method].explanation,
         "features": list(projection.features),
-        "x": _rounded(projection.xy[:, 0], COORDINATE_DECIMALS),
-        "y": _rounded(projection.xy[:, 1], COORDINATE_DECIMALS),
-        "hit": _rounded(quality.nh, COORDINATE_DECIMALS),
+        "x": rounded(projection.xy[:, 0], COORDINATE_DECIMALS),
+        "y": rounded(projection.xy[:, 1], COORDINATE_DECIMALS),
+        "hit": rounded(quality.nh, COORDINATE_DECIMALS),
         "neighbours": quality.k,
-        "hitOfClass": _rounded(
+        "hitOfClass": rounded(
             np.array([quality.nh_c.get(name, np.nan) for name in classes], dtype=float), COORDINATE_DECIMALS
         ),
         "hitOfAll": quality.nh_s,
@@ -85,9 +87,20 @@ def _method(projection: Projection, quality: Quality, classes: tuple[str, ...]) 
     }
 
 
-def _rounded(values: FloatArray, decimals: int) -> list[float | None]:
-    # Adding zero turns -0.0 into 0.0, which would otherwise differ between equal builds.
-    return [float(value) + 0.0 if np.isfinite(value) else None for value in np.round(values, decimals)]
+def _subsets(report: Report) -> dict[str, object] | None:
+    """Whose maps the page can show beside those of all features; None if there was no search, or of a sample only."""
+    search = report.search
+    if search is None or len(search.rows) < search.shape_count or search.method not in report.projections:
+        return None
+    scores = search.subsets.nh_s
+    best = None if np.isnan(scores).any() else search.subsets.members[int(scores.argmax())]
+    return {
+        "method": search.method,
+        "features": list(search.features),
+        "best": None
+        if best is None
+        else [name for name, has in zip(search.features, best, strict=True) if has],
+    }
 
 
 def _marks(class_count: int) -> dict[str, object]:

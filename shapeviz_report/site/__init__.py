@@ -42,7 +42,7 @@ CONTENT_SECURITY_POLICY = "; ".join(
 )
 
 #: The style sheets that make up the site's one, in their order.
-STYLES = ("tokens.css", "page.css", "overview.css", "about.css")
+STYLES = ("tokens.css", "page.css", "overview.css", "features.css", "about.css")
 
 
 def check_destination(destination: Path) -> None:

@@ -14,14 +14,15 @@ from pathlib import Path
 
 import numpy as np
 
-from shapeviz_report.types import Report
+from shapeviz_report.types import FeatureSearch, Report
 
 #: Tells a folder that this package wrote from one that it must not replace.
 GENERATOR = "shapeviz-report"
 
 
 def data_files(report: Report, version: str) -> dict[str, bytes]:
-    """``summary.json``, ``shapes.csv``, ``features.npz`` and one ``projection-METHOD.csv`` a projection, by name.
+    """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
+    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, by name.
 
     Parameters
     ----------
@@ -38,6 +39,11 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
         points = zip(report.shapes, projection.xy, strict=True)
         rows = [["id", "x", "y"], *([shape.id, _number(x), _number(y)] for shape, (x, y) in points)]
         files[f"projection-{method}.csv"] = _csv(rows)
+    if report.search is not None:
+        files["subsets.csv"] = _csv(_subset_rows(report.search))
+        if report.search.table:
+            files["greedy.csv"] = _csv(_greedy_rows(report.search))
+            files["table2.csv"] = _csv(_table_rows(report.search))
     return files
 
 
@@ -75,10 +81,97 @@ def summary(report: Report, version: str) -> dict[str, object]:
             }
             for method, (projection, quality) in report.projections.items()
         },
+        "search": None if report.search is None else _search(report.search),
         "seconds": dict(report.seconds),
         "cpu_seconds": dict(report.cpu_seconds),
         "parameters": dict(report.parameters),
         "versions": dict(report.versions),
+    }
+
+
+def _search(search: FeatureSearch) -> dict[str, object]:
+    subsets = search.subsets
+    evaluated = {
+        "runs": len(subsets.members),
+        "seconds": float(subsets.cpu_seconds.sum()),
+        "subsets": [
+            {
+                "features": _members(search, row),
+                "nh_s": _finite(subsets.nh_s[row]),
+                "nh_c": {name: _finite(value) for name, value in zip(search.classes, subsets.nh_c[row])},
+                "cpu_seconds": float(subsets.cpu_seconds[row]),
+            }
+            for row in _by_score(search)
+        ],
+    }
+    greedy = [
+        {
+            "s": run.s,
+            "runs": run.runs,
+            "considered": run.considered,
+            "seconds": run.cpu_seconds,
+            "path": [
+                {"features": list(step.features), "changed": list(step.changed), "nh_s": step.nh_s}
+                for step in run.path
+            ],
+        }
+        for run in search.greedy
+    ]
+    return {
+        "method": search.method,
+        "seed": search.seed,
+        "k": search.k,
+        "features": list(search.features),
+        "shapes": len(search.rows),
+        "refusal": search.refusal,
+        "exhaustive": evaluated if search.exhaustive else None,
+        "evaluated": None if search.exhaustive else evaluated,
+        "greedy": greedy[0] if greedy else None,
+        "greedy_all": greedy,
+        "table": [
+            {
+                "round": row.round,
+                "method": row.method,
+                "s": row.s,
+                "features": list(row.features),
+                "nh_s": row.nh_s,
+                "runs": row.runs,
+                "seconds": row.cpu_seconds,
+            }
+            for row in search.table
+        ],
+        "spread": [
+            {
+                "features": list(row.features),
+                "nh_s": row.nh_s.tolist(),
+                "mean": row.mean,
+                "std": row.std,
+                "behind": row.behind,
+                "margin": row.margin,
+                "told_apart": row.told_apart,
+            }
+            for row in search.spread
+        ],
+        "held_out": [
+            {
+                "features": list(fold.features),
+                "shapes": fold.shapes,
+                "nh_s_seen": fold.nh_s_seen,
+                "nh_s": fold.nh_s,
+                "nh_s_all": fold.nh_s_all,
+            }
+            for fold in search.held_out
+        ],
+        "null_best": search.null_best.tolist(),
+        "effects": {
+            effect.feature: {
+                "alone": effect.alone,
+                "with": effect.mean_with,
+                "without": effect.mean_without,
+                "added": effect.added,
+            }
+            for effect in search.effects
+        },
     }
 
 
@@ -139,6 +232,68 @@ def _shape_rows(report: Report) -> list[list[str]]:
             ]
         )
     return rows
+
+
+def _by_score(search: FeatureSearch) -> list[int]:
+    """The evaluated subsets from best to worst, in the order of the search where there are no labels."""
+    return np.argsort(-search.subsets.nh_s, kind="stable").tolist()
+
+
+def _members(search: FeatureSearch, row: int) -> list[str]:
+    return [name for name, has in zip(search.features, search.subsets.members[row], strict=True) if has]
+
+
+def _subset_rows(search: FeatureSearch) -> list[list[str]]:
+    subsets = search.subsets
+    header = [
+        *(f"feature:{name}" for name in search.features),
+        "nh_s",
+        *(f"nh_c:{name}" for name in search.classes),
+    ]
+    return [
+        header,
+        *(
+            [
+                *("1" if has else "0" for has in subsets.members[row]),
+                _number(subsets.nh_s[row]),
+                *map(_number, subsets.nh_c[row]),
+            ]
+            for row in _by_score(search)
+        ),
+    ]
+
+
+def _greedy_rows(search: FeatureSearch) -> list[list[str]]:
+    return [
+        ["s", "step", *(f"feature:{name}" for name in search.features), "nh_s"],
+        *(
+            [
+                str(run.s),
+                str(number),
+                *("1" if name in step.features else "0" for name in search.features),
+                _number(step.nh_s),
+            ]
+            for run in search.greedy
+            for number, step in enumerate(run.path, start=1)
+        ),
+    ]
+
+
+def _table_rows(search: FeatureSearch) -> list[list[str]]:
+    return [
+        ["round", "method", "s", "nh_s", "runs", *(f"feature:{name}" for name in search.features)],
+        *(
+            [
+                str(row.round),
+                row.method,
+                "" if row.s is None else str(row.s),
+                _number(row.nh_s),
+                str(row.runs),
+                *("1" if name in row.features else "0" for name in search.features),
+            ]
+            for row in search.table
+        ),
+    ]
 
 
 def _relative_file(report: Report, path: Path) -> str:

@@ -3,6 +3,17 @@
 
 const LARGEST_SELECTION = 60;
 
+/** Names of features as one word list; spaces in a name are written so that they do not part it. */
+export function joinNames(names) {
+  return names.map((name) => name.replace(/[%\s]/gu, encodeURIComponent)).join(" ");
+}
+
+/** The features named in an address, in their own order. */
+export function splitNames(text, features) {
+  const words = new Set((text ?? "").split(" "));
+  return features.filter((name) => words.has(joinNames([name])));
+}
+
 export function readAddress(model) {
   const query = new URLSearchParams(window.location.hash.slice(1));
   const method = model.methods.findIndex(({ key }) => key === query.get("map"));
@@ -11,8 +22,11 @@ export function readAddress(model) {
   const hidden = query.getAll("hide").map((name) => groups.get(name)).filter((group) => group !== undefined);
   if (query.has("hide-unlabelled")) hidden.push(-1);
   const camera = (query.get("at") ?? "").split(",").map(Number);
+  const { subsets } = model.data;
   return {
     method: Math.max(method, 0),
+    // A subset is one of the maps that were searched, whatever else the address says.
+    features: subsets ? splitNames(query.get("features"), subsets.features) : [],
     view: ["class", "hit", "thumbnail"].includes(query.get("view")) ? query.get("view") : "class",
     hidden: new Set(hidden),
     selection: new Set(known("select")),
@@ -24,7 +38,9 @@ export function readAddress(model) {
 
 export function writeAddress(model, state) {
   const query = new URLSearchParams();
-  if (state.get("method") !== 0) query.set("map", model.methods[state.get("method")].key);
+  const { base, features } = model.methods[state.get("method")];
+  if (base !== 0) query.set("map", model.methods[base].key);
+  if (base !== state.get("method")) query.set("features", joinNames(features));
   if (state.get("view") !== "class") query.set("view", state.get("view"));
   for (const group of state.get("hidden")) {
     if (group < 0) query.set("hide-unlabelled", "");
@@ -37,6 +53,36 @@ export function writeAddress(model, state) {
   if (state.get("query") !== "") query.set("find", state.get("query"));
   const camera = state.get("camera");
   if (camera) query.set("at", [camera.x, camera.y, camera.zoom].map((value) => Number(value.toPrecision(5))).join(","));
+  write(query);
+}
+
+/** The Features page: the chosen subset, the greedy path, the colours of the map. */
+export function readFeaturesAddress(subsets) {
+  const query = new URLSearchParams(window.location.hash.slice(1));
+  const sizes = subsets.data.greedy.map(({ s }) => s);
+  const s = Number(query.get("s"));
+  return {
+    chosen: subsets.find(splitNames(query.get("features"), subsets.features)) ?? (subsets.labelled ? 0 : subsets.everything),
+    s: query.get("s") === "none" ? null : sizes.includes(s) ? s : (sizes[0] ?? null),
+    color: subsets.labelled && query.get("color") === "hit" ? "hit" : "class",
+  };
+}
+
+export function writeFeaturesAddress(subsets, state) {
+  const query = new URLSearchParams();
+  query.set("features", joinNames(subsets.names(state.get("chosen"))));
+  const sizes = subsets.data.greedy.map(({ s }) => s);
+  if (state.get("s") !== (sizes[0] ?? null)) query.set("s", state.get("s") ?? "none");
+  if (state.get("color") !== "class") query.set("color", state.get("color"));
+  write(query);
+}
+
+/** The address of a subset's map on the Overview. */
+export function overviewAddress(names) {
+  return `index.html#${new URLSearchParams({ features: joinNames(names) })}`;
+}
+
+function write(query) {
   const hash = query.toString();
   window.history.replaceState(null, "", hash === "" ? window.location.pathname + window.location.search : `#${hash}`);
 }

@@ -99,7 +99,7 @@ export class ClassList {
 
   #quality() {
     const { model } = this;
-    const { title, hitOfAll, chance, chanceSpread, neighbours } = model.methods[this.state.get("method")];
+    const { title, features, base, hitOfAll, chance, chanceSpread, neighbours } = model.methods[this.state.get("method")];
     if (model.count === 1) {
       return [element("p", {}, "One shape: there is nothing to compare it with yet.")];
     }
@@ -114,7 +114,7 @@ export class ClassList {
       { class: "headline" },
       element("span", { class: "symbol" }, "NH", element("sub", {}, "s")),
       element("output", { class: "value" }, figure(hitOfAll)),
-      element("span", { class: "beside" }, element("b", {}, figure(chance)), ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random"),
+      element("span", { class: "beside" }, element("b", {}, figure(chance)), chanceSpread !== null && ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random"),
     );
     if (model.classes.length === 1) {
       return [headline, element("p", {}, "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.")];
@@ -126,6 +126,7 @@ export class ClassList {
         {},
         `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its class on average. `,
         "1 is a map whose classes never mix.",
+        base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone."],
       ),
     ];
   }

@@ -43,7 +43,6 @@ export class MapView {
     this.vega = vega;
     this.#choosePictures();
     this.#send();
-    vega.data("shapes", this.model.rows());
     await vega.runAsync();
     performance.mark(`drawn: ${this.name}`);
     this.settle();
@@ -192,6 +191,10 @@ export class MapView {
     if (this.sent.get("width") !== this.width || this.sent.get("height") !== this.height) {
       vega.width(this.width).height(this.height);
       this.sent.set("width", this.width).set("height", this.height);
+    }
+    if (this.sent.get("maps") !== this.model.methods.length) {
+      vega.data("shapes", this.model.rows());
+      this.sent.set("maps", this.model.methods.length);
     }
     const [left, bottom] = this.toPlane(0, this.height);
     const [right, top] = this.toPlane(this.width, 0);

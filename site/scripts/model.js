@@ -9,11 +9,21 @@ export class Model {
     this.names = data.shapes.names;
     this.groups = data.shapes.groups;
     this.classes = data.classes;
-    this.methods = data.methods;
+    // `base` is the projection of all features that a map belongs to: itself, or the one a subset's map is set beside.
+    this.methods = data.methods.map((method, base) => ({ ...method, base }));
     this.indexOfId = new Map(this.ids.map((id, index) => [id, index]));
     this.sizes = new Map();
     for (const group of this.groups) this.sizes.set(group, (this.sizes.get(group) ?? 0) + 1);
     this.bounds = this.methods.map(bounds);
+  }
+
+  /** Add the map of a subset of the features beside projection `base`; its index among the methods. */
+  add(map, base) {
+    const known = this.methods.findIndex(({ key }) => key === map.key);
+    if (known >= 0) return known;
+    this.methods.push({ ...map, base });
+    this.bounds.push(bounds(map));
+    return this.methods.length - 1;
   }
 
   /** Colours and chart configuration of the theme in use. */

@@ -24,6 +24,11 @@ export function currentTheme() {
   return document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light");
 }
 
+/** A colour of the style sheet, for marks that are drawn and not styled. */
+export function styleColor(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
 export function applyStoredTheme() {
   const theme = stored();
   if (theme === "light" || theme === "dark") document.documentElement.dataset.theme = theme;

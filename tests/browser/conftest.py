@@ -12,9 +12,12 @@ from pathlib import Path
 
 import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
-from reports import NASTY_LABELS, make_report
+from reports import NASTY_LABELS, make_report, with_search
 
 from shapeviz_report.site import write_site
+
+FEATURES = ("Gc", "Sc", "PFH", "FPFH")
+NASTY_FEATURES = ("Gc", "<b>50 %</b> & more", "עברית ימין", "a feature name without an end " * 3)
 
 SITES = {
     "plain": lambda: make_report(
@@ -25,6 +28,15 @@ SITES = {
     "one class": lambda: make_report(["ant"], 12),
     "no labels": lambda: make_report([None, None], 12),
     "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),
+    "searched": lambda: with_search(
+        make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)
+    ),
+    "nasty features": lambda: with_search(make_report([*NASTY_LABELS, None], 4, features=NASTY_FEATURES)),
+    "searched without labels": lambda: with_search(make_report([None], 24, features=FEATURES[:3])),
+    "sampled": lambda: with_search(make_report(["ant", "bird"], 20, features=FEATURES[:3]), limit=24),
+    "refused": lambda: with_search(
+        make_report(["ant", "bird", "cup"], 6, features=[f"own {number}" for number in range(11)])
+    ),
     "large": lambda: make_report([f"class {number}" for number in range(8)], 250, methods=("tsne", "pca")),
 }
 
@@ -83,7 +95,7 @@ def open_page(browser, site) -> Iterator[Callable[..., Page]]:
         page.on("pageerror", lambda error: page.watch.complaints.append(str(error)))
         page.on("dialog", lambda dialog: page.watch.complaints.append(f"dialog: {dialog.message}"))
         page.goto(address or f"{site(name).as_uri()}/{file}")
-        if file.startswith("index.html"):
+        if file.startswith(("index.html", "features.html")):
             page.wait_for_selector("html[data-ready]", state="attached")
         return page
 

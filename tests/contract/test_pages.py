@@ -4,7 +4,7 @@ import json
 
 import jinja2
 import pytest
-from reports import make_report
+from reports import make_report, with_search
 
 from shapeviz_report.pages import PAGES
 from shapeviz_report.site.data_files import json_text
@@ -30,9 +30,9 @@ class TestPage:
 
     @pytest.mark.parametrize("classes", [("ant", "bird"), (None,), ("ant", None)])
     def test_its_chunks_are_json(self, page, classes):
-        chunks = page.content(make_report(classes, 3)).chunks
+        chunks = page.content(with_search(make_report(classes, 3))).chunks
         assert json.loads(json_text(chunks)) == chunks
 
     def test_its_content_is_the_same_every_time(self, page):
-        report = make_report()
+        report = with_search(make_report())
         assert page.content(report) == page.content(report)

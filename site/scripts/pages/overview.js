@@ -6,8 +6,10 @@ import { ClassList } from "../classes.js";
 import { chunk } from "../chunks.js";
 import { Detail } from "../detail.js";
 import { calm, element } from "../dom.js";
+import { FeatureChoice, subsetMethod } from "../feature-choice.js";
 import { Gestures } from "../gestures.js";
 import { MapView } from "../map.js";
+import { mapTables } from "../map-tables.js";
 import { Model } from "../model.js";
 import { Scene } from "../scene.js";
 import { Search } from "../search.js";
@@ -22,7 +24,7 @@ async function main() {
   const model = new Model(await chunk("overview"), currentTheme);
   const touch = window.matchMedia("(pointer: coarse)").matches;
   const state = new State({
-    ...readAddress(model),
+    ...(await addressed(model)),
     drag: touch ? "move" : "select",
     matches: null,
     pointed: null,
@@ -56,7 +58,8 @@ async function main() {
   const search = new Search(model, state, announce);
   new Card(model, state);
   new Tray(model, state, scene, { open, point });
-  watchTables(model, state);
+  watchTables(() => mapTables(model, state));
+  if (model.data.subsets) new FeatureChoice(model, state);
   watchControls(model, state, scene, gestures);
   watchKeys(state, gestures);
 
@@ -74,7 +77,7 @@ async function main() {
       main.writing = setTimeout(() => writeAddress(model, state), 250);
     }
   });
-  window.addEventListener("hashchange", () => state.set(readAddress(model)));
+  window.addEventListener("hashchange", async () => state.set(await addressed(model)));
   watchTheme(() => {
     for (const view of scene.views) view.start();
     classes.start();
@@ -96,6 +99,13 @@ async function main() {
   if (state.get("query") !== "") await search.run();
   if (state.get("opened") !== null) await detail.show();
   document.documentElement.dataset.ready = "";
+}
+
+/** What the address says, with the map of its features loaded. */
+async function addressed(model) {
+  const { features, ...values } = readAddress(model);
+  const method = features.length > 0 ? await subsetMethod(model, features) : null;
+  return method === null ? values : { ...values, method };
 }
 
 /** Put one map in the large place; the other two keep their order. */
@@ -138,7 +148,7 @@ function watchControls(model, state, scene, gestures) {
     for (const input of group.querySelectorAll("input")) input.checked = input.value === value;
   };
   const show = () => {
-    check(methods, model.methods[state.get("method")].key);
+    check(methods, model.methods[model.methods[state.get("method")].base].key);
     check(drag, state.get("drag"));
     document.body.dataset.drag = state.get("drag");
     document.body.toggleAttribute("data-zoomed", state.get("camera") !== null);

@@ -138,6 +138,63 @@ def test_bars_have_no_rule_without_a_chance_value():
     assert with_rule.count("<line") == without.count("<line") + 1
 
 
+def sized(chart, name, data, **parameters) -> np.ndarray:
+    """A chart of subsets as an image of 600 x 200 pixels on white."""
+    png = vl_convert.vegalite_to_png(json.dumps(spec(chart, name, data, **parameters)))
+    image = Image.open(io.BytesIO(png)).convert("RGBA")
+    assert image.size == (600, 200)
+    return np.asarray(Image.alpha_composite(Image.new("RGBA", image.size, "white"), image).convert("RGB"))
+
+
+def color_of(image: np.ndarray, x: int, y: int) -> str:
+    return "#{:02x}{:02x}{:02x}".format(*image[y, x])
+
+
+def test_subset_bars_are_as_high_as_their_hit_and_single_features_have_their_color():
+    rows = [
+        {"place": 0, "hit": 0.75, "feature": -1},
+        {"place": 1, "hit": 0.5, "feature": 0},
+        {"place": 2, "hit": 0.25, "feature": 1},
+    ]
+    image = sized(charts.subset_bars(), "subsets", rows, count=3, fill=1, bar=LIGHT.bar)
+    filled = (image != 255).any(axis=2)
+    assert [filled[:, x].sum() for x in (100, 300, 500)] == pytest.approx([150, 100, 50], abs=1)
+    expected = [LIGHT.bar, LIGHT.features[0], LIGHT.features[1]]
+    assert [color_of(image, x, 190) for x in (100, 300, 500)] == expected
+
+
+def test_the_matrix_has_a_cell_where_a_subset_has_a_feature():
+    cells = [{"place": 0, "row": 0, "feature": 3}, {"place": 1, "row": 1, "feature": 0}]
+    image = sized(charts.feature_matrix(), "cells", cells, count=2, fill=1, features=2)
+    assert color_of(image, 150, 50) == LIGHT.features[3]
+    assert color_of(image, 450, 150) == LIGHT.features[0]
+    assert color_of(image, 450, 50) == color_of(image, 150, 150) == "#ffffff"
+
+
+def test_boxes_stand_where_their_quartiles_are():
+    rows = [{"row": 0, "least": 0.1, "lower": 0.4, "median": 0.5, "upper": 0.6, "most": 0.9, "hit": 0.8}]
+    image = sized(charts.class_boxes(), "classes", rows, bar="#ff0000", ink="#000000", accent="#0000ff")
+    red = (image == [255, 0, 0]).all(axis=2).any(axis=0).nonzero()[0]
+    assert (red.min(), red.max()) == pytest.approx((240, 360), abs=2)
+    blue = (image == [0, 0, 255]).all(axis=2).any(axis=0).nonzero()[0]
+    assert blue.mean() == pytest.approx(480, abs=2)
+
+
+def test_effects_and_seeds_name_their_rows_in_the_given_order():
+    effects = [
+        {"name": "Sc", "feature": 1, "alone": 0.5, "with": 0.8, "without": 0.7},
+        {"name": "Gc", "feature": 0, "alone": 0.4, "with": None, "without": None},
+    ]
+    svg = vl_convert.vegalite_to_svg(json.dumps(spec(charts.effect_dots(), "effects", effects)))
+    texts = re.findall(r"<text[^>]*>([^<]*)</text>", svg)
+    assert [text for text in texts if text in ("Sc", "Gc")] == ["Sc", "Gc"]
+    assert svg.count('aria-roledescription="point"') == 2
+    common = {"mean": 0.81, "low": 0.8, "high": 0.82, "best": 0.81, "apart": False}
+    seeds = [{"name": name, "hit": hit, **common} for name in ("Sc", "Gc") for hit in (0.8, 0.82)]
+    svg = vl_convert.vegalite_to_svg(json.dumps(spec(charts.seed_dots(), "seeds", seeds)))
+    assert svg.count('aria-roledescription="point"') == 4 + 2
+
+
 def test_vendored_vega_is_what_its_readme_says_and_fits_altair():
     """Altair writes specifications for one version of Vega-Lite; the vendored one must be of that line."""
     import altair

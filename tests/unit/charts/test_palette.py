@@ -48,8 +48,8 @@ def oklab(rgb: np.ndarray) -> np.ndarray:
     return np.cbrt(rgb @ np.transpose(to_cones)) @ np.transpose(to_lab)
 
 
-def seen(theme: Theme, deficiency: str | None = None) -> np.ndarray:
-    rgb = linear(theme.classes)
+def seen(theme: Theme, deficiency: str | None = None, kind: str = "classes") -> np.ndarray:
+    rgb = linear(getattr(theme, kind))
     if deficiency is not None:
         rgb = np.clip(rgb @ np.transpose(DEFICIENCIES[deficiency]), 0, 1)
     return oklab(rgb)
@@ -85,6 +85,15 @@ class TestTheme:
         for one, other in itertools.combinations(lab, 2):
             assert np.linalg.norm(one - other) >= 0.06
 
+    def test_every_feature_color_stands_out_from_the_ground(self, theme):
+        assert contrast(theme.features, theme.ground).min() >= 2.2
+
+    @pytest.mark.parametrize("deficiency", [None, *DEFICIENCIES])
+    def test_feature_colors_need_no_symbol(self, theme, deficiency):
+        lab = seen(theme, deficiency, "features")
+        for one, other in itertools.combinations(lab, 2):
+            assert np.linalg.norm(one - other) >= 0.07
+
     def test_neighbourhood_hit_rises_evenly_from_red_to_yellow(self, theme):
         lab = oklab(linear(theme.hit))
         lightness = lab[:, 0]
@@ -96,8 +105,9 @@ class TestTheme:
         assert 95 < hue[-1] < 110
 
 
-def test_themes_give_a_class_the_same_hue():
-    light, dark = (oklab(linear(theme.classes)) for theme in THEMES)
+@pytest.mark.parametrize("kind", ["classes", "features"])
+def test_themes_give_a_class_and_a_feature_the_same_hue(kind):
+    light, dark = (seen(theme, kind=kind) for theme in THEMES)
     turn = np.degrees(np.arctan2(light[:, 2], light[:, 1]) - np.arctan2(dark[:, 2], dark[:, 1]))
     assert np.abs((turn + 180) % 360 - 180).max() < 12
 

@@ -2,10 +2,11 @@
 
 import csv
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from reports import NASTY_LABELS, make_report
+from reports import NASTY_LABELS, make_report, with_search
 
 from shapeviz_report.site.data_files import data_files, json_text, summary
 from shapeviz_report.types import Failure
@@ -87,6 +88,73 @@ def test_features_need_no_pickle(folder):
         np.testing.assert_array_equal(content["values"], report.features.values)
         assert tuple(content["columns"]) == report.features.columns
         assert tuple(content["shape_ids"]) == report.features.shape_ids
+
+
+@pytest.fixture(scope="module")
+def report():
+    return with_search(make_report([*NASTY_LABELS[:3], None], 6, features=("Gc", "Sc", 'own "one", x')))
+
+
+class TestSearch:
+    @pytest.fixture
+    def folder(self, report, tmp_path):
+        for name, content in data_files(report, "1").items():
+            (tmp_path / name).write_bytes(content)
+        return tmp_path
+
+    def test_summary_has_the_promised_keys(self, report, folder):
+        search = json.loads((folder / "summary.json").read_text())["search"]
+        assert search["method"] == "tsne"
+        assert search["exhaustive"]["runs"] == len(search["exhaustive"]["subsets"]) == 7
+        assert search["exhaustive"]["seconds"] == pytest.approx(report.search.subsets.cpu_seconds.sum())
+        best = search["exhaustive"]["subsets"][0]
+        assert best["nh_s"] == report.search.subsets.nh_s.max()
+        assert set(best["nh_c"]) == set(NASTY_LABELS[:3])
+        assert search["greedy"]["s"] == 1
+        assert search["greedy"]["path"][-1]["nh_s"] == report.search.greedy[0].path[-1].nh_s
+        assert [run["s"] for run in search["greedy_all"]] == [run.s for run in report.search.greedy]
+        assert len(search["table"]) == len(report.search.table)
+        assert search["effects"]["Gc"]["alone"] == report.search.effects[0].alone
+        assert sum(fold["shapes"] for fold in search["held_out"]) == 18
+        assert search["spread"][0]["behind"] == 0
+
+    def test_tables_hold_every_subset_step_and_round(self, report, folder):
+        subsets = rows_of(folder / "subsets.csv")
+        scores = [float(row["nh_s"]) for row in subsets]
+        assert scores == sorted(report.search.subsets.nh_s, reverse=True)
+        members = {tuple(row[f"feature:{name}"] for name in report.search.features) for row in subsets}
+        assert members == {
+            tuple("01"[has] for has in row.astype(int)) for row in report.search.subsets.members
+        }
+        assert f"nh_c:{NASTY_LABELS[0]}" in subsets[0]
+        steps = rows_of(folder / "greedy.csv")
+        assert len(steps) == sum(len(run.path) for run in report.search.greedy)
+        rounds = rows_of(folder / "table2.csv")
+        assert {(row["round"], row["method"], row["s"]) for row in rounds} == {
+            (str(row.round), row.method, "" if row.s is None else str(row.s)) for row in report.search.table
+        }
+
+    def test_tables_hold_no_times(self, report, folder):
+        subsets = replace(report.search.subsets, cpu_seconds=report.search.subsets.cpu_seconds + 7)
+        table = tuple(replace(row, cpu_seconds=row.cpu_seconds + 7) for row in report.search.table)
+        slower = replace(report, search=replace(report.search, subsets=subsets, table=table))
+        for name, content in data_files(slower, "1").items():
+            assert (content == (folder / name).read_bytes()) == (name != "summary.json")
+
+    def test_without_labels_there_are_subsets_without_scores(self, tmp_path):
+        files = data_files(with_search(make_report([None], 8)), "1")
+        assert "table2.csv" not in files
+        search = json.loads(files["summary.json"])["search"]
+        assert search["greedy"] is None
+        assert [subset["nh_s"] for subset in search["exhaustive"]["subsets"]] == [None] * 3
+        assert files["subsets.csv"].decode().splitlines()[0] == "feature:Gc,feature:Sc,nh_s"
+
+    def test_a_search_that_could_not_be_exhaustive_says_so(self):
+        report = with_search(make_report(["a", "b"], 4, features=[f"f{number}" for number in range(11)]))
+        search = summary(report, "1")["search"]
+        assert search["exhaustive"] is None
+        assert "2,047" in search["refusal"]
+        assert search["evaluated"]["runs"] == len(search["evaluated"]["subsets"]) < 2047
 
 
 def test_json_refuses_what_is_not_json():

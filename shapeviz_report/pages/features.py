@@ -1,0 +1,252 @@
+"""The Features page: which features separate the classes (paper, 4.1 and 4.2; Fig. 3, Fig. 4 and Table 2)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from shapeviz_report import charts, quality
+from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
+from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, Report, SeedSpread
+
+#: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
+COORDINATE_STEPS = 32767
+
+#: NH is stored in thousandths, as it is shown; with ten neighbours, all but ties are exact.
+HIT_STEPS = 1000
+
+#: Decimals of NH_s and NH_c.
+SCORE_DECIMALS = 6
+
+#: A mean change of NH_s that a reader would not call help or harm.
+NEGLIGIBLE = 0.005
+
+
+class FeaturesPage:
+    """All subsets of features with what they reach, their maps, and how sure that is."""
+
+    name = "features"
+    title = "Features"
+    file = "features.html"
+
+    def content(self, report: Report) -> PageContent:
+        search = report.search
+        if search is None:
+            return PageContent({"search": None})
+        ranking = Ranking.of(search)
+        return PageContent(
+            context={"search": _context(search, ranking)},
+            chunks={"search": _scores(report, search, ranking), "subsets": _maps(search, ranking)},
+        )
+
+
+@dataclass(frozen=True)
+class Ranking:
+    """The evaluated subsets from best to worst; in the order of the search where there are no labels.
+
+    Attributes
+    ----------
+    order : tuple of int
+        Row of ``FeatureSearch.subsets`` for each place.
+    codes : tuple of str
+        The members of the subset at each place: a ``1`` or ``0`` a feature.
+    """
+
+    order: tuple[int, ...]
+    codes: tuple[str, ...]
+
+    @classmethod
+    def of(cls, search: FeatureSearch) -> Ranking:
+        scores = search.subsets.nh_s
+        order = range(len(scores)) if np.isnan(scores).any() else np.argsort(-scores, kind="stable").tolist()
+        codes = ["".join("1" if has else "0" for has in search.subsets.members[row]) for row in order]
+        return cls(tuple(order), tuple(codes))
+
+    def place(self, search: FeatureSearch, features: tuple[str, ...]) -> int:
+        """Where a subset stands, from 0."""
+        return self.codes.index("".join("1" if name in features else "0" for name in search.features))
+
+
+def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
+    """All but the maps. No times: they differ from build to build."""
+    number = {name: index for index, name in enumerate(class_names(report))}
+    rows = list(ranking.order)
+    sampled = len(search.rows) < search.shape_count
+    return {
+        "method": search.method,
+        "methodTitle": METHODS[search.method].title,
+        "note": METHODS[search.method].explanation,
+        "neighbours": search.k,
+        "features": list(search.features),
+        "hues": list(charts.feature_color_indices(len(search.features))),
+        # By falling effect: what helps most stands on top of the matrix.
+        "order": _by_effect(search),
+        "classes": [number[name] for name in search.classes],
+        "rows": search.rows.tolist() if sampled else None,
+        "members": list(ranking.codes),
+        "hit": rounded(search.subsets.nh_s[rows], SCORE_DECIMALS),
+        "hitOfClass": [rounded(values, SCORE_DECIMALS) for values in search.subsets.nh_c[rows]],
+        "boxes": _boxes(search.subsets.nh_c),
+        "chance": _chance(report, search),
+        "chanceBest": float(np.median(search.null_best)) if len(search.null_best) else None,
+        "greedy": [
+            {
+                "s": greedy.s,
+                "runs": greedy.runs,
+                "path": [ranking.place(search, step.features) for step in greedy.path],
+            }
+            for greedy in search.greedy
+        ],
+        "effects": [
+            {
+                "feature": search.features.index(effect.feature),
+                "alone": effect.alone,
+                "with": effect.mean_with,
+                "without": effect.mean_without,
+            }
+            for effect in search.effects
+        ],
+        "spread": [
+            {
+                "place": ranking.place(search, spread.features),
+                "hits": rounded(spread.nh_s, SCORE_DECIMALS),
+                "mean": spread.mean,
+                "margin": spread.margin,
+                "apart": spread.told_apart,
+            }
+            for spread in search.spread
+        ],
+        "charts": {
+            "bars": charts.subset_bars().to_dict(),
+            "matrix": charts.feature_matrix().to_dict(),
+            "boxes": charts.class_boxes().to_dict(),
+            "effects": charts.effect_dots().to_dict(),
+            "seeds": charts.seed_dots().to_dict(),
+        },
+        "marks": {
+            theme.name: {"features": list(theme.features), "bar": theme.bar} for theme in charts.THEMES
+        },
+    }
+
+
+def _maps(search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
+    """The maps and the hits on them in whole numbers: the largest part of the site, loaded when one is wanted."""
+    rows = list(ranking.order)
+    steps = np.round(search.subsets.xy[rows] * COORDINATE_STEPS).astype(int)
+    hits = np.round(np.nan_to_num(search.subsets.nh[rows] * HIT_STEPS, nan=-1)).astype(int)
+    return {
+        "steps": COORDINATE_STEPS,
+        "hitSteps": HIT_STEPS,
+        "x": steps[:, :, 0].tolist(),
+        "y": steps[:, :, 1].tolist(),
+        "hit": hits.tolist(),
+    }
+
+
+def _by_effect(search: FeatureSearch) -> list[int]:
+    """The features as their indices, those that help most first; as they come where nothing is known."""
+    effects = {effect.feature: effect for effect in search.effects}
+
+    def weight(index: int) -> float:
+        effect = effects.get(search.features[index])
+        if effect is None:
+            return 0.0
+        return effect.alone if effect.added is None else effect.added
+
+    return sorted(range(len(search.features)), key=lambda index: -weight(index))
+
+
+def _boxes(nh_c: FloatArray) -> list[dict[str, float]]:
+    """The spread of NH_c over all subsets, a box a class."""
+    if np.isnan(nh_c).any():
+        return []
+    parts = np.quantile(nh_c, [0, 0.25, 0.5, 0.75, 1], axis=0)
+    names = ("least", "lower", "median", "upper", "most")
+    return [dict(zip(names, rounded(column, SCORE_DECIMALS))) for column in parts.T]
+
+
+def _chance(report: Report, search: FeatureSearch) -> float | None:
+    """What random labels reach on a map: on average the same on all."""
+    labels = [report.labels[row] for row in search.rows]
+    everything = search.subsets.members.all(axis=1)
+    return quality.score(search.subsets.xy[everything][0].astype(float), labels, k=search.k).null_mean
+
+
+def _context(search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
+    """What the template says in words and tables."""
+    labelled = bool(search.effects)
+    return {
+        "method": METHODS[search.method].title,
+        "features": search.features,
+        "subsets": len(ranking.order),
+        "exhaustive": search.exhaustive,
+        "refusal": search.refusal,
+        "shapes": len(search.rows),
+        "shape_count": search.shape_count,
+        "labelled": labelled,
+        "neighbours": search.k,
+        "greedy": [greedy.s for greedy in search.greedy],
+        "effects": _effects(search),
+        "spread": _spread(search.spread, search.features) if search.spread else None,
+        "held_out": _held_out(search.held_out) if search.held_out else None,
+        "chance_best": _chance_best(search) if len(search.null_best) else None,
+        "table": search.table,
+    }
+
+
+def _effects(search: FeatureSearch) -> list[dict[str, object]]:
+    """What each feature does, those that help most first."""
+    if not search.effects:
+        return []
+    rows = []
+    for index in _by_effect(search):
+        effect = next(effect for effect in search.effects if effect.feature == search.features[index])
+        if effect.added is None:
+            verdict = None
+        elif abs(effect.added) < NEGLIGIBLE:
+            verdict = "hardly matters"
+        else:
+            verdict = "helps" if effect.added > 0 else "spoils"
+        rows.append(
+            {
+                "feature": effect.feature,
+                "hue": charts.feature_color_indices(index + 1)[-1],
+                "verdict": verdict,
+                "alone": effect.alone,
+                "with": effect.mean_with,
+                "without": effect.mean_without,
+                "added": effect.added,
+            }
+        )
+    return rows
+
+
+def _spread(spread: tuple[SeedSpread, ...], features: tuple[str, ...]) -> dict[str, object]:
+    """How many of the best are as good as the best, which of them is the smallest, and whether all features are."""
+    similar = [row for row in spread if not row.told_apart]
+    return {
+        "rows": spread,
+        "seeds": len(spread[0].nh_s),
+        "similar": len(similar),
+        "smallest": min(similar, key=lambda row: len(row.features)),
+        "everything": next(row for row in spread if row.features == features),
+    }
+
+
+def _held_out(folds: tuple[HeldOutFold, ...]) -> dict[str, object]:
+    """The folds, and their means with each shape counted once."""
+    shapes = [fold.shapes for fold in folds]
+    return {
+        "folds": folds,
+        "seen": float(np.average([fold.nh_s_seen for fold in folds], weights=shapes)),
+        "nh_s": float(np.average([fold.nh_s for fold in folds], weights=shapes)),
+        "all": float(np.average([fold.nh_s_all for fold in folds], weights=shapes)),
+    }
+
+
+def _chance_best(search: FeatureSearch) -> dict[str, float]:
+    return {
+        "median": float(np.median(search.null_best)),
+        "high": float(np.quantile(search.null_best, 0.95)),
+    }

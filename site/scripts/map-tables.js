@@ -1,0 +1,38 @@
+// The maps of the Overview as tables.
+
+import { element } from "./dom.js";
+import { table } from "./tables.js";
+import { count, figure } from "./words.js";
+
+const MOST_ROWS = 500;
+
+export function mapTables(model, state) {
+  const method = model.methods[state.get("method")];
+  const selection = state.get("selection");
+  const hidden = state.get("hidden");
+  const shown = model.ids
+    .map((_, index) => index)
+    .filter((index) => !hidden.has(model.groups[index]) && (selection.size === 0 || selection.has(index)));
+  const groups = model.classes.map((_, group) => group);
+  groups.sort((a, b) => (method.hitOfClass[b] ?? -1) - (method.hitOfClass[a] ?? -1) || a - b);
+  const tables = [
+    model.labelled && table(
+      "Neighbourhood hit by class",
+      ["Class", "Shapes", "NH"],
+      groups.map((group) => [model.className(group), String(model.sizes.get(group)), figure(method.hitOfClass[group])]),
+    ),
+    table(
+      selection.size > 0 ? "Selected shapes" : "Shapes",
+      ["Shape", "Class", "NH", "x", "y"],
+      shown.slice(0, MOST_ROWS).map((index) => [
+        model.ids[index],
+        model.className(model.groups[index]),
+        figure(method.hit[index]),
+        figure(method.x[index]),
+        figure(method.y[index]),
+      ]),
+    ),
+    shown.length > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(shown.length, "shape")}. All are in `, element("a", { href: "data/shapes.csv" }, "data/shapes.csv"), "."),
+  ].filter(Boolean);
+  return { title: `The ${method.title} map in figures`, tables };
+}

@@ -1,0 +1,34 @@
+// The charts of the Features page as tables.
+
+import { element } from "./dom.js";
+import { table } from "./tables.js";
+import { count, figure } from "./words.js";
+
+const MOST_ROWS = 300;
+
+export function subsetTables(model, subsets, state) {
+  const { data } = subsets;
+  const chosen = state.get("chosen");
+  const names = (place) => subsets.names(place).join(", ");
+  const places = Array.from({ length: Math.min(subsets.count, MOST_ROWS) }, (_, place) => place);
+  const greedy = data.greedy.find(({ s }) => s === state.get("s"));
+  const classes = data.boxes.map((box, column) => [
+    model.className(data.classes[column]),
+    ...[data.hitOfClass[chosen][column], box.least, box.lower, box.median, box.upper, box.most].map(figure),
+  ]);
+  const tables = [
+    greedy && table(`Greedy search, s = ${greedy.s}`, ["Step", "NH", "Features"], greedy.path.map((place, step) => [String(step + 1), figure(data.hit[place]), names(place)])),
+    classes.length > 0 && table(
+      "Neighbourhood hit by class",
+      ["Class", "chosen", "least", "lower quartile", "median", "upper quartile", "most"],
+      classes,
+    ),
+    table(
+      "Subsets",
+      subsets.labelled ? ["Rank", "NH", "Features"] : ["Number", "Features"],
+      places.map((place) => [String(place + 1), subsets.labelled && figure(data.hit[place]), names(place)].filter(Boolean)),
+    ),
+    subsets.count > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `, element("a", { href: "data/subsets.csv" }, "data/subsets.csv"), "."),
+  ].filter(Boolean);
+  return { title: "Subsets of the features in figures", tables };
+}

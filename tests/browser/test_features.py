@@ -1,0 +1,389 @@
+"""The Features page as a reader uses it, and the Overview's offer of feature subsets."""
+
+import csv
+import json
+import re
+
+import numpy as np
+import pytest
+from waiting import drawn_again, eventually
+
+MAP = "figure.map .surface"
+
+
+def subsets_of(site) -> list[dict]:
+    """What the search found, from best to worst, as the site's data says it."""
+    search = json.loads((site / "data" / "summary.json").read_text())["search"]
+    return (search["exhaustive"] or search["evaluated"])["subsets"]
+
+
+def address(page) -> str:
+    return page.evaluate("decodeURIComponent(location.hash).replaceAll('+', ' ')")
+
+
+def reading(page) -> str:
+    return re.sub(r"\s+", " ", page.locator("#reading").inner_text())
+
+
+def value(page) -> str:
+    return page.locator("#panel .value").inner_text()
+
+
+def place_on_screen(page, place, count) -> tuple[float, float]:
+    """The middle of a bar."""
+    box = page.locator("#ranking").bounding_box()
+    return box["x"] + (place + 0.5) * box["width"] / count, box["y"] + 100
+
+
+def drawn(page, selector) -> np.ndarray:
+    import io
+
+    from PIL import Image
+
+    return np.asarray(Image.open(io.BytesIO(page.locator(selector).screenshot())).convert("RGB")).astype(int)
+
+
+def changes(page, selector, act) -> None:
+    """Do something, and wait until a place on the screen looks different."""
+    before = drawn(page, selector)
+    act()
+    eventually(page, lambda: (drawn(page, selector) != before).any())
+
+
+class TestFirstLook:
+    def test_bars_matrix_map_and_boxes_are_drawn(self, open_page):
+        page = open_page("searched", "features.html")
+        for selector in (
+            "#subset-bars canvas",
+            "#feature-matrix canvas",
+            MAP,
+            "#boxes svg",
+            "#seed-dots svg",
+        ):
+            picture = drawn(page, selector)
+            assert (np.abs(picture - picture[0, -1]).max(axis=2) > 30).mean() > 0.002, selector
+
+    def test_the_best_subset_is_chosen_and_explained(self, open_page, site):
+        page = open_page("searched", "features.html")
+        best = subsets_of(site("searched"))[0]
+        assert value(page) == f"{best['nh_s']:.3f}"
+        assert reading(page).endswith(" ".join(best["features"]))
+        text = page.locator("main").inner_text()
+        for words in ("nearest neighbours", "on average when it joins", "had no say", "dealt out at random"):
+            assert words in text
+
+    def test_every_row_of_table_2_and_every_effect_is_there(self, open_page, site):
+        page = open_page("searched", "features.html")
+        search = json.loads((site("searched") / "data" / "summary.json").read_text())["search"]
+        assert page.locator(".costs tbody tr").count() == len(search["table"])
+        rows = page.locator(".effects tbody tr").all_inner_texts()
+        for feature, effect in search["effects"].items():
+            row = next(row for row in rows if row.split("\t")[0].strip() == feature)
+            assert f"{effect['alone']:.3f}" in row
+            assert f"{effect['with']:.3f}" in row
+
+
+class TestPointing:
+    def test_pointing_names_rank_value_and_features(self, open_page, site):
+        page = open_page("searched", "features.html")
+        subsets = subsets_of(site("searched"))
+        for place in (4, 11):
+            page.mouse.move(*place_on_screen(page, place, 15))
+            assert reading(page).startswith(f"Pointed at rank {place + 1} of 15")
+            assert f"{subsets[place]['nh_s']:.3f}" in reading(page)
+            assert reading(page).endswith(" ".join(subsets[place]["features"]))
+        assert value(page) == f"{subsets[0]['nh_s']:.3f}"
+        page.mouse.move(5, 5)
+        assert reading(page).startswith("Chosen")
+
+    def test_arrow_keys_go_from_bar_to_bar_and_enter_chooses(self, open_page, site):
+        page = open_page("searched", "features.html")
+        subsets = subsets_of(site("searched"))
+        page.focus("#ranking")
+        for key, place in (("ArrowRight", 1), ("PageDown", 11), ("End", 14), ("ArrowLeft", 13)):
+            page.keyboard.press(key)
+            assert reading(page).startswith(f"Pointed at rank {place + 1} ")
+        assert "Rank 14 of 15" in page.locator("#live").inner_text()
+        page.keyboard.press("Enter")
+        assert value(page) == f"{subsets[13]['nh_s']:.3f}"
+
+
+class TestChoosing:
+    def test_a_click_shows_the_map_the_classes_and_the_figures_of_a_subset(self, open_page, site):
+        page = open_page("searched", "features.html")
+        subset = subsets_of(site("searched"))[9]
+        before = drawn(page, MAP)
+        page.mouse.click(*place_on_screen(page, 9, 15))
+        eventually(page, lambda: (drawn(page, MAP) != before).any())
+        assert value(page) == f"{subset['nh_s']:.3f}"
+        names = page.locator("#legend .name").all_inner_texts()
+        shown = page.eval_on_selector_all("#bars text", "nodes => nodes.map(node => node.textContent)")
+        assert dict(zip(names, shown, strict=True)) == {n: f"{v:.3f}" for n, v in subset["nh_c"].items()}
+
+    def test_the_map_shows_the_points_of_the_subset(self, open_page, site):
+        """An opened shape lies where the search put it, relative to another."""
+        page = open_page("searched", "features.html")
+        rows = list(csv.DictReader((site("searched") / "data" / "subsets.csv").open(encoding="utf-8")))
+        page.mouse.click(*place_on_screen(page, 6, 15))
+        eventually(page, lambda: "features=" in address(page))
+        names = [name.removeprefix("feature:") for name, has in rows[6].items() if has == "1" and ":" in name]
+        assert address(page) == f"#features={' '.join(names)}"
+
+    def test_chips_lead_to_every_neighbouring_subset(self, open_page, site):
+        page = open_page("searched", "features.html")
+        values = {tuple(sorted(s["features"])): s["nh_s"] for s in subsets_of(site("searched"))}
+        features = set(subsets_of(site("searched"))[0]["features"])
+        for name in ("Gc", "FPFH", "Sc"):
+            features ^= {name}
+            chip = page.locator(".chip", has=page.get_by_text(name, exact=True))
+            change = chip.locator(".change").inner_text()
+            before = float(value(page))
+            chip.click()
+            assert value(page) == f"{values[tuple(sorted(features))]:.3f}"
+            signed = float(change.replace("−", "-"))
+            assert float(value(page)) - before == pytest.approx(signed, abs=0.0011)
+            pressed = page.locator(".chip[aria-pressed=true] .name").all_inner_texts()
+            assert set(pressed) == features
+
+    def test_the_last_feature_stays(self, open_page):
+        page = open_page("searched", "features.html#features=Sc")
+        assert page.locator(".chip", has=page.get_by_text("Sc", exact=True)).is_disabled()
+        assert page.locator(".chip:not(:disabled)").count() == 3
+
+    def test_a_chip_keeps_the_focus(self, open_page):
+        page = open_page("searched", "features.html")
+        page.locator(".chip").nth(1).focus()
+        page.keyboard.press("Enter")
+        page.keyboard.press("Enter")
+        assert page.evaluate("document.activeElement.dataset.key") == page.locator(".chip").nth(
+            1
+        ).get_attribute("data-key")
+
+    def test_differences_to_the_best_and_to_all_features_are_said(self, open_page, site):
+        page = open_page("searched", "features.html#features=Gc")
+        subsets = subsets_of(site("searched"))
+        own = next(s["nh_s"] for s in subsets if s["features"] == ["Gc"])
+        everything = next(s["nh_s"] for s in subsets if len(s["features"]) == 4)
+        text = page.locator("#panel .headline").inner_text()
+        assert f"−{subsets[0]['nh_s'] - own:.3f} against the best" in text
+        assert f"−{everything - own:.3f} against all features" in text
+
+    def test_colors_change_to_neighbourhood_hit(self, open_page):
+        page = open_page("searched", "features.html")
+        changes(page, MAP, lambda: page.locator("#colors label", has_text="NH").click())
+        eventually(page, lambda: "color=hit" in address(page))
+
+    def test_points_move_smoothly_for_who_wants_it(self, open_page):
+        page = open_page("searched", "features.html", reduced_motion="no-preference")
+        page.focus(MAP)
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("Enter")
+        places = page.evaluate(
+            """async () => {
+                const node = document.querySelector("figure.map .ring.opened");
+                const places = [];
+                document.querySelector("[data-key=next]").click();
+                const end = performance.now() + 2500;
+                while (performance.now() < end) {
+                    const place = node.getAttribute("cx");
+                    if (places.at(-1) !== place) places.push(place);
+                    await new Promise(requestAnimationFrame);
+                }
+                return places.length;
+            }"""
+        )
+        assert places > 2
+
+
+class TestGreedy:
+    def test_its_steps_are_drawn_and_told(self, open_page, site):
+        page = open_page("searched", "features.html")
+        greedy = json.loads((site("searched") / "data" / "summary.json").read_text())["search"]["greedy_all"]
+        for run in greedy:
+            page.locator("#greedy label", has_text=f"s = {run['s']}").click()
+            assert page.locator("#ranking .path circle").count() == len(run["path"])
+            for step in run["path"]:
+                assert f"{step['nh_s']:.3f}" in page.locator("#trace").inner_text()
+        page.locator("#greedy label", has_text="none").click()
+        assert page.locator("#ranking .path circle").count() == 0
+        eventually(page, lambda: "s=none" in address(page))
+
+    def test_a_step_can_be_chosen(self, open_page, site):
+        page = open_page("searched", "features.html")
+        run = json.loads((site("searched") / "data" / "summary.json").read_text())["search"]["greedy"]
+        page.locator("#trace .step").first.click()
+        assert value(page) == f"{run['path'][0]['nh_s']:.3f}"
+
+
+class TestAddress:
+    def test_a_reload_shows_the_same(self, open_page):
+        page = open_page("searched", "features.html#features=Gc PFH&s=2&color=hit")
+        before = (reading(page), value(page))
+        assert reading(page).endswith("Gc PFH")
+        assert page.locator("#greedy input:checked").get_attribute("value") == "2"
+        assert page.locator("#colors input:checked").get_attribute("value") == "hit"
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert (reading(page), value(page)) == before
+
+    def test_an_address_that_no_longer_fits_is_no_error(self, open_page, site):
+        page = open_page("searched", "features.html#features=gone %zz&s=9&color=gone")
+        assert value(page) == f"{subsets_of(site('searched'))[0]['nh_s']:.3f}"
+
+
+class TestTables:
+    def test_every_subset_class_and_step_is_in_a_table(self, open_page, site):
+        page = open_page("searched", "features.html")
+        page.click("#open-tables")
+        text = page.locator("#tables").inner_text()
+        for subset in subsets_of(site("searched")):
+            assert f"{subset['nh_s']:.3f}\t{', '.join(subset['features'])}" in text
+        assert page.locator("#tables table").nth(1).locator("tbody tr").count() == 5
+        page.keyboard.press("Escape")
+        assert page.locator("#tables").is_hidden()
+
+
+class TestTheme:
+    def test_all_is_drawn_anew(self, open_page):
+        page = open_page("searched", "features.html", color_scheme="light")
+        before = drawn(page, "#feature-matrix canvas")
+        page.click("#theme")
+        eventually(page, lambda: (drawn(page, "#feature-matrix canvas") != before).any())
+        eventually(page, lambda: drawn(page, MAP)[5, 5].mean() < 60)
+
+
+class TestOverview:
+    def test_a_subset_opens_there(self, open_page, site):
+        page = open_page("searched", "features.html#features=Gc PFH")
+        page.click("#open-overview")
+        page.wait_for_selector("#quality .value")
+        subset = next(s for s in subsets_of(site("searched")) if s["features"] == ["Gc", "PFH"])
+        assert page.locator("#quality .value").inner_text() == f"{subset['nh_s']:.3f}"
+        assert "Gc, PFH alone" in page.locator("#quality").inner_text()
+        assert page.locator("#features input:checked").get_attribute("value") == "chosen"
+        names = page.locator("#legend .name").all_inner_texts()
+        values = page.eval_on_selector_all("#bars text", "nodes => nodes.map(node => node.textContent)")
+        assert dict(zip(names, values, strict=True)) == {n: f"{v:.3f}" for n, v in subset["nh_c"].items()}
+
+    def test_it_offers_all_features_and_the_best_subset(self, open_page, site):
+        page = open_page("searched", "index.html#open=class002/0003")
+        ring = page.locator("figure[data-slot=large] .ring.opened")
+        place = ring.get_attribute("cx")
+        best = subsets_of(site("searched"))[0]
+        page.locator("#features label", has_text="Best subset").click()
+        eventually(page, lambda: page.locator("#quality .value").inner_text() == f"{best['nh_s']:.3f}")
+        eventually(page, lambda: ring.get_attribute("cx") != place)
+        eventually(page, lambda: f"features={' '.join(best['features'])}" in address(page))
+        page.locator("#features label", has_text="All features").click()
+        eventually(page, lambda: ring.get_attribute("cx") == place)
+        eventually(page, lambda: "features=" not in address(page))
+
+    def test_another_projection_is_of_all_features(self, open_page):
+        page = open_page("searched", "index.html#features=Sc")
+        assert page.locator("#methods input:checked").get_attribute("value") == "tsne"
+        page.locator("#methods label", has_text="UMAP").click()
+        assert page.locator("#features input:checked").get_attribute("value") == "all"
+        page.locator("#features label", has_text="Chosen: Sc").click()
+        eventually(page, lambda: page.locator("#methods input:checked").get_attribute("value") == "tsne")
+        eventually(page, lambda: address(page) == "#features=Sc")
+
+    def test_a_reload_shows_the_same_subset(self, open_page):
+        page = open_page("searched", "index.html#features=Gc Sc&open=class001/0002")
+        place = page.locator("figure[data-slot=large] .ring.opened").get_attribute("cx")
+        shown = page.locator("#quality").inner_text()
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert page.locator("#quality").inner_text() == shown
+        assert page.locator("figure[data-slot=large] .ring.opened").get_attribute("cx") == place
+
+    def test_neighbours_shown_are_those_that_nh_counts(self, open_page):
+        page = open_page("searched", "index.html#features=Gc Sc&open=class003/0004")
+        page.wait_for_selector("#detail .neighbours .shape")
+        hit = float(page.locator("#detail p b").first.inner_text())
+        assert hit == pytest.approx(1 - page.locator("#detail .neighbours .stranger").count() / 10)
+
+    def test_an_unknown_subset_is_no_error(self, open_page):
+        page = open_page("refused", "index.html#features=own 1 gone")
+        assert page.locator("#features input:checked").get_attribute("value") == "all"
+
+    @pytest.mark.parametrize("name", ["plain", "sampled"])
+    def test_it_offers_nothing_that_was_not_searched(self, open_page, name):
+        page = open_page(name)
+        assert page.locator("#features").count() == 0
+
+
+class TestStates:
+    def test_no_search(self, open_page):
+        page = open_page("plain", "features.html")
+        assert "--search tsne" in page.locator("main").inner_text()
+        page.click("#theme")
+
+    def test_no_labels(self, open_page, site):
+        page = open_page("searched without labels", "features.html")
+        assert "no labels" in page.locator(".lead").inner_text()
+        assert page.locator(".chip").count() == 3
+        before = drawn(page, MAP)
+        page.locator(".chip").first.click()
+        eventually(page, lambda: (drawn(page, MAP) != before).any())
+        assert page.locator("#subset-bars").is_hidden()
+        page.focus("#ranking")
+        page.keyboard.press("Home")
+        assert reading(page).startswith("Pointed at")
+        page.click("#open-tables")
+        assert page.locator("#tables tbody tr").count() == 7
+
+    def test_no_labels_on_the_overview(self, open_page):
+        page = open_page("searched without labels", "index.html#features=Gc Sc")
+        assert page.locator("#features input:checked").get_attribute("value") == "chosen"
+        assert page.locator("#features label", has_text="Best subset").is_hidden()
+
+    def test_too_many_features(self, open_page, site):
+        page = open_page("refused", "features.html")
+        assert "2,047 subsets" in page.locator(".notice").first.inner_text()
+        count = len(subsets_of(site("refused")))
+        assert f"of {count}" in reading(page)
+        # Not every neighbour was evaluated.
+        chips = page.locator(".chip")
+        assert chips.count() == 11
+        assert "by itself" in page.locator(".effects").inner_text()
+
+    def test_a_sample_is_said_and_shown(self, open_page):
+        page = open_page("sampled", "features.html")
+        assert "a sample of 24 shapes of 40 shapes" in page.locator(".lead").inner_text()
+        assert page.locator("#open-overview").count() == 0
+        page.focus(MAP)
+        page.keyboard.press("ArrowRight")
+        assert re.search(r"(ant|bird) \d+", page.locator("#card .name").inner_text())
+
+    def test_strange_names_are_shown_as_they_are(self, open_page):
+        page = open_page("nasty features", "features.html")
+        names = page.locator(".chip .name").all_inner_texts()
+        assert "<b>50 %</b> & more" in names
+        assert "</script><img src=x onerror=alert(1)>" in page.locator("#legend .name").all_inner_texts()
+        page.locator(".chip:not(:disabled)").first.click()
+        eventually(page, lambda: "features=" in address(page))
+        before = reading(page)
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert reading(page) == before
+        if page.locator("#open-overview").count():
+            page.click("#open-overview")
+            page.wait_for_selector("#quality .value")
+
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+
+
+class TestPhone:
+    @pytest.mark.parametrize("name", ["searched", "nasty features", "refused"])
+    def test_it_fits_the_width(self, open_page, name):
+        page = open_page(name, "features.html", **PHONE)
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+        page = open_page(name, "index.html#features=Gc", **PHONE)
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+    def test_a_tap_chooses(self, open_page, site):
+        page = open_page("searched", "features.html", **PHONE)
+        page.touchscreen.tap(*place_on_screen(page, 8, 15))
+        drawn_again(page)
+        assert value(page) == f"{subsets_of(site('searched'))[8]['nh_s']:.3f}"
