@@ -139,7 +139,7 @@ DARK = Theme(
     ),
     hit=("#b5203a", "#cf3a2e", "#e05c28", "#ee8225", "#f6a628", "#fbcb42", "#fdec6b"),
     features=(
-        "#2af4f8",
+        "#45e3d6",
         "#2cbded",
         "#84b77b",
         "#a45241",

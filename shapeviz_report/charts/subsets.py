@@ -67,7 +67,8 @@ def class_boxes() -> alt.LayerChart:
     )
 
     def across(field: str) -> alt.X:
-        return alt.X(field, axis=None, scale=alt.Scale(domain=[0, 1], nice=False, zero=True))
+        # A little more than the range, so that a dot at its end is whole.
+        return alt.X(field, axis=None, scale=alt.Scale(domain=[-0.03, 1.03], nice=False, zero=False))
 
     whiskers = base.mark_rule(color=alt.ExprRef("ink"), opacity=0.45).encode(x=across("least:Q"), x2="most:Q")
     boxes = base.mark_bar(color=alt.ExprRef("bar")).encode(x=across("lower:Q"), x2="upper:Q")

@@ -91,8 +91,8 @@ export class Panel {
       { class: "moves" },
       this.subsets.labelled && move("best", "Best", 0),
       move("all", "All features", this.subsets.everything),
-      move("previous", this.subsets.labelled ? "‹ Next better" : "‹ Previous", place - 1),
-      move("next", this.subsets.labelled ? "Next worse ›" : "Next ›", place + 1),
+      move("previous", this.subsets.labelled ? "‹ Better" : "‹ Previous", place - 1),
+      move("next", this.subsets.labelled ? "Worse ›" : "Next ›", place + 1),
     );
   }
 }

@@ -156,10 +156,13 @@ export class Ranking {
     this.chosen.setAttribute("width", this.step + 1);
     const place = pointed ?? chosen;
     const { subsets } = this;
+    const scored = () => [
+      element("span", {}, "rank ", element("b", {}, String(place + 1)), ` of ${subsets.count}`),
+      element("span", {}, "NH", element("sub", {}, "s"), " ", element("b", {}, figure(subsets.data.hit[place]))),
+    ];
     this.reading.replaceChildren(
       element("span", { class: "which" }, pointed === null ? "Chosen" : "Pointed at"),
-      subsets.labelled && element("span", {}, "rank ", element("b", {}, String(place + 1)), ` of ${subsets.count}`),
-      subsets.labelled && element("span", {}, "NH", element("sub", {}, "s"), " ", element("b", {}, figure(subsets.data.hit[place]))),
+      ...(subsets.labelled ? scored() : []),
       element("span", { class: "members" }, subsets.names(place).map((name) => this.#member(name))),
     );
   }
@@ -167,7 +170,7 @@ export class Ranking {
   #member(name) {
     const mark = element("i", { class: "hued" });
     mark.style.background = this.marks().features[this.subsets.data.hues[this.subsets.features.indexOf(name)]];
-    return element("span", { dir: "auto" }, mark, name);
+    return element("span", {}, mark, element("bdi", {}, name));
   }
 
   /** The steps of the greedy search, in order, on the bars and in words. */

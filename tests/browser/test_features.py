@@ -1,13 +1,14 @@
 """The Features page as a reader uses it, and the Overview's offer of feature subsets."""
 
-import csv
 import json
 import re
 
 import numpy as np
 import pytest
+from reports import make_report, with_search
 from waiting import drawn_again, eventually
 
+FEATURES = ("Gc", "Sc", "PFH", "FPFH")
 MAP = "figure.map .surface"
 
 
@@ -120,14 +121,35 @@ class TestChoosing:
         shown = page.eval_on_selector_all("#bars text", "nodes => nodes.map(node => node.textContent)")
         assert dict(zip(names, shown, strict=True)) == {n: f"{v:.3f}" for n, v in subset["nh_c"].items()}
 
-    def test_the_map_shows_the_points_of_the_subset(self, open_page, site):
-        """An opened shape lies where the search put it, relative to another."""
+    def test_the_address_names_the_chosen_features(self, open_page, site):
         page = open_page("searched", "features.html")
-        rows = list(csv.DictReader((site("searched") / "data" / "subsets.csv").open(encoding="utf-8")))
         page.mouse.click(*place_on_screen(page, 6, 15))
-        eventually(page, lambda: "features=" in address(page))
-        names = [name.removeprefix("feature:") for name, has in rows[6].items() if has == "1" and ":" in name]
-        assert address(page) == f"#features={' '.join(names)}"
+        names = subsets_of(site("searched"))[6]["features"]
+        eventually(page, lambda: address(page) == f"#features={' '.join(names)}")
+
+    def test_shapes_lie_where_the_search_put_them(self, open_page):
+        report = with_search(make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES))
+        members = report.search.subsets.members
+        row = next(i for i, has in enumerate(members) if has.tolist() == [True, False, True, False])
+        expected = report.search.subsets.xy[row]
+        page = open_page("searched", "features.html#features=Gc PFH")
+        ring = page.locator("figure.map .ring.pointed")
+        page.focus(MAP)
+        places = {}
+        for key in ["ArrowRight", "ArrowUp", "ArrowLeft", "ArrowDown"] * 2:
+            page.keyboard.press(key)
+            name = page.locator("#live").inner_text().split(",")[0]
+            drawn_again(page)
+            places[name] = [float(ring.get_attribute(axis)) for axis in ("cx", "cy")]
+        assert len(places) >= 3
+        shown = np.array(list(places.values()))
+        names = [shape.name for shape in report.shapes]
+        computed = expected[[names.index(name) for name in places]]
+        # Screen and map differ by one scale and a turn of the vertical axis.
+        scale = np.ptp(shown[:, 0]) / np.ptp(computed[:, 0])
+        np.testing.assert_allclose(
+            shown - shown[0], (computed - computed[0]) * [scale, -scale], atol=0.002 * scale
+        )
 
     def test_chips_lead_to_every_neighbouring_subset(self, open_page, site):
         page = open_page("searched", "features.html")
@@ -328,7 +350,7 @@ class TestStates:
         assert page.locator("#subset-bars").is_hidden()
         page.focus("#ranking")
         page.keyboard.press("Home")
-        assert reading(page).startswith("Pointed at")
+        assert reading(page) == "Pointed at Gc"
         page.click("#open-tables")
         assert page.locator("#tables tbody tr").count() == 7
 
@@ -349,7 +371,7 @@ class TestStates:
 
     def test_a_sample_is_said_and_shown(self, open_page):
         page = open_page("sampled", "features.html")
-        assert "a sample of 24 shapes of 40 shapes" in page.locator(".lead").inner_text()
+        assert "a sample of 24 of the 40 shapes" in page.locator(".lead").inner_text()
         assert page.locator("#open-overview").count() == 0
         page.focus(MAP)
         page.keyboard.press("ArrowRight")

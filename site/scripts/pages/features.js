@@ -172,7 +172,7 @@ function dotCharts(subsets, marks) {
   return [
     new DotChart("effect-dots", data.charts.effects, "effects", effects, effects.length, marks),
     new DotChart("seed-dots", data.charts.seeds, "seeds", seeds, data.spread.length, marks),
-  ];
+  ].filter(({ node }) => node !== null);
 }
 
 class DotChart {

@@ -175,9 +175,9 @@ def test_boxes_stand_where_their_quartiles_are():
     rows = [{"row": 0, "least": 0.1, "lower": 0.4, "median": 0.5, "upper": 0.6, "most": 0.9, "hit": 0.8}]
     image = sized(charts.class_boxes(), "classes", rows, bar="#ff0000", ink="#000000", accent="#0000ff")
     red = (image == [255, 0, 0]).all(axis=2).any(axis=0).nonzero()[0]
-    assert (red.min(), red.max()) == pytest.approx((240, 360), abs=2)
+    assert (red.min(), red.max()) == pytest.approx((243, 357), abs=2)
     blue = (image == [0, 0, 255]).all(axis=2).any(axis=0).nonzero()[0]
-    assert blue.mean() == pytest.approx(480, abs=2)
+    assert blue.mean() == pytest.approx(470, abs=2)
 
 
 def test_effects_and_seeds_name_their_rows_in_the_given_order():

@@ -8,6 +8,7 @@ from reports import NASTY_LABELS, make_report, with_search
 
 from shapeviz_report.pages.features import FeaturesPage, Ranking
 from shapeviz_report.pages.overview import OverviewPage
+from shapeviz_report.site import write_site
 from shapeviz_report.site.data_files import json_text
 
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
@@ -119,6 +120,13 @@ def test_a_sample_says_which_shapes_it_took():
     assert len(rows) == len(content.chunks["subsets"]["x"][0]) == 12
     assert [report.labels[row] for row in rows] == ["a"] * 6 + ["b"] * 6
     assert (content.context["search"]["shapes"], content.context["search"]["shape_count"]) == (12, 40)
+
+
+@pytest.mark.parametrize(("classes", "per_class"), [(["ant"], 1), (["ant"], 5), (["ant", "bird"], 1)])
+def test_the_smallest_databases_have_a_page(classes, per_class, tmp_path):
+    report = with_search(make_report(classes, per_class, features=FEATURES[:1]))
+    write_site(report, tmp_path)
+    assert json_text(FeaturesPage().content(report).chunks)
 
 
 def test_strange_labels_are_numbered_as_on_the_overview():
