@@ -10,6 +10,8 @@ from shapeviz_report.types import Mesh
 MAX_VERTICES = 100_000
 """Vertices that a surface may take; a ball takes 12,000 at edges of 1 %. Larger ones get longer edges."""
 
+ATTEMPTS = (1.0, 0.99, 0.97, 0.94)
+"""Shares of the edge length to try: Mmg may give up at one length, and come through at another hardly shorter."""
 
 _FAILED = (
     "it cannot be remeshed: perhaps all its parts are specks, far smaller than the space between them; "
@@ -89,17 +91,18 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
     # Mmg judges some things by absolute size.
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
-    target = edge_length / diagonal
-    surface = MmgMeshS()
-    surface.set_mesh_size(vertices=len(mesh.vertices), triangles=len(mesh.faces))
-    surface.set_vertices((mesh.vertices - low) / diagonal)
-    surface.set_triangles(mesh.faces)
-    try:
-        # Moving vertices would take as long as all the rest, and the edges are as even as is needed without.
-        surface.remesh(hsiz=target, hausd=target / 2, nomove=1, verbose=-1)
-    except RuntimeError as error:
-        raise MeshError(_FAILED) from error
-    vertices, faces = surface.get_vertices(), surface.get_triangles()
-    if len(faces) == 0 or not np.isfinite(vertices).all():
-        raise MeshError(_FAILED)
-    return Mesh(vertices * diagonal + low, np.ascontiguousarray(faces, dtype=np.int32))
+    for share in ATTEMPTS:
+        target = share * edge_length / diagonal
+        surface = MmgMeshS()
+        surface.set_mesh_size(vertices=len(mesh.vertices), triangles=len(mesh.faces))
+        surface.set_vertices((mesh.vertices - low) / diagonal)
+        surface.set_triangles(mesh.faces)
+        try:
+            # Moving vertices would take as long as all the rest, and the edges are as even as is needed without.
+            surface.remesh(hsiz=target, hausd=target / 2, nomove=1, verbose=-1)
+        except RuntimeError:
+            continue
+        vertices, faces = surface.get_vertices(), surface.get_triangles()
+        if len(faces) > 0 and np.isfinite(vertices).all():
+            return Mesh(vertices * diagonal + low, np.ascontiguousarray(faces, dtype=np.int32))
+    raise MeshError(_FAILED)
