@@ -10,6 +10,14 @@ from shapeviz_report.types import FloatArray
 PERPLEXITY = 30.0
 """Effective number of neighbours; a third of the other shapes where there are fewer than 91."""
 
+ALL_PAIRS = 500
+"""Up to this many rows all pairs have an affinity, as in the original paper. With more, each row has one with the
+3 ``PERPLEXITY`` nearest, as in the libraries: the many far ones blur groups in noisy features."""
+
+EXAGGERATION, EXAGGERATION_NEAREST = 4.0, 8.0
+"""Factor on the affinities at first: the original paper's for all pairs, and one between that and today's custom of
+12 for the nearest. docs/search.md compares them."""
+
 JITTER = 0.01
 """Size of the seeded noise on the start, relative to its extent: what differs between two seeds."""
 
@@ -24,11 +32,16 @@ def arrange(squared: FloatArray, seed: int) -> FloatArray:
     from shapeviz_report.projections.kernels import exact_tsne
 
     count = len(squared)
-    shares = exact_tsne.affinities(np.asarray(squared, dtype=np.float32), _perplexity(count))
-    start = _start(classical_scaling(squared), seed)
+    perplexity = _perplexity(count)
+    if count <= ALL_PAIRS:
+        neighbours, exaggeration = count - 1, EXAGGERATION
+    else:
+        neighbours, exaggeration = int(3 * perplexity), EXAGGERATION_NEAREST
+    shares = exact_tsne.affinities(np.asarray(squared, dtype=np.float32), perplexity, neighbours)
+    start = _start(classical_scaling(squared), seed).astype(np.float32)
     # Belkina et al. 2019: rows over exaggeration; 4 stands in the gradient already.
-    rate = max(count / exact_tsne.EXAGGERATION / 4, 50.0)
-    return exact_tsne.descend(shares, start.astype(np.float32), np.float32(rate))
+    rate = max(count / exaggeration / 4, 50.0)
+    return exact_tsne.descend(shares, start, np.float32(exaggeration), np.float32(rate))
 
 
 def embed(values: FloatArray, seed: int) -> FloatArray:

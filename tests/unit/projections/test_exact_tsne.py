@@ -8,7 +8,8 @@ from sklearn.manifold import TSNE
 from threadpoolctl import threadpool_limits
 
 from shapeviz_report.projections import squared_distances, tsne
-from shapeviz_report.projections.kernels.exact_tsne import affinities
+from shapeviz_report.projections.base import classical_scaling
+from shapeviz_report.projections.kernels.exact_tsne import affinities, descend
 from shapeviz_report.quality import score
 
 SEEDS = range(3)
@@ -23,7 +24,7 @@ def groups() -> tuple[np.ndarray, list[str]]:
 
 
 def shares_of(values: np.ndarray, perplexity: float) -> np.ndarray:
-    return affinities(squared_distances(values).astype(np.float32), perplexity).astype(np.float64)
+    return affinities(squared_distances(values).astype(np.float32), perplexity, len(values) - 1).astype(float)
 
 
 def divergence(shares: np.ndarray, xy: np.ndarray) -> float:
@@ -84,7 +85,7 @@ def test_a_run_repeats_to_the_bit(groups) -> None:
 
 
 def test_equal_distances_have_equal_shares() -> None:
-    shares = affinities((1 - np.eye(8)).astype(np.float32), 2.0)
+    shares = affinities((1 - np.eye(8)).astype(np.float32), 2.0, 7)
     assert shares[~np.eye(8, dtype=bool)] == pytest.approx(1 / 56)
     assert (np.diag(shares) == 0).all()
 
@@ -96,3 +97,30 @@ def test_more_twins_than_the_perplexity_asks_for() -> None:
     assert np.isfinite(shares).all()
     xy = tsne.arrange(squared_distances(values), 0)
     assert np.isfinite(xy).all()
+
+
+def test_the_start_of_rows_without_clear_groups_is_not_lost() -> None:
+    """Exaggeration may pull all rows together; their differences must outlive it."""
+    random = np.random.default_rng(3)
+    values = np.repeat(random.normal(size=(14, 50)), 20, axis=0) + 1.6 * random.normal(size=(280, 50))
+    squared = squared_distances(values).astype(np.float32)
+    shares = affinities(squared, 30.0, 90)
+    start = tsne._start(classical_scaling(squared), 3).astype(np.float32)
+    quality = score(
+        descend(shares, start, np.float32(4), np.float32(50)).astype(float),
+        [f"{i // 20}" for i in range(280)],
+    )
+    assert quality.nh_s > 0.7
+    assert quality.null_mean < 0.1
+
+
+def test_only_the_nearest_have_a_share(groups) -> None:
+    squared = squared_distances(groups[0]).astype(np.float32)
+    shares = affinities(squared, 10.0, 30)
+    np.fill_diagonal(squared, np.inf)
+    nearest = squared.argsort(axis=1)[:, :30]
+    near = np.zeros(squared.shape, dtype=bool)
+    np.put_along_axis(near, nearest, True, axis=1)
+    assert (shares[~(near | near.T)] == 0).all()
+    assert (shares[near & near.T] > 0).all()
+    assert shares.sum() == pytest.approx(1, abs=1e-5)
