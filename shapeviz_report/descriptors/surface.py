@@ -10,8 +10,8 @@ from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from shapeviz_report.descriptors.kernels.boxes import along_curve
 from shapeviz_report.descriptors.kernels.angles import gather_angles
+from shapeviz_report.descriptors.kernels.boxes import along_curve
 from shapeviz_report.descriptors.kernels.geodesics import shorten
 from shapeviz_report.descriptors.kernels.grid import find_nearest
 from shapeviz_report.types import FloatArray, IntArray, Mesh

@@ -1,1 +1,1 @@
-"""Compiled loops over arrays. They trust their input; the descriptors that call them have checked it."""
+"""Loops over arrays, compiled most of them. They trust their input; the descriptors that call them have checked it."""
