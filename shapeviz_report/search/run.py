@@ -37,7 +37,9 @@ NEIGHBOUR_LIMIT = 300
 """Most subsets that a greedy search may look at in one step; a larger s is left out."""
 
 GREEDY_SIZES = (1, 2, 3)
-ROUNDS = 5
+ROUNDS = {"tsne": 3, "umap": 1}
+"""Rounds of Table 2, by method: a UMAP map costs ten times as much as one by t-SNE."""
+
 SPREAD_SEEDS = 10
 FINALISTS = 12
 """Best subsets whose spread over seeds is measured, besides all features."""
@@ -47,8 +49,9 @@ EvaluateSubsets = Callable[[int, Sequence[int]], SubsetMaps]
 as the caller likes."""
 
 
-def planned_runs(feature_count: int, rounds: int = ROUNDS) -> int | None:
+def planned_runs(feature_count: int, method: str = "tsne", rounds: int | None = None) -> int | None:
     """The most maps that :func:`search_features` asks for; None where that depends on what it finds."""
+    rounds = rounds or ROUNDS[method]
     if feature_count > EXHAUSTIVE_LIMIT:
         return None
     subsets = (1 << feature_count) - 1
@@ -63,7 +66,7 @@ def search_features(
     evaluate: EvaluateSubsets | None = None,
     seed: int = 0,
     k: int = NEIGHBOURS,
-    rounds: int = ROUNDS,
+    rounds: int | None = None,
 ) -> FeatureSearch:
     """Search for the subset of features whose map separates the classes best.
 
@@ -84,10 +87,10 @@ def search_features(
     k : int
         Of the neighbourhood hit.
     rounds : int
-        Rounds of Table 2.
+        Rounds of Table 2; by default ``ROUNDS`` of the method.
     """
     chosen = [labels[i] for i in space.rows]
-    return _Search(space, chosen, method, evaluate, seed, k).run(rounds)
+    return _Search(space, chosen, method, evaluate, seed, k).run(rounds or ROUNDS[method])
 
 
 class _Search:

@@ -12,7 +12,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -53,10 +52,6 @@ class SearchSpace:
     def key(self) -> str:
         """A name for the distances: what the maps of subsets depend on, besides method and seed."""
         return hashlib.sha256(self.squared.tobytes() + repr(self.squared.shape).encode()).hexdigest()
-
-    def write(self, file: Path) -> None:
-        """Write the distances for :func:`map_subsets` (.npy)."""
-        np.save(file, self.squared)
 
     @property
     def everything(self) -> int:
@@ -129,30 +124,28 @@ def _sample(labels: Sequence[str | None], size: int, seed: int) -> npt.NDArray[n
     return np.sort(np.argsort(place, kind="stable")[:size])
 
 
-def map_subsets(squared: Path | FloatArray, method: str, seed: int, subsets: Sequence[int]) -> SubsetMaps:
+def map_subsets(squared: FloatArray, method: str, seed: int, subsets: Sequence[int]) -> SubsetMaps:
     """Lay out some subsets of the features: the work of a search, in pieces of any size.
 
-    Neither labels nor k have part in it. Needs 12 m^2 bytes for m shapes besides the distances, which are mapped
-    from their file.
+    Neither labels nor k have part in it. Needs 12 m^2 bytes for m shapes besides the distances.
 
     Parameters
     ----------
-    squared : Path or (f, m, m) array
-        The distances, or the file that :meth:`SearchSpace.write` made of them.
+    squared : (f, m, m) float32 array
+        The distances of a :class:`SearchSpace`.
     method : str
         ``tsne`` or ``umap``.
     seed : int
     subsets : whole numbers from 1 to 2^f - 1
     """
-    blocks = np.load(squared, mmap_mode="r") if isinstance(squared, Path) else squared
     projection = next(m for m in PROJECTIONS if m.name == method)
-    xy = np.empty((len(subsets), blocks.shape[1], 2), np.float32)
+    xy = np.empty((len(subsets), squared.shape[1], 2), np.float32)
     seconds = np.empty(len(subsets))
     with threadpool_limits(limits=1):
         for i, subset in enumerate(subsets):
             start = time.process_time()
-            distances = np.zeros(blocks.shape[1:])
-            for block, squares in enumerate(blocks):
+            distances = np.zeros(squared.shape[1:])
+            for block, squares in enumerate(squared):
                 if subset >> block & 1:
                     distances += squares
             xy[i] = arrange(projection, distances, seed)

@@ -157,3 +157,19 @@ def test_a_sample_says_so(values) -> None:
     best = result.subsets.nh_s.argmax()
     quality = score(result.subsets.xy[best].astype(float), [LABELS[i] for i in result.rows])
     assert result.subsets.nh_s[best] == pytest.approx(quality.nh_s)
+
+
+def test_umap(values, monkeypatch) -> None:
+    monkeypatch.setattr("shapeviz_report.search.run.SPREAD_SEEDS", 2)
+    space = make_space(table_of(values, (4, 2)), values, LABELS)
+    result = search_features(space, LABELS, "umap", rounds=1)
+    assert result.method == "umap"
+    assert result.subsets.members.tolist() == [[True, False], [False, True], [True, True]]
+    assert result.subsets.nh_s[0] > 0.9 > 0.6 > result.subsets.nh_s[1]
+    assert {row.round for row in result.table} == {1}
+
+
+def test_dearer_methods_have_fewer_rounds() -> None:
+    # 255 subsets in each round; 12 finalists and all features for the rest of ten seeds.
+    assert planned_runs(8, "tsne") == 3 * 255 + 7 * 13
+    assert planned_runs(8, "umap") == 255 + 9 * 13
