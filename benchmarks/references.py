@@ -37,11 +37,49 @@ def curvature(mesh: Mesh) -> FloatArray:
     return full - np.bincount(mesh.faces.ravel(), angles.ravel(), len(mesh.vertices))
 
 
-def edge_graph(mesh: Mesh) -> csr_matrix:
-    """(n, n) lengths of the edges."""
+def line_graph(mesh: Mesh) -> csr_matrix:
+    """(n, n) lengths of the edges, and of the lines across one edge or two with the faces laid flat.
+
+    By the angles around a corner that all faces of such a strip share, where the descriptor uses coordinates.
+    """
     edges, _ = edges_of(mesh.faces)
-    lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)
-    return csr_matrix((lengths, edges.T), (len(mesh.vertices),) * 2)
+    links = {tuple(edge): float(np.linalg.norm(np.subtract(*mesh.vertices[edge]))) for edge in edges.tolist()}
+    opposite: dict[tuple[int, int], list[int]] = {}
+    for face in mesh.faces.tolist():
+        for k in range(3):
+            a, b, c = face[k], face[(k + 1) % 3], face[(k + 2) % 3]
+            opposite.setdefault((a, b), []).append(c)
+            opposite.setdefault((b, a), []).append(c)
+
+    def draw(corner: int, *strip: int) -> None:
+        """The line from the first to the last of a fan of vertices around a corner."""
+        ways = mesh.vertices[list(strip)] - mesh.vertices[corner]
+        lengths = np.linalg.norm(ways, axis=1)
+        cosines = (ways[1:] * ways[:-1]).sum(axis=1) / (lengths[1:] * lengths[:-1])
+        angles = np.append(0, np.cumsum(np.arccos(np.clip(cosines, -1, 1))))
+        whole, first, last = angles[-1], lengths[0], lengths[-1]
+        if whole > np.pi:
+            return
+        # How far from the corner the line meets each side in between.
+        meets = first * last * np.sin(whole)
+        meets /= first * np.sin(angles[1:-1]) + last * np.sin(whole - angles[1:-1])
+        if (meets <= lengths[1:-1]).all():
+            ends = min(strip[0], strip[-1]), max(strip[0], strip[-1])
+            length = float(np.sqrt(first**2 + last**2 - 2 * first * last * np.cos(whole)))
+            links[ends] = min(length, links.get(ends, np.inf))
+
+    for (a, b), tips in opposite.items():
+        if len(tips) != 2:
+            continue
+        if a < b:
+            draw(a, tips[0], b, tips[1])
+        # The second edge is that from a to either tip.
+        for tip, other in (tips, tips[::-1]):
+            beyond = [c for c in opposite[a, tip] if c != b]
+            if len(opposite[a, tip]) == 2 and beyond and b < tip:
+                draw(a, other, b, tip, beyond[0])
+    ends = np.array(list(links)).T
+    return csr_matrix((list(links.values()), ends), (len(mesh.vertices),) * 2)
 
 
 def geodesic_distance(graph: csr_matrix, sources: IntArray) -> FloatArray:

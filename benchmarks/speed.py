@@ -49,7 +49,7 @@ def time_scipy(mesh: Mesh) -> float:
     """Dijkstra from every vertex by scipy."""
     count = len(mesh.vertices)
     sources = np.linspace(0, count - 1, min(SOURCES, count)).astype(int)
-    graph = references.edge_graph(mesh)
+    graph = references.line_graph(mesh)
     return seconds_of(lambda: references.geodesic_distance(graph, sources)) * count / len(sources)
 
 

@@ -59,7 +59,7 @@ def compare_geodesics(mesh: Mesh) -> Iterator[Row]:
     surface = Surface(mesh)
     chosen = choose(mesh)
     values = describe("Agd", surface)[chosen]
-    exact = references.geodesic_distance(references.edge_graph(mesh), chosen)
+    exact = references.geodesic_distance(references.line_graph(mesh), chosen)
     if not np.isfinite(exact).all():
         exact = references.geodesic_distance(surface.graph, chosen)
     error = np.abs(values - exact) / exact.mean()

@@ -5,20 +5,23 @@ from __future__ import annotations
 import numpy as np
 
 from shapeviz_report.descriptors.base import Descriptor
-from shapeviz_report.descriptors.kernels.geodesics import shorten
+from shapeviz_report.descriptors.kernels.geodesics import measure_all
 from shapeviz_report.descriptors.surface import Surface
 from shapeviz_report.types import FloatArray
 
 
 def compute(surface: Surface) -> FloatArray:
-    r"""Mean length of the shortest paths along edges from every vertex to all others.
+    r"""Mean length of the shortest paths over the surface from every vertex to all others.
 
     .. math:: Agd(x) = \frac{1}{|V|} \sum_{y \in V} d(x, y) \approx \sum_c \frac{|V_c|}{|V|} d(x, c)
 
-    The sum over all vertices is estimated from the centres c of 64 even cells (:attr:`Surface.cells`), each
-    weighted by the number of vertices nearest to it. With at most 64 vertices the result is exact.
+    Paths go from vertex to vertex along edges and along straight lines across one edge or two
+    (:attr:`Surface.graph`): they are about 1 % longer than geodesics, where along edges alone they are 5 to 17 %
+    longer, depending on the triangulation. The sum over all vertices is estimated from 64 centres c
+    (:attr:`Surface.centres`), each weighted by the number of vertices nearest to it. With at most 64 vertices the
+    result is exact.
 
-    Parts that no path joins are bridged by straight edges (:attr:`Surface.graph`), so every distance is finite.
+    Parts that no path joins are bridged by straight lines, so every distance is finite.
 
     Returns
     -------
@@ -26,18 +29,13 @@ def compute(surface: Surface) -> FloatArray:
         In units of the normalised shape (radius 1), not negative: small at the middle of a shape, large at
         the ends of its limbs.
     """
-    graph, cells = surface.graph, surface.cells
-    count = len(surface.vertices)
-    mean = np.zeros(count)
-    distances, waiting = np.empty(count), np.zeros(count, np.bool_)
-    owners, queue = np.zeros(count, np.int32), np.empty(count, np.int32)
-    for centre, size in zip(cells.centres, np.bincount(cells.owners)):
-        distances[:] = np.inf
-        distances[centre] = 0.0
-        queue[0] = centre
-        shorten(graph.indptr, graph.indices, graph.data, distances, owners, queue, 1, waiting)
-        mean += size / count * distances
-    return mean[:, None]
+    graph, centres, count = surface.graph, surface.centres, len(surface.vertices)
+    distances = np.full((count, len(centres)), np.inf, np.float32)
+    distances[centres, np.arange(len(centres))] = 0
+    orders = np.argsort(surface.vertices, axis=0).T.astype(np.int32)
+    measure_all(graph.indptr, graph.indices, graph.data.astype(np.float32), orders, distances)
+    weights = np.bincount(distances.argmin(axis=1), minlength=len(centres)) / count
+    return (distances @ weights)[:, None]
 
 
 GEODESIC_DISTANCE = Descriptor(

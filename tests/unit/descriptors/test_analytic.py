@@ -30,17 +30,22 @@ def test_a_torus_is_as_thick_as_its_tube() -> None:
     assert compute("Nd", torus()) == pytest.approx(0.6, rel=0.01)
 
 
-def test_geodesic_distance_on_a_grid_with_diagonals() -> None:
+def test_geodesic_distance_on_a_grid() -> None:
     size = 8
     column, row = np.meshgrid(np.arange(size), np.arange(size))
-    across = column.ravel()[:, None] - column.ravel()
-    along = row.ravel()[:, None] - row.ravel()
-    # Every square has the diagonal that rises to the right: short cuts go that way only.
-    steps = np.where(
-        across * along > 0,
-        np.maximum(abs(across), abs(along)) + (np.sqrt(2) - 1) * np.minimum(abs(across), abs(along)),
-        abs(across) + abs(along),
+    across = abs(column.ravel()[:, None] - column.ravel())
+    along = abs(row.ravel()[:, None] - row.ravel())
+    # With lines across one edge and two, whatever way the diagonals go, there are kings' moves; and rising to the
+    # right also knights' moves.
+    rising = (column.ravel()[:, None] - column.ravel()) * (row.ravel()[:, None] - row.ravel()) > 0
+    more, less = np.maximum(across, along), np.minimum(across, along)
+    king = more + (np.sqrt(2) - 1) * less
+    knight = np.where(
+        2 * less <= more,
+        more + (np.sqrt(5) - 2) * less,
+        (np.sqrt(5) - np.sqrt(2)) * more + (2 * np.sqrt(2) - np.sqrt(5)) * less,
     )
+    steps = np.where(rising, knight, king)
     assert compute("Agd", sheet(size))[:, 0] == pytest.approx(steps.mean(axis=1) / (size - 1))
 
 
