@@ -10,7 +10,7 @@ from shapeviz_report.types import FloatArray
 PERPLEXITY = 30.0
 """Effective number of neighbours; a third of the other shapes where there are fewer than 91."""
 
-ALL_PAIRS = 500
+ALL_PAIRS = 300
 """Up to this many rows all pairs have an affinity, as in the original paper. With more, each row has one with the
 3 ``PERPLEXITY`` nearest, as in the libraries: the many far ones blur groups in noisy features."""
 
