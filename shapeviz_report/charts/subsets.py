@@ -81,7 +81,7 @@ def class_boxes() -> alt.LayerChart:
         .encode(x=across("hit:Q"))
     )
     return _framed(
-        alt.layer(whiskers, boxes, medians, chosen, data=alt.NamedData("classes")),
+        alt.LayerChart(layer=[whiskers, boxes, medians, chosen], data=alt.NamedData("classes")),
         "Neighbourhood hit of every class over all subsets",
         "none",
         ink="#222222",
@@ -106,7 +106,7 @@ def effect_dots() -> alt.LayerChart:
     with_ = known.mark_point(filled=True, size=90, opacity=1).encode(x=_scored("with:Q"), color=_hue())
     alone = base.mark_tick(thickness=3, size=14, opacity=1).encode(x=_scored("alone:Q"), color=_hue())
     return _framed(
-        alt.layer(ways, without, with_, alone, data=alt.NamedData("effects")),
+        alt.LayerChart(layer=[ways, without, with_, alone], data=alt.NamedData("effects")),
         "NH of maps with and without each feature",
         "fit",
         ground="#ffffff",
@@ -138,7 +138,7 @@ def seed_dots() -> alt.LayerChart:
         .encode(x=_scored("best:Q"))
     )
     return _framed(
-        alt.layer(best, dots, intervals, means, data=alt.NamedData("seeds")),
+        alt.LayerChart(layer=[best, dots, intervals, means], data=alt.NamedData("seeds")),
         "NH of the best subsets over seeds",
         "fit",
         ink="#222222",
@@ -153,7 +153,7 @@ def _hue() -> alt.Color:
     return alt.Color("feature:N", legend=None, scale=alt.Scale(domain=list(range(10)), range="ordinal"))
 
 
-def _names(field: str, limit: object) -> alt.Y:
+def _names(field: str, limit: float | alt.ExprRef) -> alt.Y:
     """Rows with their names beside them, in the order of the data."""
     return alt.Y(
         field,

@@ -157,7 +157,7 @@ def _by_effect(search: FeatureSearch) -> list[int]:
     return sorted(range(len(search.features)), key=lambda index: -weight(index))
 
 
-def _boxes(nh_c: FloatArray) -> list[dict[str, float]]:
+def _boxes(nh_c: FloatArray) -> list[dict[str, float | None]]:
     """The spread of NH_c over all subsets, a box a class."""
     if np.isnan(nh_c).any():
         return []

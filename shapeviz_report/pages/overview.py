@@ -30,7 +30,7 @@ class OverviewPage:
             context={
                 "methods": [{"key": method["key"], "title": method["title"]} for method in methods],
                 "classes": len(classes),
-                "subsets": _subsets(report) is not None,
+                "subsets": _subsets(report),
             },
             chunks={
                 "overview": {

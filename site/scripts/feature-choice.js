@@ -37,16 +37,12 @@ export class FeatureChoice {
     const best = base !== index && same(features, this.searched.best);
     if (base !== index && !best) this.#chosen = features;
     const value = base === index ? ALL : best ? BEST : CHOSEN;
-    for (const input of this.node.querySelectorAll("input")) {
-      input.checked = input.value === value;
-      const label = input.closest("label");
-      if (input.value === BEST) label.hidden = this.searched.best === null;
-      if (input.value === CHOSEN) {
-        label.hidden = this.#chosen === null;
-        label.title = (this.#chosen ?? []).join(", ");
-        label.querySelector("bdi").textContent = (this.#chosen ?? []).join(" ");
-      }
-    }
+    for (const input of this.node.querySelectorAll("input")) input.checked = input.value === value;
+    if (this.#chosen === null) return;
+    const label = this.node.querySelector(`[value=${CHOSEN}]`).closest("label");
+    label.hidden = false;
+    label.title = this.#chosen.join(", ");
+    label.querySelector("bdi").textContent = this.#chosen.join(" ");
   }
 }
 

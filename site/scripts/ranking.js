@@ -9,6 +9,7 @@ const ROW = 15;
 const WIDEST = 36;
 const TOUCHABLE = 3;
 const LEAP = 10;
+const CLOSEST = 10;
 
 export class Ranking {
   constructor(subsets, state, marks, announce) {
@@ -185,10 +186,12 @@ export class Ranking {
     if (!greedy) return;
     const { hit } = this.subsets.data;
     const places = greedy.path.map((place) => [this.#x(place), this.#y(hit[place])]);
+    // Numbers that would touch the one before are left out; the words below have them all.
+    const numbered = places.filter(([x], index) => index === 0 || Math.abs(x - places[index - 1][0]) >= CLOSEST);
     this.path.append(
       svg("polyline", { points: places.map((place) => place.join()).join(" ") }),
       ...places.map(([x, y]) => svg("circle", { cx: x, cy: y, r: 3.5 })),
-      ...places.map(([x, y], index) => svg("text", { x, y: Math.max(y - 8, 10), "text-anchor": "middle" }, String(index + 1))),
+      ...numbered.map(([x, y]) => svg("text", { x, y: Math.max(y - 8, 10), "text-anchor": "middle" }, String(places.findIndex((place) => place[0] === x) + 1))),
     );
     const steps = greedy.path.map((place, index) => [
       index > 0 && " → ",

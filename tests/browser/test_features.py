@@ -8,6 +8,8 @@ import pytest
 from reports import make_report, with_search
 from waiting import drawn_again, eventually
 
+from shapeviz_report.site import write_site
+
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
 MAP = "figure.map .surface"
 
@@ -324,6 +326,11 @@ class TestOverview:
         hit = float(page.locator("#detail p b").first.inner_text())
         assert hit == pytest.approx(1 - page.locator("#detail .neighbours .stranger").count() / 10)
 
+    def test_where_all_features_are_best_it_says_so(self, open_page, tmp_path):
+        write_site(with_search(make_report(["ant", "bird"], 6, features=("Sc",))), tmp_path)
+        page = open_page("", address=f"{tmp_path.as_uri()}/index.html")
+        assert page.locator("#features label:visible").all_inner_texts() == ["All features (best)"]
+
     def test_an_unknown_subset_is_no_error(self, open_page):
         page = open_page("refused", "index.html#features=own 1 gone")
         assert page.locator("#features input:checked").get_attribute("value") == "all"
@@ -357,7 +364,7 @@ class TestStates:
     def test_no_labels_on_the_overview(self, open_page):
         page = open_page("searched without labels", "index.html#features=Gc Sc")
         assert page.locator("#features input:checked").get_attribute("value") == "chosen"
-        assert page.locator("#features label", has_text="Best subset").is_hidden()
+        assert page.locator("#features label", has_text="Best subset").count() == 0
 
     def test_too_many_features(self, open_page, site):
         page = open_page("refused", "features.html")
@@ -401,7 +408,7 @@ class TestPhone:
     def test_it_fits_the_width(self, open_page, name):
         page = open_page(name, "features.html", **PHONE)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
-        page = open_page(name, "index.html#features=Gc", **PHONE)
+        page = open_page(name, "index.html#features=Gc Sc PFH", **PHONE)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
 
     def test_a_tap_chooses(self, open_page, site):
