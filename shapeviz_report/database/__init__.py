@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 
@@ -48,7 +49,7 @@ def read_database(
         If there is nothing to read at the path, or no such layout or labeling.
     """
     path = Path(path)
-    if not path.exists():
+    if not os.path.exists(path):
         raise DatabaseError(f"There is no shape database at {path}: no such file or folder.")
     database = _choose_layout(path, layout).read(path)
     if not database.shapes and not database.failures:

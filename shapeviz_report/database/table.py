@@ -255,8 +255,9 @@ def _sort_out(rows: Sequence[Row], table: Path) -> tuple[dict[str, Listed], tupl
     taken = {}
     for relative, listed in by_file.items():
         places = ", ".join(row.place for row in listed.rows)
-        if not listed.path.is_file():
-            kind = "a folder, not a mesh" if listed.path.is_dir() else "not there"
+        # Unlike Path.is_file, this bears names that are longer than a file's can be.
+        if not os.path.isfile(listed.path):
+            kind = "a folder, not a mesh" if os.path.isdir(listed.path) else "not there"
             reason = f"{table.name} lists it ({places}), but it is {kind}"
         elif not is_read(listed.path.name):
             reason = why_not_read(listed.path.name)

@@ -220,3 +220,11 @@ def test_order_of_rows_does_not_matter(many, suffix):
             text = json.dumps([dict(zip(columns, row.split(","))) for row in rows])
         databases.append(read_database(table(root, text, f"shapes{suffix}")))
     assert databases[0] == databases[1] == databases[2]
+
+
+def test_a_name_longer_than_any_file_can_have_is_not_there(root) -> None:
+    found = read_database(table(root, "file\na.off\n" + "x" * 5000 + ".off\n"))
+    assert [shape.id for shape in found.shapes] == ["a"]
+    assert "it is not there" in found.failures[0].reason
+    with pytest.raises(DatabaseError, match="no such file or folder"):
+        read_database(root / ("x" * 5000))
