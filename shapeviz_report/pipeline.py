@@ -479,7 +479,7 @@ def _search(
     """The search for the best subset of features, its maps made by the executor and kept."""
     if config.search == "none":
         return None
-    with run.clock.stage("search", planned_runs(len(space.features)) or 0) as step:
+    with run.clock.stage("search", planned_runs(len(space.features), config.search) or 0) as step:
 
         def evaluate(seed: int, subsets: Sequence[int]) -> SubsetMaps:
             chunks = [tuple(subsets[i : i + SUBSETS_A_TASK]) for i in range(0, len(subsets), SUBSETS_A_TASK)]
