@@ -66,7 +66,7 @@ class TestFirstLook:
             picture = drawn(page, selector)
             assert (np.abs(picture - picture[0, -1]).max(axis=2) > 30).mean() > 0.002, selector
 
-    def test_the_best_subset_is_chosen_and_explained(self, open_page, site):
+    def test_the_best_subset_is_chosen_and_all_is_explained(self, open_page, site):
         page = open_page("searched", "features.html")
         best = subsets_of(site("searched"))[0]
         assert value(page) == f"{best['nh_s']:.3f}"
@@ -74,9 +74,6 @@ class TestFirstLook:
         text = page.locator("main").inner_text()
         for words in ("nearest neighbours", "on average when it joins", "had no say", "dealt out at random"):
             assert words in text
-
-    def test_every_row_of_table_2_and_every_effect_is_there(self, open_page, site):
-        page = open_page("searched", "features.html")
         search = json.loads((site("searched") / "data" / "summary.json").read_text())["search"]
         assert page.locator(".costs tbody tr").count() == len(search["table"])
         rows = page.locator(".effects tbody tr").all_inner_texts()
@@ -112,7 +109,7 @@ class TestPointing:
 
 
 class TestChoosing:
-    def test_a_click_shows_the_map_the_classes_and_the_figures_of_a_subset(self, open_page, site):
+    def test_a_click_shows_map_and_classes_of_a_subset_and_names_it_in_the_address(self, open_page, site):
         page = open_page("searched", "features.html")
         subset = subsets_of(site("searched"))[9]
         before = drawn(page, MAP)
@@ -122,9 +119,6 @@ class TestChoosing:
         names = page.locator("#legend .name").all_inner_texts()
         shown = page.eval_on_selector_all("#bars text", "nodes => nodes.map(node => node.textContent)")
         assert dict(zip(names, shown, strict=True)) == {n: f"{v:.3f}" for n, v in subset["nh_c"].items()}
-
-    def test_the_address_names_the_chosen_features(self, open_page, site):
-        page = open_page("searched", "features.html")
         page.mouse.click(*place_on_screen(page, 6, 15))
         names = subsets_of(site("searched"))[6]["features"]
         eventually(page, lambda: address(page) == f"#features={' '.join(names)}")
@@ -153,7 +147,7 @@ class TestChoosing:
             shown - shown[0], (computed - computed[0]) * [scale, -scale], atol=0.002 * scale
         )
 
-    def test_chips_lead_to_every_neighbouring_subset(self, open_page, site):
+    def test_chips_lead_to_every_neighbouring_subset_and_keep_the_focus(self, open_page, site):
         page = open_page("searched", "features.html")
         values = {tuple(sorted(s["features"])): s["nh_s"] for s in subsets_of(site("searched"))}
         features = set(subsets_of(site("searched"))[0]["features"])
@@ -169,22 +163,16 @@ class TestChoosing:
             pressed = page.locator(".chip[aria-pressed=true] .name").all_inner_texts()
             assert set(pressed) == features
 
-    def test_the_last_feature_stays(self, open_page):
-        page = open_page("searched", "features.html#features=Sc")
-        assert page.locator(".chip", has=page.get_by_text("Sc", exact=True)).is_disabled()
+    def test_a_single_feature_stays_and_is_compared(self, open_page, site):
+        page = open_page("searched", "features.html#features=Gc")
+        assert page.locator(".chip", has=page.get_by_text("Gc", exact=True)).is_disabled()
         assert page.locator(".chip:not(:disabled)").count() == 3
-
-    def test_a_chip_keeps_the_focus(self, open_page):
-        page = open_page("searched", "features.html")
         page.locator(".chip").nth(1).focus()
         page.keyboard.press("Enter")
         page.keyboard.press("Enter")
         assert page.evaluate("document.activeElement.dataset.key") == page.locator(".chip").nth(
             1
         ).get_attribute("data-key")
-
-    def test_differences_to_the_best_and_to_all_features_are_said(self, open_page, site):
-        page = open_page("searched", "features.html#features=Gc")
         subsets = subsets_of(site("searched"))
         own = next(s["nh_s"] for s in subsets if s["features"] == ["Gc"])
         everything = next(s["nh_s"] for s in subsets if len(s["features"]) == 4)
@@ -220,7 +208,7 @@ class TestChoosing:
 
 
 class TestGreedy:
-    def test_its_steps_are_drawn_and_told(self, open_page, site):
+    def test_its_steps_are_drawn_told_and_can_be_chosen(self, open_page, site):
         page = open_page("searched", "features.html")
         greedy = json.loads((site("searched") / "data" / "summary.json").read_text())["search"]["greedy_all"]
         for run in greedy:
@@ -228,15 +216,11 @@ class TestGreedy:
             assert page.locator("#ranking .path circle").count() == len(run["path"])
             for step in run["path"]:
                 assert f"{step['nh_s']:.3f}" in page.locator("#trace").inner_text()
+            page.locator("#trace .step").first.click()
+            assert value(page) == f"{run['path'][0]['nh_s']:.3f}"
         page.locator("#greedy label", has_text="none").click()
         assert page.locator("#ranking .path circle").count() == 0
         eventually(page, lambda: "s=none" in address(page))
-
-    def test_a_step_can_be_chosen(self, open_page, site):
-        page = open_page("searched", "features.html")
-        run = json.loads((site("searched") / "data" / "summary.json").read_text())["search"]["greedy"]
-        page.locator("#trace .step").first.click()
-        assert value(page) == f"{run['path'][0]['nh_s']:.3f}"
 
 
 class TestAddress:
@@ -311,17 +295,14 @@ class TestOverview:
         eventually(page, lambda: page.locator("#methods input:checked").get_attribute("value") == "tsne")
         eventually(page, lambda: address(page) == "#features=Sc")
 
-    def test_a_reload_shows_the_same_subset(self, open_page):
-        page = open_page("searched", "index.html#features=Gc Sc&open=class001/0002")
+    def test_a_reload_shows_the_same_subset_and_the_neighbours_that_nh_counts(self, open_page):
+        page = open_page("searched", "index.html#features=Gc Sc&open=class003/0004")
         place = page.locator("figure[data-slot=large] .ring.opened").get_attribute("cx")
         shown = page.locator("#quality").inner_text()
         page.reload()
         page.wait_for_selector("html[data-ready]", state="attached")
         assert page.locator("#quality").inner_text() == shown
         assert page.locator("figure[data-slot=large] .ring.opened").get_attribute("cx") == place
-
-    def test_neighbours_shown_are_those_that_nh_counts(self, open_page):
-        page = open_page("searched", "index.html#features=Gc Sc&open=class003/0004")
         page.wait_for_selector("#detail .neighbours .shape")
         hit = float(page.locator("#detail p b").first.inner_text())
         assert hit == pytest.approx(1 - page.locator("#detail .neighbours .stranger").count() / 10)
@@ -404,7 +385,7 @@ PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobil
 
 
 class TestPhone:
-    @pytest.mark.parametrize("name", ["searched", "nasty features", "refused"])
+    @pytest.mark.parametrize("name", ["nasty features", "refused"])
     def test_it_fits_the_width(self, open_page, name):
         page = open_page(name, "features.html", **PHONE)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
