@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from distributed import Client
+
 from shapeviz_report.errors import RenderError
 
 
@@ -89,6 +91,9 @@ def running_cluster(folder: Path, workers: int) -> Iterator[Cluster]:
     try:
         for _ in range(workers):
             cluster.add_worker()
+        if workers:
+            with Client(cluster.address, set_as_default=False) as client:
+                client.wait_for_workers(workers, timeout=120)
         yield cluster
     finally:
         cluster.stop()

@@ -11,6 +11,7 @@ import queue
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
+from contextlib import suppress
 from itertools import islice
 from threading import Lock
 from typing import Any
@@ -80,9 +81,12 @@ class DaskExecutor:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._client.status == "running":
-            self._client.run(_release, on_error="ignore")
-        self._client.close()
+        # What the scheduler's end leaves undone ends with the workers.
+        with suppress(OSError, TimeoutError):
+            if self._client.status == "running":
+                self._client.run(_release, on_error="ignore")
+        with suppress(OSError, TimeoutError):
+            self._client.close()
 
     def run(self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]) -> Iterator[Outcome]:
         """See :meth:`Executor.run`.
@@ -93,6 +97,7 @@ class DaskExecutor:
             The cluster lost its scheduler or has had no worker for a minute, or a worker lacks something.
         """
         from distributed import KilledWorker
+        from distributed.comm import CommClosedError
 
         waiting = enumerate(tasks)
         done: queue.SimpleQueue[Any] = queue.SimpleQueue()
@@ -128,9 +133,12 @@ class DaskExecutor:
                         "shapeviz-report[dask] where the workers run."
                     ) from error
                 yield Outcome(index, outcome.value, outcome.reason, outcome.cpu_seconds)
+        except CommClosedError as error:
+            raise ClusterError(_GONE) from error
         finally:
-            for future in running:
-                future.cancel()
+            with suppress(OSError):
+                for future in running:
+                    future.cancel()
 
     def _threads(self) -> int:
         """Threads that the cluster has now; waits for the first one."""
