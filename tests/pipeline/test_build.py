@@ -65,7 +65,7 @@ def test_a_search_that_was_stopped_continues(database, cache, built, tmp_path) -
     report = shapeviz_report.build(database, tmp_path / "site", cache=cache, **WITH_SEARCH)
     again = entries(cache, "searched")
     assert again.keys() == found.keys()
-    assert [path for path in found if again[path] != found[path]] == lost
+    assert {path for path in found if again[path] != found[path]} == set(lost)
     np.testing.assert_array_equal(report.search.subsets.xy, built[1].search.subsets.xy)
 
 
