@@ -277,7 +277,7 @@ def test_a_plain_script_without_a_main_guard_can_build(tmp_path, database, cache
     script = tmp_path / "script.py"
     script.write_text(
         f"import shapeviz_report\n"
-        f"report = shapeviz_report.build({str(database)!r}, 'site', cache={str(cache)!r}, **{OPTIONS!r})\n"
+        f"report = shapeviz_report.build({str(database)!r}, 'site', cache={str(cache)!r}, **{WITH_SEARCH!r})\n"
         f"print(len(report.shapes))\n"
     )
     done = subprocess.run(
