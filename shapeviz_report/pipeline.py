@@ -264,7 +264,7 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
 
 
 def check_database(database_path: Path, config: Config, progress: Progress | None = None) -> CheckResult:
-    """Read a database and every mesh of it, without computing or writing anything."""
+    """Read a database and every mesh of it, without building anything; what is found is kept in the cache."""
     clock = Clock(progress or QuietProgress())
     with clock.stage("read"):
         database = read_database(
