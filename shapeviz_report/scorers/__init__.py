@@ -1,0 +1,10 @@
+"""Scores of bins (paper, 4.3): one file a method, ``SCORERS`` in the order a reader meets them."""
+
+from shapeviz_report.scorers.anova import ANOVA
+from shapeviz_report.scorers.base import Scorer
+from shapeviz_report.scorers.chi2 import CHI2
+from shapeviz_report.scorers.separation import Contest, as_one_group, each_from_each, score_separation
+
+SCORERS: tuple[Scorer, ...] = (CHI2, ANOVA)
+
+__all__ = ["SCORERS", "Contest", "Scorer", "as_one_group", "each_from_each", "score_separation"]

@@ -1,0 +1,54 @@
+// The task "score": how well each column separates groups of shapes.
+
+import { scoreByAnova } from "./score-anova.js";
+import { scoreByChi2 } from "./score-chi2.js";
+
+/**
+ * The methods by their keys. Each is a generator `(table, contest, columns, seed)` that yields `{ progress }` and returns a
+ * score for each of the columns, which all vary over the contest's rows.
+ */
+const METHODS = new Map([
+  ["chi2", scoreByChi2],
+  ["anova", scoreByAnova],
+]);
+
+/**
+ * Relative scores: those of each contest divided by their largest, and averaged over the contests.
+ *
+ * `table` is `{ rows, columns, values }` with compared values one column after the other. `contests` are pairs of groups
+ * `{ positive, negative }` of rows. Returns `{ scores }`, one in [0, 1] for each of `columns`.
+ */
+export function* score(table, { method, contests, columns, seed }) {
+  const measure = METHODS.get(method);
+  const scores = new Float64Array(columns.length);
+  for (let number = 0; number < contests.length; number += 1) {
+    // In one order, whichever way the reader came to the groups.
+    const contest = {
+      positive: Int32Array.from(contests[number].positive).sort(),
+      negative: Int32Array.from(contests[number].negative).sort(),
+    };
+    const places = varying(table, contest, columns);
+    if (places.length === 0) continue;
+    const steps = measure(table, contest, places.map((place) => columns[place]), seed);
+    let step = steps.next();
+    while (!step.done) {
+      yield { progress: (number + step.value.progress) / contests.length };
+      step = steps.next();
+    }
+    const found = step.value;
+    const highest = found.reduce((most, value) => Math.max(most, value), 0);
+    if (highest > 0) places.forEach((place, index) => (scores[place] += found[index] / highest / contests.length));
+    yield { progress: (number + 1) / contests.length };
+  }
+  return { scores };
+}
+
+/** The places in `columns` of those that are not constant over the contest's rows. */
+function varying(table, { positive, negative }, columns) {
+  return Int32Array.from(columns.keys()).filter((place) => {
+    const start = columns[place] * table.rows;
+    const value = table.values[start + positive[0]];
+    const differs = (row) => table.values[start + row] !== value;
+    return positive.some(differs) || negative.some(differs);
+  });
+}
