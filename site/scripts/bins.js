@@ -1,31 +1,24 @@
 // The bins of all features: their names, what they mean, and their value for every shape.
 
+import { currentTheme } from "./theme.js";
+
 const STEPS = 65535;
 
 export class Bins {
   /** `data` is the chunk "workbench", `bytes` the ArrayBuffer of the chunk "bins". */
   constructor(data, bytes) {
     this.features = data.features;
-    this.edges = data.dimensions;
+    this.sentences = data.sentences;
+    this.marks = data.marks;
     this.balanced = data.scaling === "balanced";
     this.names = this.features.flatMap(namesOf);
     this.count = this.names.length;
     this.steps = new Uint16Array(bytes);
     this.rows = this.steps.length / this.count;
-    this.features.forEach((feature, index) => this.#belong(feature, index));
+    this.#featureOf = Int32Array.from(this.features.flatMap(({ dimensions, bins }, index) => Array(dimensions * bins).fill(index)));
   }
 
-  #featureOf = [];
-  #dimensionOf = [];
-  #edges = 0;
-
-  #belong(feature, index) {
-    for (let place = 0; place < feature.dimensions * feature.bins; place += 1) {
-      this.#featureOf.push(index);
-      this.#dimensionOf.push(this.#edges + Math.floor(place / feature.bins));
-    }
-    this.#edges += feature.dimensions;
-  }
+  #featureOf;
 
   /** The index of the feature that a column belongs to. */
   featureOf(column) {
@@ -99,14 +92,17 @@ export class Bins {
 
   /** What a bin means, in plain words. */
   sentence(column) {
-    const { title, quantity, unit, bins } = this.features[this.#featureOf[column]];
-    const edges = this.edges[this.#dimensionOf[column]];
-    if (!edges) return `A value of the feature ${title}, as its file holds it.`;
-    const bin = this.binOf(column);
-    const [low, high] = [edges[bin], edges[bin + 1]].map(edge);
-    // The outer bins also take what lies beyond the edges.
-    const range = bin === 0 ? `below ${high}` : bin === bins - 1 ? `${low} or more` : `${low} to ${high}`;
-    return `How much of the surface has ${quantity} ${range}${unit ? ` ${unit}` : ""}.`;
+    return this.sentences[column];
+  }
+
+  /** The colour of a column's feature in the theme in use. */
+  color(column) {
+    return this.colorOf(this.#featureOf[column]);
+  }
+
+  /** The colour of a feature in the theme in use. */
+  colorOf(feature) {
+    return this.marks[currentTheme()].features[this.features[feature].hue];
   }
 }
 
@@ -116,9 +112,4 @@ function namesOf({ name, dimensions, bins }) {
     const dimension = dimensions === 1 ? "" : `[${Math.floor(place / bins)}]`;
     return bins === 1 ? `${name}${dimension}` : `${name}${dimension}:${(place % bins) + 1}`;
   });
-}
-
-/** An edge with three digits that count. */
-function edge(value) {
-  return String(Number(value.toPrecision(3))).replace("-", "−");
 }
