@@ -6,7 +6,7 @@ order of its imports. Only the plain forms that these modules use are accepted; 
 names the file and the line, instead of a script that fails in a reader's browser::
 
     import { name, other } from "./module.js";
-    export function name() {}          export async function name() {}
+    export function name() {}          export async function name() {}          export function* name() {}
     export const name = ...;           export class Name {}
 """
 
@@ -17,7 +17,7 @@ from pathlib import Path
 
 _IMPORT = re.compile(r'import \{ ?(?P<names>[\w$, ]+?),? ?\} from "(?P<source>\.{1,2}/[\w./-]+\.js)";')
 _EXPORT = re.compile(
-    r"export (?P<declaration>(?:async function|function|const|class) (?P<name>[A-Za-z_$][\w$]*))"
+    r"export (?P<declaration>(?:async function|function\*?|const|class) (?P<name>[A-Za-z_$][\w$]*))"
 )
 _ELSEWHERE = re.compile(r"^\s+(?:import|export)\b|\bimport\s*[(.]")
 

@@ -2,8 +2,10 @@
 
 import { applyStoredTheme } from "./theme.js";
 import { openReception } from "./chunks.js";
-import { trustOnlyOurselves } from "./trusted.js";
+import { startWorker, trustOnlyOurselves } from "./trusted.js";
 
 trustOnlyOurselves();
 applyStoredTheme();
 openReception();
+// Only the script in the head may make a worker; pages ask it to.
+window.shapeviz.startWorker = startWorker;

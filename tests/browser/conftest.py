@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from engine_page import EnginePage
 from playwright.sync_api import Browser, Page, sync_playwright
 from reports import NASTY_LABELS, make_report, with_search
 
@@ -47,6 +48,16 @@ class Watch:
 
     requests: list[str] = field(default_factory=list)
     complaints: list[str] = field(default_factory=list)
+
+
+def watched(page: Page) -> Page:
+    """Give a page its ``watch``."""
+    page.watch = Watch()
+    page.on("request", lambda request: page.watch.requests.append(request.url))
+    page.on("console", lambda message: page.watch.complaints.append(message.text))
+    page.on("pageerror", lambda error: page.watch.complaints.append(str(error)))
+    page.on("dialog", lambda dialog: page.watch.complaints.append(f"dialog: {dialog.message}"))
+    return page
 
 
 @pytest.fixture(scope="session")
@@ -87,13 +98,8 @@ def open_page(browser, site) -> Iterator[Callable[..., Page]]:
             **({"viewport": {"width": 1440, "height": 900}, "reduced_motion": "reduce"} | options)
         )
         contexts.append(context)
-        page = context.new_page()
-        page.watch = Watch()
+        page = watched(context.new_page())
         watches.append(page.watch)
-        page.on("request", lambda request: page.watch.requests.append(request.url))
-        page.on("console", lambda message: page.watch.complaints.append(message.text))
-        page.on("pageerror", lambda error: page.watch.complaints.append(str(error)))
-        page.on("dialog", lambda dialog: page.watch.complaints.append(f"dialog: {dialog.message}"))
         page.goto(address or f"{site(name).as_uri()}/{file}")
         if file.startswith(("index.html", "features.html")):
             page.wait_for_selector("html[data-ready]", state="attached")
@@ -103,6 +109,19 @@ def open_page(browser, site) -> Iterator[Callable[..., Page]]:
     for context in contexts:
         context.close()
     assert [watch.complaints for watch in watches if watch.complaints] == []
+
+
+@pytest.fixture(scope="module")
+def engine_page(browser, site) -> Iterator[EnginePage]:
+    """A page from ``file://`` with the engine of ``site/scripts/engine``, one for all tests of a module.
+
+    Every test starts the engine on values of its own. A complaint nobody expects fails the module.
+    """
+    page = watched(browser.new_page())
+    page.goto(f"{site('one shape').as_uri()}/about.html")
+    yield EnginePage(page)
+    page.close()
+    assert page.watch.complaints == []
 
 
 @pytest.fixture

@@ -43,9 +43,9 @@ def test_names_of_modules_do_not_meet(modules):
 @pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
 def test_joined_script_computes_what_the_modules_say(modules, tmp_path):
     entry = modules(
-        main='import { Sum, start } from "./a.js";\nconsole.log(new Sum(start).plus(2));',
+        main='import { Sum, count, start } from "./a.js";\nconsole.log(new Sum(start).plus(...count()));',
         a="export const start = 40;\nexport class Sum {\n  constructor(n) { this.n = n; }\n"
-        "  plus(m) { return this.n + m; }\n}",
+        "  plus(m) { return this.n + m; }\n}\nexport function* count() {\n  yield 2;\n}",
     )
     (tmp_path / "joined.js").write_text(join(entry), encoding="utf-8")
     result = subprocess.run(["node", tmp_path / "joined.js"], capture_output=True, text=True, check=True)

@@ -1,0 +1,6 @@
+// The engine: scores bins and lays out shapes in a worker, so that the page stays free.
+
+import { serve } from "./loop.js";
+import { measureHit } from "./hit.js";
+
+serve({ hit: measureHit });
