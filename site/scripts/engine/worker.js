@@ -2,5 +2,6 @@
 
 import { serve } from "./loop.js";
 import { measureHit } from "./hit.js";
+import { score } from "./scoring.js";
 
-serve({ hit: measureHit });
+serve({ hit: measureHit, score });
