@@ -151,22 +151,34 @@ def load_external(path: Path, shape_count: int) -> FloatArray:
     return values
 
 
-def scale(table: FeatureTable, preset: Preset) -> FloatArray:
-    """The values that projections compare, by Euclidean distance; (n, w).
+def compared_values(table: FeatureTable, preset: Preset) -> FloatArray:
+    """The values of a table before any weight; (n, w).
 
-    Balanced: square roots of the fractions, whose distance is the Hellinger distance of the histograms, each
-    feature then centred and divided by its root mean square norm over the database, so that every feature
-    contributes equally to the mean squared distance. A feature that is the same for all shapes becomes zero.
-    External features are taken as they are instead of their square roots.
+    Balanced: square roots of the fractions, whose Euclidean distance is the Hellinger distance of the histograms;
+    external features as they are. Otherwise the plain values.
     """
     if not preset.balanced:
         return table.values
-    scaled = np.empty_like(table.values)
+    is_fraction = np.repeat(
+        [block.bins > 1 for block in table.blocks], [block.width for block in table.blocks]
+    )
+    return np.sqrt(table.values, where=is_fraction, out=table.values.copy())
+
+
+def scale(table: FeatureTable, preset: Preset) -> FloatArray:
+    """The values that projections compare, by Euclidean distance; (n, w).
+
+    Balanced: every feature of :func:`compared_values` is centred and divided by its root mean square norm over the
+    database, so that every feature contributes equally to the mean squared distance. A feature that is the same for
+    all shapes becomes zero.
+    """
+    compared = compared_values(table, preset)
+    if not preset.balanced:
+        return compared
+    scaled = np.empty_like(compared)
     for block in table.blocks:
         columns = table.slice_of(block.name)
-        values = table.values[:, columns]
-        if block.bins > 1:
-            values = np.sqrt(values)
+        values = compared[:, columns]
         centred = values - values.mean(axis=0)
         size = np.sqrt((centred**2).sum(axis=1).mean())
         scaled[:, columns] = centred / size if size > 1e-12 else 0.0

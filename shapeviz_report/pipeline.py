@@ -229,6 +229,7 @@ def build_report(
         labeling=labeling,
         labels=labels,
         features=features,
+        edges=edges,
         projections=maps,
         failures=tuple(failures),
         parameters=config.as_parameters(),

@@ -173,12 +173,15 @@ class Projection:
     seed : int
     xy : (n, 2) float64 array
         One point a shape, in the order of the feature table. Centred, and scaled by one factor into [-1, 1]^2.
+    bins : tuple of str or None
+        The bins it was made from; None for all bins of its features.
     """
 
     method: str
     features: tuple[str, ...]
     seed: int
     xy: FloatArray
+    bins: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -438,6 +441,26 @@ class FeatureSearch:
 
 
 @dataclass(frozen=True)
+class BinScores:
+    """How well every bin separates every class from the rest (paper, 4.3).
+
+    Attributes
+    ----------
+    methods : tuple of str
+        Names of the scorers.
+    classes : tuple of str
+        Sorted by name.
+    values : (methods, classes, columns) float32 array
+        Relative scores in [0, 1]: the best bin of a method and class has 1, and all have 0 where none tells the
+        class from the rest. Columns as in the feature table.
+    """
+
+    methods: tuple[str, ...]
+    classes: tuple[str, ...]
+    values: npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
 class ShapeFacts:
     """What was measured of one prepared shape.
 
@@ -486,6 +509,9 @@ class Report:
         The active class of each shape.
     thumbnails : tuple of bytes
         One square WebP image with transparent background a shape.
+    edges : (d, 11) float64 array
+        The bin edges of every dimension of the features that are histograms, in the order of the table; external
+        features have none.
     projections : mapping of str to (Projection, Quality)
         By method, in the order in which a reader should meet them.
     parameters : mapping of str to JSON value
@@ -496,6 +522,8 @@ class Report:
         Per stage, in order: wall-clock, and CPU of all processes.
     search : FeatureSearch or None
         None if it was left out.
+    scores : BinScores or None
+        None where fewer than two classes have a shape.
     """
 
     database: Database
@@ -505,6 +533,7 @@ class Report:
     labeling: str | None
     labels: tuple[str | None, ...]
     features: FeatureTable
+    edges: FloatArray
     projections: Mapping[str, tuple[Projection, Quality]]
     failures: tuple[Failure, ...]
     parameters: Mapping[str, object]
@@ -512,3 +541,4 @@ class Report:
     seconds: Mapping[str, float]
     cpu_seconds: Mapping[str, float]
     search: FeatureSearch | None = None
+    scores: BinScores | None = None

@@ -80,6 +80,8 @@ def make_report(
     for number, block in enumerate(blocks):
         columns = table.slice_of(block.name)
         table.values[:, columns] += 0.12 * number * np.repeat(kinds[:, columns], per_class, axis=0)
+    shares = np.maximum(table.values, 0).reshape(count, -1, 10)
+    table.values[:] = (shares / shares.sum(axis=2, keepdims=True)).reshape(count, -1)
     projections = {}
     for method in methods:
         centres = random.uniform(-1, 1, (len(classes), 2))
@@ -96,6 +98,7 @@ def make_report(
         labeling="folder" if labelled else None,
         labels=tuple(labels),
         features=table,
+        edges=np.tile(np.linspace(0, 1, 11), (sum(block.dimensions for block in blocks), 1)),
         projections=projections,
         failures=tuple(failures),
         parameters={"seed": seed, "edge_length": 0.01, "preset": "default"},

@@ -37,11 +37,33 @@ def compute(surface: Surface) -> np.ndarray:
     return (groups / groups.sum(axis=2, keepdims=True)).reshape(-1, 33)
 
 
+def _word_bin(dimension: int) -> str:
+    """The neighbours that a dimension counts."""
+    angle, place = divmod(dimension, 11)
+    if angle == 2:
+        low, high = (
+            f"{abs(360 * (place + side) / 11 - 180):.0f}" for side in ((0, 1) if place > 5 else (1, 0))
+        )
+        way = "outwards" if place > 5 else "inwards"
+        turn = f"by less than {high}°" if place == 5 else f"{way} by {low} to {high}°"
+        return f"the share of neighbouring points whose normal turns {turn}"
+    low, high = (f"{2 * (place + side) / 11 - 1:.2f}".replace("-", "−") for side in (0, 1))
+    if angle == 1:
+        return (
+            "the share of neighbouring points that lie above the tangent plane at an angle with a sine of "
+            f"{low} to {high}"
+        )
+    return f"the share of neighbouring points whose normal leans to the right with a sine of {low} to {high}"
+
+
 FAST_POINT_FEATURE_HISTOGRAM = Descriptor(
     name="FPFH",
     title="Fast point feature histogram",
     measures="How the surface curves around a point, from how its direction differs from that of its neighbours.",
-    dimensions=33,
+    quantities=tuple(_word_bin(dimension) for dimension in range(33)),
+    unit="%",
+    low="places with few such neighbours",
+    high="places with many such neighbours",
     edges=tuple(float(x) for x in np.linspace(0.0, 1.0, 11) ** 2),
     compute=compute,
 )

@@ -32,11 +32,35 @@ def compute(surface: Surface) -> np.ndarray:
     return count_pfh(surface.vertices, surface.normals, surface.neighbours)
 
 
+LEANS = ("steeply to the left", "to the left", "not sideways", "to the right", "steeply to the right")
+HEIGHTS = ("far below", "below", "level with", "above", "far above")
+TURNS = (
+    "folds inwards by more than 108°",
+    "bends inwards by 36 to 108°",
+    "turns by less than 36°",
+    "bends outwards by 36 to 108°",
+    "folds outwards by more than 108°",
+)
+"""What the fifths of alpha, phi and theta say of the second point of a pair, as seen from the first."""
+
+
+def _word_cell(dimension: int) -> str:
+    """The pairs that a dimension counts."""
+    alpha, phi, theta = dimension // 25, dimension // 5 % 5, dimension % 5
+    return (
+        f"the share of point pairs in a patch of which one lies {HEIGHTS[phi]} the other's tangent plane, while the "
+        f"normal {TURNS[theta]} on the way and leans {LEANS[alpha]}"
+    )
+
+
 POINT_FEATURE_HISTOGRAM = Descriptor(
     name="PFH",
     title="Point feature histogram",
     measures="How the surface curves in a small patch, from how the directions of every two points in it differ.",
-    dimensions=125,
+    quantities=tuple(_word_cell(dimension) for dimension in range(125)),
+    unit="%",
+    low="patches with few such pairs",
+    high="patches with many such pairs",
     edges=tuple(float(x) for x in np.linspace(0.0, 0.8, 11) ** 2),
     compute=compute,
 )

@@ -8,8 +8,9 @@ from shapeviz_report.pages.about import AboutPage
 from shapeviz_report.pages.base import Page, PageContent
 from shapeviz_report.pages.features import FeaturesPage
 from shapeviz_report.pages.overview import OverviewPage
+from shapeviz_report.pages.workbench import WorkbenchPage
 
 #: In the order of the navigation.
-PAGES: tuple[Page, ...] = (OverviewPage(), FeaturesPage(), AboutPage())
+PAGES: tuple[Page, ...] = (OverviewPage(), FeaturesPage(), WorkbenchPage(), AboutPage())
 
 __all__ = ["PAGES", "Page", "PageContent"]

@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from shapeviz_report import charts
 from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.types import FloatArray, Report
 
@@ -23,8 +24,9 @@ class PageContent:
     ----------
     context : mapping of str to object
         What the page's template may use, beside what the site gives every template.
-    chunks : mapping of str to JSON value
-        Data that the page's scripts load, by name. Two pages may share a chunk when they agree on its content.
+    chunks : mapping of str to JSON value or bytes
+        Data that the page's scripts load, by name; bytes become an ``ArrayBuffer``. Two pages may share a chunk when
+        they agree on its content.
     """
 
     context: Mapping[str, object]
@@ -56,6 +58,11 @@ class Page(Protocol):
 def class_names(report: Report) -> tuple[str, ...]:
     """The classes of the active labeling that have a shape, sorted."""
     return tuple(sorted({label for label in report.labels if label is not None}))
+
+
+def feature_marks() -> dict[str, object]:
+    """The colours of features and of bars for each theme."""
+    return {theme.name: {"features": list(theme.features), "bar": theme.bar} for theme in charts.THEMES}
 
 
 def rounded(values: FloatArray, decimals: int) -> list[float | None]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapeviz_report import charts, quality
-from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
+from shapeviz_report.pages.base import METHODS, PageContent, class_names, feature_marks, rounded
 from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, Report, SeedSpread
 
 #: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
@@ -124,9 +124,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[str
             "effects": charts.effect_dots().to_dict(),
             "seeds": charts.seed_dots().to_dict(),
         },
-        "marks": {
-            theme.name: {"features": list(theme.features), "bar": theme.bar} for theme in charts.THEMES
-        },
+        "marks": feature_marks(),
     }
 
 

@@ -42,7 +42,15 @@ CONTENT_SECURITY_POLICY = "; ".join(
 )
 
 #: The style sheets that make up the site's one, in their order.
-STYLES = ("tokens.css", "page.css", "overview.css", "features.css", "about.css")
+STYLES = (
+    "tokens.css",
+    "page.css",
+    "overview.css",
+    "features.css",
+    "workbench.css",
+    "bin-chart.css",
+    "about.css",
+)
 
 
 def check_destination(destination: Path) -> None:
@@ -103,6 +111,7 @@ def _files(report: Report) -> dict[str, bytes]:
     assets = {
         **_scripts_and_styles([page for page, _ in contents]),
         **{f"chunk-{name}.js": _chunk(name, value) for name, value in _chunks(contents).items()},
+        "chunk-engine.js": _chunk("engine", join(site_folder() / "scripts" / "engine" / "worker.js")),
     }
     environment = _environment(assets)
     pages = {
@@ -180,9 +189,10 @@ def _chunks(contents: list[tuple[Page, PageContent]]) -> dict[str, object]:
 
 
 def _chunk(name: str, value: object) -> bytes:
-    """A script that hands compressed JSON to the page: the one way to load data from ``file://``."""
-    packed = base64.b64encode(gzip.compress(json_text(value).encode(), compresslevel=9, mtime=0)).decode()
-    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(packed)});\n".encode()
+    """A script that hands compressed JSON or bytes to the page: the one way to load data from ``file://``."""
+    kind, content = ("bytes", value) if isinstance(value, bytes) else ("json", json_text(value).encode())
+    packed = base64.b64encode(gzip.compress(content, compresslevel=9, mtime=0)).decode()
+    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {json.dumps(packed)});\n".encode()
 
 
 def _is_site(folder: Path) -> bool:

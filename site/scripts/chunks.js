@@ -1,17 +1,17 @@
-// Data of a page: gzipped JSON in scripts that hand it over, because pages from file:// may not fetch.
+// Data of a page: gzipped JSON or bytes in scripts that hand it over, because pages from file:// may not fetch.
 
 /** Called in the head: chunks may arrive before the scripts that want them. */
 export function openReception() {
   const packed = new Map();
   window.shapeviz = {
     packed,
-    receive: (name, text) => packed.set(name, text),
+    receive: (name, kind, text) => packed.set(name, { kind, text }),
   };
 }
 
 const loaded = new Map();
 
-/** The content of a chunk, loaded when first asked for. */
+/** The content of a chunk, loaded when first asked for: an ArrayBuffer where it holds bytes. */
 export function chunk(name) {
   if (!loaded.has(name)) loaded.set(name, load(name));
   return loaded.get(name);
@@ -20,10 +20,12 @@ export function chunk(name) {
 async function load(name) {
   const { packed } = window.shapeviz;
   if (!packed.has(name)) await addScript(JSON.parse(document.body.dataset.chunks)[name]);
-  const bytes = Uint8Array.from(atob(packed.get(name)), (letter) => letter.charCodeAt(0));
+  const { kind, text } = packed.get(name);
   packed.delete(name);
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).json();
+  const response = new Response(stream);
+  return kind === "bytes" ? response.arrayBuffer() : response.json();
 }
 
 function addScript(address) {

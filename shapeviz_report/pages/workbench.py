@@ -1,0 +1,172 @@
+"""The Workbench: six linked views to find the bins that separate classes (paper, 4.3 and Fig. 5)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shapeviz_report import charts, quality
+from shapeviz_report.bins import explain_bins
+from shapeviz_report.descriptors import DESCRIPTORS
+from shapeviz_report.features import PRESETS, Preset, compared_values
+from shapeviz_report.pages.base import PageContent, class_names, feature_marks
+from shapeviz_report.scorers import SCORERS
+from shapeviz_report.types import FeatureBlock, FloatArray, Report
+
+#: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
+STEPS = 65535
+
+#: Significant digits of a bin's edge.
+EDGE_DIGITS = 4
+
+_DESCRIPTORS = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
+
+
+class WorkbenchPage:
+    """Classes and features, the original map, the scores of all bins, and the map of the chosen bins."""
+
+    name = "workbench"
+    title = "Workbench"
+    file = "workbench.html"
+
+    def content(self, report: Report) -> PageContent:
+        classes = class_names(report)
+        preset = PRESETS[str(report.parameters["preset"])]
+        compared = compared_values(report.features, preset)
+        chunks: dict[str, object] = {
+            "workbench": _workbench(report, preset, compared, classes),
+            "bins": _bins(report, compared),
+        }
+        if report.scores is not None:
+            chunks["scores"] = _steps(report.scores.values, 0.0, 1.0)
+        return PageContent(
+            context={
+                "classes": len(classes),
+                "bins": len(report.features.columns),
+                "scored": report.scores is not None,
+            },
+            chunks=chunks,
+        )
+
+
+def _workbench(
+    report: Report, preset: Preset, compared: FloatArray, classes: tuple[str, ...]
+) -> dict[str, object]:
+    """All but the values: what the columns are, and what the page starts from."""
+    projection, hits = next(iter(report.projections.values()))
+    return {
+        "features": _features(report, compared),
+        "dimensions": _edges(report),
+        "sentences": list(explain_bins(report.features, report.edges, by_area=preset.by_area)),
+        "scaling": "balanced" if preset.balanced else "plain",
+        "neighbours": hits.k,
+        "seed": projection.seed,
+        "method": projection.method,
+        "scorers": _scorers(),
+        "scored": report.scores is not None,
+        "example": _example(report, classes),
+        "marks": feature_marks(),
+    }
+
+
+def _features(report: Report, compared: FloatArray) -> list[dict[str, object]]:
+    """Every feature: its columns, its words, and between which values the chunk of bins is cut into steps."""
+    hues = charts.feature_color_indices(len(report.features.blocks))
+    features = []
+    for block, hue in zip(report.features.blocks, hues, strict=True):
+        columns = report.features.slice_of(block.name)
+        low, high = _span(compared[:, columns])
+        features.append(
+            {
+                "name": block.name,
+                "start": columns.start,
+                "dimensions": block.dimensions,
+                "bins": block.bins,
+                "hue": hue,
+                "low": low,
+                "high": high,
+                **_words(block),
+            }
+        )
+    return features
+
+
+def _words(block: FeatureBlock) -> dict[str, str]:
+    """What a feature is: from its descriptor, or plain for one that was brought along."""
+    descriptor = _DESCRIPTORS.get(block.name)
+    if descriptor is None:
+        return {
+            "title": block.name,
+            "measures": "A feature that was brought along.",
+            "unit": "",
+            "lowMeans": "",
+            "highMeans": "",
+        }
+    return {
+        "title": descriptor.title,
+        "measures": descriptor.measures,
+        "unit": descriptor.unit,
+        "lowMeans": descriptor.low,
+        "highMeans": descriptor.high,
+    }
+
+
+def _span(values: FloatArray) -> tuple[float, float]:
+    return float(values.min()), float(values.max())
+
+
+def _edges(report: Report) -> list[list[float] | None]:
+    """The bin edges of every dimension; None for those of external features."""
+    edges = iter(report.edges)
+    return [
+        None if block.bins == 1 else [float(f"{edge:.{EDGE_DIGITS}g}") for edge in next(edges)]
+        for block in report.features.blocks
+        for _ in range(block.dimensions)
+    ]
+
+
+def _bins(report: Report, compared: FloatArray) -> bytes:
+    """The compared values, column after column, each a number of steps between the ends of its feature."""
+    parts = []
+    for block in report.features.blocks:
+        values = compared[:, report.features.slice_of(block.name)]
+        parts.append(_steps(values.T, *_span(values)))
+    return b"".join(parts)
+
+
+def _steps(values: np.ndarray, low: float, high: float) -> bytes:
+    """Values as 16-bit numbers of steps from ``low`` to ``high``, in the order of the array."""
+    width = high - low if high > low else 1.0
+    return np.round((values - low) / width * STEPS).astype("<u2").tobytes()
+
+
+def _scorers() -> list[dict[str, object]]:
+    return [
+        {
+            "key": scorer.name,
+            "title": scorer.title,
+            "explanation": scorer.explanation,
+            "source": scorer.source,
+            "exact": scorer.exact,
+        }
+        for scorer in SCORERS
+    ]
+
+
+def _example(report: Report, classes: tuple[str, ...]) -> dict[str, object] | None:
+    """The two classes most mixed on the original map: whose shapes have the most neighbours of the other class.
+
+    ``mixed`` is the mean of two shares: of the neighbours of the one class that belong to the other, and the other
+    way round. None where no two classes are neighbours.
+    """
+    projection, hits = next(iter(report.projections.values()))
+    if len(classes) < 2 or hits.k < 1:
+        return None
+    member = np.array([[label == name for label in report.labels] for name in classes], dtype=float)
+    shares = (
+        member @ quality.neighbour_weights(projection.xy, hits.k) @ member.T / member.sum(axis=1)[:, None]
+    )
+    mixed = np.triu((shares + shares.T) / 2, k=1)
+    first, second = divmod(int(mixed.argmax()), len(classes))
+    if mixed[first, second] == 0:
+        return None
+    return {"classes": [first, second], "mixed": round(float(mixed[first, second]), 6)}

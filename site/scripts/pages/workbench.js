@@ -1,0 +1,6 @@
+// The Workbench.
+
+import { watchTheme } from "../theme.js";
+
+watchTheme(() => {});
+document.documentElement.dataset.ready = "";
