@@ -89,7 +89,9 @@ def test_text_from_the_database_is_never_markup(tmp_path):
     report = make_report(
         NASTY_LABELS, 2, name=nasty, failures=[Failure(nasty, nasty, nasty)], metadata={nasty: nasty}
     )
-    report = dataclasses.replace(report, parameters={**report.parameters, nasty: nasty}, versions={nasty: nasty})
+    report = dataclasses.replace(
+        report, parameters={**report.parameters, nasty: nasty}, versions={nasty: nasty}
+    )
     write_site(report, tmp_path)
     for page in ("index.html", "about.html"):
         text = (tmp_path / page).read_text(encoding="utf-8")
