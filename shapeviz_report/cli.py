@@ -39,6 +39,7 @@ STAGES = {
     "render": "Drawing thumbnails",
     "project": "Projecting",
     "search": "Searching features",
+    "bins": "Scoring bins",
     "score": "Scoring",
     "write": "Writing the site",
 }
@@ -100,7 +101,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     _add_destination(demo)
-    _add_options(demo, ["preset", "search", "seed", "jobs", "scheduler", "cache"])
+    _add_options(demo, ["preset", "bins", "search", "seed", "jobs", "scheduler", "cache"])
     demo.set_defaults(command=_demo)
 
     check = commands.add_parser(
@@ -113,7 +114,7 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument(
         "--list", action="store_true", help="print the id of every shape, in order, and no more"
     )
-    _add_options(check, ["layout", "labeling", "external", "time_limit", "jobs", "cache"])
+    _add_options(check, ["layout", "labeling", "external", "bins", "time_limit", "jobs", "cache"])
     check.set_defaults(command=_check)
     return parser
 

@@ -50,6 +50,11 @@ class Config:
         "further features from FILE.npy, one row a shape in the order of `check --list`; may be repeated",
         "FILE",
     )
+    bins: Path | None = _option(
+        None,
+        "make the maps from the bins that FILE names and no others: one name a line, or what the Workbench saves",
+        "FILE",
+    )
     neighbours: int = _option(10, "k of the neighbourhood hit", "K")
     search: str = _option(
         "tsne",
@@ -108,7 +113,10 @@ class Config:
         """The options that shape the result, as JSON values; not where and how fast it was computed."""
         left_out = {"title", "jobs", "scheduler", "cache", "time_limit"}
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
-        return values | {"external": [path.name for path in self.external]}
+        return values | {
+            "external": [path.name for path in self.external],
+            "bins": None if self.bins is None else self.bins.name,
+        }
 
 
 def load_config(database: Path | None, options: Mapping[str, Any]) -> Config:

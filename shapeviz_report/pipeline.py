@@ -1,4 +1,4 @@
-"""The stages of a build, in order: read, prepare, describe, render, project, search, score, write."""
+"""The stages of a build, in order: read, prepare, describe, render, project, search, bins, score, write."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from shapeviz_report import demo, stages
+from shapeviz_report.bins import features_of, read_bins, scale_bins
 from shapeviz_report.cache import Cache, default_root, write_atomically
 from shapeviz_report.config import SEARCHES, Config
 from shapeviz_report.database import read_database
@@ -24,6 +25,7 @@ from shapeviz_report.executor import Executor, LocalExecutor
 from shapeviz_report.features import (
     BLOCKS,
     PRESETS,
+    compared_values,
     fixed_edges,
     load_external,
     quantile_edges,
@@ -33,9 +35,11 @@ from shapeviz_report.mesh import collect_files, content_hash
 from shapeviz_report.projections import PROJECTIONS, align
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
+from shapeviz_report.scorers import SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, make_space, planned_runs, search_features
 from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import (
+    BinScores,
     Database,
     Failure,
     FeatureBlock,
@@ -158,6 +162,8 @@ def build_report(
             database_path, layout=config.layout, labeling=config.labeling, name=config.title
         )
         external = _load_external(config.external, len(database.shapes))
+        blocks = (*BLOCKS, *(block for block, _ in external))
+        bins = None if config.bins is None else read_bins(config.bins, blocks)
     cache = Cache((config.cache or default_root()).absolute())
     failures = list(database.failures)
     preset = PRESETS[config.preset]
@@ -205,7 +211,7 @@ def build_report(
         rows = [i for i, s in enumerate(database.shapes) if s.id in pictures]
         features = FeatureTable(
             tuple(s.id for s in shapes),
-            BLOCKS + tuple(block for block, _ in external),
+            blocks,
             np.column_stack(
                 [[described[s.id].value for s in shapes], *(values[rows] for _, values in external)]
             ),
@@ -214,8 +220,10 @@ def build_report(
         labeling = database.labelings[0] if database.labelings else None
         labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)
         space = make_space(features, scaled, labels, seed=config.seed)
-        projections = _project(run, space, features, scaled, config.seed)
+        mapped = scaled if bins is None else scale_bins(features, preset, bins)
+        projections = _project(run, space, features, bins, mapped, config.seed)
         search = _search(run, space, labels, config)
+        scores = _score_bins(run, compared_values(features, preset), labels, config.seed)
     with clock.stage("score"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
@@ -238,6 +246,7 @@ def build_report(
         seconds=clock.seconds,
         cpu_seconds=clock.cpu_seconds,
         search=search,
+        scores=scores,
     )
     with clock.stage("write"):
         write_site(report, destination)
@@ -271,7 +280,9 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         database = read_database(
             database_path, layout=config.layout, labeling=config.labeling, name=config.title
         )
-        _load_external(config.external, len(database.shapes))
+        external = _load_external(config.external, len(database.shapes))
+        if config.bins is not None:
+            read_bins(config.bins, (*BLOCKS, *(block for block, _ in external)))
     failures = list(database.failures)
     cache = Cache((config.cache or default_root()).absolute())
     with LocalExecutor(config.worker_count, config.time_limit) as executor:
@@ -437,14 +448,20 @@ def _identity(path: Path, files: Mapping[str, bytes]) -> str:
 
 
 def _project(
-    run: _Runner, space: SearchSpace, features: FeatureTable, values: FloatArray, seed: int
+    run: _Runner,
+    space: SearchSpace,
+    features: FeatureTable,
+    bins: tuple[str, ...] | None,
+    values: FloatArray,
+    seed: int,
 ) -> dict[str, Projection]:
-    """The map of every method, turned to agree with the first."""
-    names = tuple(block.name for block in features.blocks)
+    """The map of every method from the scaled values of all columns or of some bins, turned to agree with the first."""
+    names = features_of(features, features.columns if bins is None else bins)
     found: dict[str, FloatArray] = {}
     # Where the search takes all shapes, its map of all features is the map: t-SNE and UMAP make another one of sums
     # that differ in their last digits.
-    shared = {m.name for m in PROJECTIONS if m.name in SEARCHES and len(space.rows) == len(values)}
+    whole = bins is None and len(space.rows) == len(values)
+    shared = {m.name for m in PROJECTIONS if m.name in SEARCHES and whole}
     everything = (space.everything,)
     with run.clock.stage("project", len(PROJECTIONS)) as step:
 
@@ -470,7 +487,7 @@ def _project(
         methods = [method.name for method in PROJECTIONS]
         run.find(stages.PROJECT, [m for m in methods if m not in shared], plan, take, drop)
         run.find(stages.SEARCH, [m for m in methods if m in shared], plan_shared, take, drop)
-    maps = {method: Projection(method, names, seed, found[method]) for method in methods}
+    maps = {method: Projection(method, names, seed, found[method], bins) for method in methods}
     return {method: align(maps[method], maps[methods[0]]) for method in methods}
 
 
@@ -511,6 +528,37 @@ def _search(
         return search_features(
             space, labels, config.search, evaluate=evaluate, seed=config.seed, k=config.neighbours
         )
+
+
+def _score_bins(
+    run: _Runner, compared: FloatArray, labels: Sequence[str | None], seed: int
+) -> BinScores | None:
+    """How well every bin separates each class from the rest, by every scorer; a task a class."""
+    classes = sorted({label for label in labels if label is not None})
+    if len(classes) < 2:
+        return None
+    content = sha256(compared.tobytes()).hexdigest()
+    found: dict[str, FloatArray] = {}
+    with run.clock.stage("bins", len(classes)) as step:
+
+        def plan(name: str) -> _Task:
+            members = [row for row, label in enumerate(labels) if label == name]
+            others = [row for row, label in enumerate(labels) if label not in (name, None)]
+            key = stages.SCORE.key(compared.shape, content, members, others, seed)
+            return _Task(key, lambda: (compared, members, others, seed))
+
+        def take(name: str, _: str, scores: bytes, cpu_seconds: float) -> None:
+            found[name] = stages.read_array(scores)
+            step(cpu_seconds)
+
+        def drop(name: str, reason: str, _: float) -> None:
+            raise DatabaseError(
+                f"Scoring the bins for the class {name!r} failed: {reason}. A larger time_limit may help."
+            )
+
+        run.find(stages.SCORE, classes, plan, take, drop)
+    values = np.stack([found[name] for name in classes], axis=1)
+    return BinScores(tuple(scorer.name for scorer in SCORERS), tuple(classes), values)
 
 
 def _load_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:

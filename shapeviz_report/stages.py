@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from shapeviz_report import demo
 from shapeviz_report.cache import code_version, make_key
@@ -22,6 +23,7 @@ from shapeviz_report.features import compute_histograms, sample_values
 from shapeviz_report.mesh import clean, prepare, read_mesh
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import UpAxis, render_thumbnail
+from shapeviz_report.scorers import SCORERS, Contest, score_separation
 from shapeviz_report.search import SubsetMaps, map_subsets
 from shapeviz_report.types import FloatArray, Mesh, ShapeFacts
 
@@ -82,7 +84,8 @@ def describe_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
 
 
 def read_array(content: bytes) -> FloatArray:
-    """The array in a result of :func:`sample_shape`, :func:`describe_shape` or :func:`project_features`."""
+    """The array in a result of :func:`sample_shape`, :func:`describe_shape`, :func:`project_features` or
+    :func:`score_bins`."""
     return np.load(io.BytesIO(content), allow_pickle=False)
 
 
@@ -113,6 +116,15 @@ def read_maps(content: bytes) -> SubsetMaps:
     """The maps in a result of :func:`map_features`."""
     with np.load(io.BytesIO(content), allow_pickle=False) as archive:
         return SubsetMaps(archive["xy"], archive["cpu_seconds"])
+
+
+def score_bins(values: FloatArray, members: Sequence[int], others: Sequence[int], seed: int) -> bytes:
+    """Relative scores of every column by every scorer, for some rows against others; an array (scorers, columns) of
+    float32 as a file."""
+    contests = [Contest(np.array(members), np.array(others))]
+    with threadpool_limits(limits=1):
+        scores = [score_separation(scorer, values, contests, seed=seed) for scorer in SCORERS]
+    return _pack_array(np.array(scores, dtype=np.float32))
 
 
 @dataclass(frozen=True)
@@ -158,12 +170,13 @@ RENDER = Stage(
 _PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
 PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
 SEARCH = Stage("searched", map_features, ("search", "projections"), _PROJECTORS)
+SCORE = Stage("scored", score_bins, ("scorers",), ("numba", "numpy", "scipy", "scikit-learn"))
 GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "scipy"))
 
 
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
-    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PROJECT, SEARCH, GENERATE)
+    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PROJECT, SEARCH, SCORE, GENERATE)
     libraries = {library for stage in stages for library in stage.libraries}
     return code_version(("shapeviz_report",), tuple(sorted(libraries)))
 

@@ -12,8 +12,11 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from shapeviz_report import quality
+from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import make_space, search_features
 from shapeviz_report.types import (
+    BinScores,
     Database,
     Failure,
     FeatureBlock,
@@ -112,6 +115,18 @@ def with_search(report: Report, *, limit: int = 1000) -> Report:
     """The report with a real search of two rounds over its features, of ``limit`` shapes at most."""
     space = make_space(report.features, report.features.values, report.labels, limit=limit)
     return replace(report, search=search_features(space, report.labels, "tsne", rounds=2))
+
+
+def with_scores(report: Report) -> Report:
+    """The report with the scores of its bins for every class against the rest, by all scorers."""
+    classes = tuple(sorted({label for label in report.labels if label is not None}))
+    compared = compared_values(report.features, PRESETS["default"])
+    scores = [
+        [score_separation(scorer, compared, as_one_group(report.labels, [name])) for name in classes]
+        for scorer in SCORERS
+    ]
+    names = tuple(scorer.name for scorer in SCORERS)
+    return replace(report, scores=BinScores(names, classes, np.array(scores, dtype=np.float32)))
 
 
 def _facts(index: int) -> ShapeFacts:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -163,7 +163,7 @@ def align(projection: Projection, reference: Projection) -> Projection:
     keeps their bearings.
     """
     turned = turn_towards(projection.xy, reference.xy)
-    return Projection(projection.method, projection.features, projection.seed, turned)
+    return replace(projection, xy=turned)
 
 
 def turn_towards(xy: FloatArray, reference: FloatArray) -> FloatArray:

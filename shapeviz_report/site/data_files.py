@@ -22,7 +22,7 @@ GENERATOR = "shapeviz-report"
 
 def data_files(report: Report, version: str) -> dict[str, bytes]:
     """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
-    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, by name.
+    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, and the scores of bins in ``scores.npz``, by name.
 
     Parameters
     ----------
@@ -33,7 +33,12 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
     files = {
         "summary.json": (json_text(summary(report, version), indent=1) + "\n").encode(),
         "shapes.csv": _csv(_shape_rows(report)),
-        "features.npz": _features(report),
+        "features.npz": _archive(
+            values=np.ascontiguousarray(report.features.values, dtype=np.float64),
+            columns=np.array(report.features.columns, dtype=np.str_),
+            shape_ids=np.array(report.features.shape_ids, dtype=np.str_),
+            edges=report.edges,
+        ),
     }
     for method, (projection, _) in report.projections.items():
         points = zip(report.shapes, projection.xy, strict=True)
@@ -44,6 +49,13 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
         if report.search.table:
             files["greedy.csv"] = _csv(_greedy_rows(report.search))
             files["table2.csv"] = _csv(_table_rows(report.search))
+    if report.scores is not None:
+        files["scores.npz"] = _archive(
+            scores=report.scores.values,
+            methods=np.array(report.scores.methods, dtype=np.str_),
+            classes=np.array(report.scores.classes, dtype=np.str_),
+            columns=np.array(report.features.columns, dtype=np.str_),
+        )
     return files
 
 
@@ -73,6 +85,7 @@ def summary(report: Report, version: str) -> dict[str, object]:
         "projections": {
             method: {
                 "features": list(projection.features),
+                "bins": None if projection.bins is None else list(projection.bins),
                 "seed": projection.seed,
                 "k": quality.k,
                 "nh_s": _finite(quality.nh_s),
@@ -181,14 +194,9 @@ def json_text(value: object, indent: int | None = None) -> str:
     return json.dumps(value, allow_nan=False, indent=indent, separators=separators)
 
 
-def _features(report: Report) -> bytes:
+def _archive(**arrays: np.ndarray) -> bytes:
     file = io.BytesIO()
-    np.savez_compressed(
-        file,
-        values=np.ascontiguousarray(report.features.values, dtype=np.float64),
-        columns=np.array(report.features.columns, dtype=np.str_),
-        shape_ids=np.array(report.features.shape_ids, dtype=np.str_),
-    )
+    np.savez_compressed(file, **arrays)
     return file.getvalue()
 
 
