@@ -19,7 +19,7 @@ from shapeviz_report.types import Mesh
 WEBP_QUALITY = 84
 WEBP_METHOD = 2  # 4 would save a fifth of the bytes for three times the time
 
-_SUPERSAMPLING = 2
+SUPERSAMPLING = 2
 # Weights over four rows, then over four columns: edges in finer steps than a box of two would give.
 _TENT = np.array([1 / 8, 3 / 8, 3 / 8, 1 / 8], np.float32)
 
@@ -49,7 +49,7 @@ def render_thumbnail(mesh: Mesh, *, size: int = 320, up: UpAxis | None = None) -
         If this machine cannot draw; see :func:`shapeviz_report.render.check_renderer`.
     """
     surface = split_at_creases(mesh)
-    camera = frame(surface.positions, choose_view(mesh, up), size * _SUPERSAMPLING)
+    camera = frame(surface.positions, choose_view(mesh, up), size * SUPERSAMPLING)
     camera_normals = surface.normals @ camera.rotation.T
     buffers = rasterise(surface.positions, surface.faces, (camera_normals + 1.0) / 2.0, camera)
     albedo = np.broadcast_to(np.array(CLAY, np.float32), buffers.values.shape)

@@ -1,0 +1,79 @@
+"""3D models: simpler, in the same place, and read back from their bytes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from solids import ball, lump, sheet, tube
+
+from shapeviz_report.models import POSITION_STEPS, pack_model, simplify
+from shapeviz_report.types import Mesh
+
+
+def unpack(content: bytes) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """View, vertices, faces and bins, as the page reads them."""
+    v, f, d = map(int, np.frombuffer(content, "<u4", 3))
+    parts, at = [], 12
+    for dtype, shape in (
+        ("<f4", (3, 3)),
+        ("<i2", (3, v)),
+        ("<i4", (f,)),
+        ("<i4", (2, f)),
+        ("u1", (d, (v + 1) // 2)),
+    ):
+        size = int(np.prod(shape))
+        parts.append(np.frombuffer(content, dtype, size, at).reshape(shape))
+        at += parts[-1].nbytes
+    assert at == len(content)
+    view, positions, first, others, nibbles = parts
+    first = np.cumsum(first)
+    bins = np.stack([nibbles & 15, nibbles >> 4], axis=2).reshape(d, -1)[:, :v]
+    return view, positions.T / POSITION_STEPS, np.column_stack([first, (others + first).T]), bins
+
+
+@pytest.mark.parametrize("mesh", [ball(5), tube(), lump()], ids=["ball", "tube", "lump"])
+def test_a_model_has_few_faces_and_the_same_surface(mesh: Mesh):
+    model = simplify(mesh, 800)
+    assert 700 <= len(model.faces) <= 800
+    before, after = (trimesh.Trimesh(m.vertices, m.faces, process=False) for m in (mesh, model))
+    assert after.area == pytest.approx(before.area, rel=0.02)
+    # Wound alike: the signed volume of a closed surface keeps its sign.
+    if before.is_watertight:
+        assert after.volume == pytest.approx(before.volume, rel=0.03)
+    gaps = np.linalg.norm(model.vertices - mesh.vertices[model.source], axis=1)
+    assert gaps.max() < 2 * before.edges_unique_length.max()
+
+
+def test_a_small_mesh_keeps_all_its_faces():
+    mesh = sheet(8)
+    model = simplify(mesh)
+    corners = {tuple(sorted(map(tuple, face))) for face in mesh.vertices[mesh.faces].round(3)}
+    assert {tuple(sorted(map(tuple, face))) for face in model.vertices[model.faces].round(3)} == corners
+    assert np.abs(model.vertices - mesh.vertices[model.source]).max() <= 0.5 / POSITION_STEPS + 1e-12
+
+
+def test_what_is_packed_is_read_back():
+    model = simplify(lump(), 501)
+    bins = np.random.default_rng(0).integers(0, 10, (7, len(model.vertices))).astype(np.uint8)
+    view, vertices, faces, read = unpack(pack_model(model, bins, np.eye(3)))
+    assert np.array_equal(view, np.eye(3))
+    assert np.allclose(vertices, model.vertices, atol=1e-12)
+    assert np.array_equal(faces, model.faces)
+    assert np.array_equal(read, bins)
+
+
+def test_separate_triangles_are_not_lost():
+    corners = np.random.default_rng(1).normal(size=(300, 3, 3)) * 0.01
+    corners += np.random.default_rng(2).uniform(-0.9, 0.9, (300, 1, 3))
+    mesh = Mesh(corners.reshape(-1, 3), np.arange(900, dtype=np.int32).reshape(-1, 3))
+    model = simplify(mesh, 50)
+    assert len(model.faces) > 0
+    assert np.isfinite(model.vertices).all()
+    assert model.faces.max() < len(model.vertices)
+
+
+def test_the_same_mesh_gives_the_same_bytes():
+    first, second = (simplify(ball(5), 900) for _ in range(2))
+    none = np.zeros((0, len(first.vertices)), np.uint8)
+    assert pack_model(first, none, np.eye(3)) == pack_model(second, none, np.eye(3))
