@@ -6,13 +6,13 @@ import { figure, shortened } from "./words.js";
 const MOST_CLASSES = 4;
 
 export class Card {
-  constructor(model, state) {
-    this.model = model;
+  constructor(state) {
     this.state = state;
     this.node = document.getElementById("card");
     state.listen((changed) => {
       if (changed.has("theme")) this.shown = null;
-      if (["pointed", "camera", "method", "theme"].some((name) => changed.has(name))) this.#show();
+      const camera = state.get("pointedFrom")?.scene.cameraName;
+      if (["pointed", camera, "method", "theme"].some((name) => changed.has(name))) this.#show();
     });
   }
 
@@ -21,16 +21,15 @@ export class Card {
     const view = this.state.get("pointedFrom");
     this.node.hidden = index === null || !view.scene.visible(index);
     if (this.node.hidden) return;
-    if (this.shown !== index || this.method !== this.state.get("method")) this.#fill(index);
+    const map = view.model.methods[view.scene.target];
+    if (this.shown !== index || this.map !== map) this.#fill(index, view.model, map);
     this.#place(index);
   }
 
-  #fill(index) {
-    const { model } = this;
-    const method = this.state.get("method");
-    [this.shown, this.method] = [index, method];
+  #fill(index, model, map) {
+    [this.shown, this.map] = [index, map];
     const group = model.groups[index];
-    const neighbours = model.count > 1 ? model.census(model.neighbours(index, method)) : [];
+    const neighbours = model.count > 1 ? model.census(model.neighbours(index, model.methods.indexOf(map))) : [];
     this.node.replaceChildren(
       picture(model, index, 112),
       element(
@@ -38,7 +37,7 @@ export class Card {
         {},
         element("p", { class: "name", dir: "auto" }, shortened(model.names[index], 48)),
         model.labelled && classLine(model, group),
-        model.methods[method].hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(model.methods[method].hit[index]))),
+        map.hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(map.hit[index]))),
         neighbours.length > 0 && model.labelled && element(
           "p",
           { class: "census" },

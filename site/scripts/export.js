@@ -1,4 +1,4 @@
-// The selection as a file.
+// The selection as a file, and what other exports share.
 
 export function saveCsv(model, chosen) {
   const header = ["id", "name", "class", ...model.methods.map(({ key }) => `nh:${key}`)];
@@ -8,7 +8,7 @@ export function saveCsv(model, chosen) {
     model.groups[index] < 0 ? "" : model.className(model.groups[index]),
     ...model.methods.map(({ hit }) => hit[index] ?? ""),
   ]);
-  save("selection.csv", "text/csv", `${[header, ...rows].map((row) => row.map(quoted).join(",")).join("\n")}\n`);
+  saveText("selection.csv", "text/csv", csvText([header, ...rows]));
 }
 
 export function saveJson(model, chosen) {
@@ -18,7 +18,12 @@ export function saveJson(model, chosen) {
     class: model.groups[index] < 0 ? null : model.className(model.groups[index]),
     nh: Object.fromEntries(model.methods.map(({ key, hit }) => [key, hit[index]])),
   }));
-  save("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
+  saveText("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
+}
+
+/** Rows as lines of comma-separated values. */
+export function csvText(rows) {
+  return `${rows.map((row) => row.map(quoted).join(",")).join("\n")}\n`;
 }
 
 function quoted(value) {
@@ -26,7 +31,8 @@ function quoted(value) {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-function save(name, type, text) {
+/** Hand a text to the reader as a file. */
+export function saveText(name, type, text) {
   const address = URL.createObjectURL(new Blob([text], { type }));
   const link = document.createElement("a");
   link.href = address;

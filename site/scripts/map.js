@@ -3,6 +3,7 @@
 import { Labels } from "./labels.js";
 import { drawChart } from "./chart.js";
 import { element, svg } from "./dom.js";
+import { Dots } from "./dots.js";
 import { CHOSEN, patient } from "./scene.js";
 
 
@@ -141,7 +142,10 @@ export class MapView {
     this.#drawRings();
     this.labels.follow((index) => this.screen(index));
     if (!this.vega) return;
-    if (patient(this.model)) {
+    if (this.scene.moving) {
+      this.dots ??= new Dots(this);
+      this.dots.draw();
+    } else if (patient(this.model)) {
       this.#stretch();
     } else {
       this.#send();
@@ -160,7 +164,7 @@ export class MapView {
 
   /** After the last of a series of changes: what would be too slow or too restless for every frame. */
   settle() {
-    if (!this.vega) return;
+    if (!this.vega || this.scene.moving) return;
     this.#choosePictures();
     this.#send();
     this.#run();
@@ -179,6 +183,7 @@ export class MapView {
     const vega = this.vega;
     await vega.runAsync();
     this.running = false;
+    if (!this.scene.moving) this.dots?.clear();
     if (this.stale && vega === this.vega) {
       this.stale = false;
       this.#run();
@@ -192,9 +197,9 @@ export class MapView {
       vega.width(this.width).height(this.height);
       this.sent.set("width", this.width).set("height", this.height);
     }
-    if (this.sent.get("maps") !== this.model.methods.length) {
+    if (this.sent.get("revision") !== this.model.revision) {
       vega.data("shapes", this.model.rows());
-      this.sent.set("maps", this.model.methods.length);
+      this.sent.set("revision", this.model.revision);
     }
     const [left, bottom] = this.toPlane(0, this.height);
     const [right, top] = this.toPlane(this.width, 0);

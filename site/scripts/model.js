@@ -15,6 +15,7 @@ export class Model {
     this.sizes = new Map();
     for (const group of this.groups) this.sizes.set(group, (this.sizes.get(group) ?? 0) + 1);
     this.bounds = this.methods.map(bounds);
+    this.revision = 0;
   }
 
   /** Add the map of a subset of the features beside projection `base`; its index among the methods. */
@@ -23,7 +24,15 @@ export class Model {
     if (known >= 0) return known;
     this.methods.push({ ...map, base });
     this.bounds.push(bounds(map));
+    this.revision += 1;
     return this.methods.length - 1;
+  }
+
+  /** Show another map as the only one, for a page whose maps are made while one looks. */
+  replace(map) {
+    this.methods = [{ ...map, base: 0 }];
+    this.bounds = [bounds(map)];
+    this.revision += 1;
   }
 
   /** Colours and chart configuration of the theme in use. */
@@ -33,6 +42,11 @@ export class Model {
 
   get labelled() {
     return this.classes.length > 0;
+  }
+
+  /** Whether there are classes to tell apart. */
+  get separable() {
+    return this.classes.length > 1;
   }
 
   picture(index) {
@@ -53,7 +67,7 @@ export class Model {
 
   /** Indices of the shapes nearest to one on a map, nearest first; as many as its neighbourhood hit counts. */
   neighbours(index, methodIndex) {
-    const key = `${index} ${methodIndex}`;
+    const key = `${index} ${methodIndex} ${this.revision}`;
     if (this.#nearest?.key !== key) this.#nearest = { key, found: this.#findNeighbours(index, methodIndex) };
     return this.#nearest.found;
   }
@@ -66,7 +80,7 @@ export class Model {
     const distances = x.map((value, other) => (value - x[index]) ** 2 + (y[other] - y[index]) ** 2);
     return x
       .map((_, other) => other)
-      .filter((other) => other !== index)
+      .filter((other) => other !== index && Number.isFinite(distances[other]))
       .sort((a, b) => distances[a] - distances[b] || a - b)
       .slice(0, neighbours);
   }
@@ -91,11 +105,18 @@ export class Model {
   }
 }
 
-/** The rectangle a projection fills; never empty, so that a single shape has a map too. */
-function bounds({ x, y }) {
-  const least = (values) => values.reduce((a, b) => Math.min(a, b));
-  const most = (values) => values.reduce((a, b) => Math.max(a, b));
-  const [left, right, bottom, top] = [least(x), most(x), least(y), most(y)];
+/**
+ * The rectangle a projection fills; never empty, so that a single shape has a map too. A shape without a place on it
+ * has coordinates that are no numbers.
+ */
+export function bounds({ x, y }) {
+  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let index = 0; index < x.length; index += 1) {
+    if (Number.isNaN(x[index])) continue;
+    [left, right] = [Math.min(left, x[index]), Math.max(right, x[index])];
+    [bottom, top] = [Math.min(bottom, y[index]), Math.max(top, y[index])];
+  }
+  if (left > right) return { x: 0, y: 0, width: 0.5, height: 0.5 };
   return {
     x: (left + right) / 2,
     y: (bottom + top) / 2,

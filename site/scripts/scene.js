@@ -19,9 +19,11 @@ export function patient(model) {
 }
 
 export class Scene {
-  constructor(model, state) {
+  /** `camera` names the state's value for the part of the plane in view. */
+  constructor(model, state, camera = "camera") {
     this.model = model;
     this.state = state;
+    this.cameraName = camera;
     this.origin = state.get("method");
     this.target = state.get("method");
     this.progress = 1;
@@ -32,11 +34,11 @@ export class Scene {
     this.matches = null;
     this.views = [];
     this.covered = 0;
-    this.#weigh();
+    this.weigh();
     state.listen((changed) => {
       if (changed.has("method")) this.#travel(state.get("method"));
-      if (["hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.#weigh();
-      if (["camera", "hidden", "selection", "matches", "pointedGroup", "pointed", "opened"].some((name) => changed.has(name))) this.draw();
+      if (["hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.weigh();
+      if ([camera, "hidden", "selection", "matches", "pointedGroup", "pointed", "opened"].some((name) => changed.has(name))) this.draw();
     });
   }
 
@@ -88,7 +90,7 @@ export class Scene {
     this.target = target;
     const from = this.bounds;
     const to = this.model.bounds[target];
-    const camera = this.state.get("camera");
+    const camera = this.state.get(this.cameraName);
     this.#voyage?.abort();
     this.#voyage = new AbortController();
     animate(patient(this.model) ? 0 : DURATION, this.#voyage.signal, (linear) => {
@@ -103,7 +105,7 @@ export class Scene {
       if (camera) {
         const whole = { x: this.bounds.x, y: this.bounds.y, zoom: 1 };
         const view = { x: mix(camera.x, whole.x), y: mix(camera.y, whole.y), zoom: mix(camera.zoom, 1) };
-        this.state.set({ camera: linear < 1 ? view : null });
+        this.state.set({ [this.cameraName]: linear < 1 ? view : null });
       }
       this.draw();
     });
@@ -119,13 +121,13 @@ export class Scene {
   }
 
   /** How present each shape is; a new array, because charts compare by identity. */
-  #weigh() {
+  weigh() {
     const hidden = this.state.get("hidden");
     const selection = this.state.get("selection");
     const matches = this.state.get("matches");
     const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
     this.emphasis = this.model.groups.map((group, index) => {
-      if (hidden.has(group)) return HIDDEN;
+      if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
       if (pointed !== null) return group === pointed ? CHOSEN : FAINT;
       if (selection.size > 0) return selection.has(index) ? CHOSEN : FAINT;
       if (matches) return matches.has(index) ? CHOSEN : FAINT;
@@ -134,19 +136,19 @@ export class Scene {
   }
 
   camera() {
-    return this.state.get("camera") ?? { x: this.bounds.x, y: this.bounds.y, zoom: 1 };
+    return this.state.get(this.cameraName) ?? { x: this.bounds.x, y: this.bounds.y, zoom: 1 };
   }
 
   /** Look at another part of the plane; kept so that some of the map always stays in view. */
   look(camera) {
     const zoom = Math.min(Math.max(camera.zoom, 1), LARGEST_ZOOM);
     if (zoom <= 1.001) {
-      this.state.set({ camera: null });
+      this.state.set({ [this.cameraName]: null });
       return;
     }
     const within = (value, centre, size) => Math.min(Math.max(value, centre - size / 2), centre + size / 2);
     const { x, y, width, height } = this.bounds;
-    this.state.set({ camera: { x: within(camera.x, x, width), y: within(camera.y, y, height), zoom } });
+    this.state.set({ [this.cameraName]: { x: within(camera.x, x, width), y: within(camera.y, y, height), zoom } });
   }
 }
 

@@ -81,7 +81,7 @@ async function main() {
     announce: (index) => announce(`${model.names[index]}, ${model.className(model.groups[index])}`),
   });
   watchMapKeys(map.surface, state, gestures);
-  new Card(model, state);
+  new Card(state);
   await map.start();
   const boxes = subsets.labelled ? new Boxes(model, subsets, state, marks) : null;
   await boxes?.start();

@@ -56,7 +56,7 @@ async function main() {
   const classes = new ClassList(model, state);
   const detail = new Detail(model, state, { point });
   const search = new Search(model, state, announce);
-  new Card(model, state);
+  new Card(state);
   new Tray(model, state, scene, { open, point });
   watchTables(() => mapTables(model, state));
   if (model.data.subsets) new FeatureChoice(model, state);

@@ -1,0 +1,74 @@
+// The work in the address: a link, and a reload, bring back the same maps and the same figures.
+
+import { joinNames, splitNames } from "../address.js";
+import { readShortNames, shortNames } from "./bin-names.js";
+import { EVERY_CLASS } from "./separation.js";
+
+const PROJECTIONS = ["tsne", "umap"];
+
+export function readWorkAddress(model, data) {
+  const query = new URLSearchParams(window.location.hash.slice(1));
+  const groups = new Map(model.classes.map((name, group) => [name, group]));
+  const named = (name) => query.getAll(name).map((label) => groups.get(label)).filter((group) => group !== undefined);
+  const known = splitNames(query.get("features"), data.features.map(({ name }) => name));
+  const features = new Set(data.features.keys());
+  if (known.length > 0) for (const [index, { name }] of data.features.entries()) if (!known.includes(name)) features.delete(index);
+  const bins = [...readShortNames(query.get("bins"), data.features)].filter((column) => features.has(featureOf(column, data)));
+  const scorers = data.scorers.map(({ key }) => key);
+  return {
+    hidden: readHidden(query, named, model),
+    features,
+    bins: new Set(bins),
+    projection: PROJECTIONS.includes(query.get("map")) ? query.get("map") : PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0],
+    scorer: scorers.includes(query.get("scorer")) ? query.get("scorer") : scorers.includes("trees") ? "trees" : scorers[0],
+    separation: {
+      from: query.has("separate") ? new Set(named("separate")) : EVERY_CLASS.from,
+      against: query.has("from") ? new Set(named("from")) : EVERY_CLASS.against,
+      each: !query.has("together"),
+    },
+    color: query.get("color") === "hit" && model.labelled ? "hit" : "class",
+  };
+}
+
+/** Classes are named as in use or as not in use, whichever are fewer. */
+function readHidden(query, named, model) {
+  const everyone = [...model.classes.keys(), -1];
+  if (query.has("class") || query.has("unlabelled")) {
+    const used = new Set([...named("class"), ...(query.has("unlabelled") ? [-1] : [])]);
+    return new Set(everyone.filter((group) => model.sizes.has(group) && !used.has(group)));
+  }
+  return new Set([...named("hide"), ...(query.has("hide-unlabelled") && model.sizes.has(-1) ? [-1] : [])]);
+}
+
+function featureOf(column, data) {
+  return data.features.findLastIndex(({ start }) => start <= column);
+}
+
+export function workAddress(model, data, state) {
+  const query = new URLSearchParams();
+  const hidden = state.get("hidden");
+  const used = [...model.sizes.keys()].filter((group) => !hidden.has(group)).sort((a, b) => a - b);
+  const fewer = used.length < hidden.size;
+  for (const group of fewer ? used : [...hidden].sort((a, b) => a - b)) {
+    if (group < 0) query.set(fewer ? "unlabelled" : "hide-unlabelled", "");
+    else query.append(fewer ? "class" : "hide", model.classes[group]);
+  }
+  // No class in use has no name to give.
+  if (used.length === 0) query.append("class", "");
+  const features = state.get("features");
+  if (features.size < data.features.length) query.set("features", joinNames([...features].sort((a, b) => a - b).map((index) => data.features[index].name)));
+  if (state.get("bins").size > 0) query.set("bins", shortNames(state.get("bins"), data.features));
+  if (state.get("projection") !== (PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0])) query.set("map", state.get("projection"));
+  if (state.get("scorer") !== "trees") query.set("scorer", state.get("scorer"));
+  const { from, against, each } = state.get("separation");
+  const names = (name, groups) => {
+    for (const group of groups) query.append(name, model.classes[group]);
+    if (groups.size === 0) query.set(name, "");
+  };
+  if (from !== null) names("separate", from);
+  if (against !== null) names("from", against);
+  if (!each) query.set("together", "");
+  if (state.get("color") !== "class") query.set("color", state.get("color"));
+  const hash = query.toString();
+  return hash === "" ? window.location.pathname + window.location.search : `#${hash}`;
+}

@@ -1,0 +1,191 @@
+// Maps and scores: the ones that travel with the site where they answer the question, else computed by the engine.
+
+import { chunk } from "../chunks.js";
+import { startEngine } from "../engine/client.js";
+import { Subsets } from "../subsets.js";
+import { contests } from "./separation.js";
+
+const SCORE_STEPS = 65535;
+
+export class Answers {
+  #engine = null;
+
+  constructor(model, data, bins) {
+    this.model = model;
+    this.data = data;
+    this.bins = bins;
+    this.titles = new Map(model.data.methods.map(({ key, title, note }) => [key, { title, note }]));
+  }
+
+  /** The engine, started when first needed. */
+  get engine() {
+    const { bins, data } = this;
+    this.#engine ??= startEngine({
+      rows: bins.rows,
+      columns: bins.count,
+      values: bins.values(),
+      blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
+      scaling: data.scaling,
+    });
+    return this.#engine;
+  }
+
+  /** The shapes of the classes in use. */
+  rows(hidden) {
+    return Int32Array.from(this.model.groups.keys()).filter((row) => !hidden.has(this.model.groups[row]));
+  }
+
+  /** The columns of the features in use. */
+  columns(features) {
+    return Int32Array.from({ length: this.bins.count }, (_, column) => column).filter((column) => features.has(this.bins.featureOf(column)));
+  }
+
+  /** The map of the classes in use under the features in use. */
+  original(projection, { hidden, features }, report, partial) {
+    const asked = { method: projection, rows: this.rows(hidden), columns: this.columns(features), by: "features" };
+    return this.#chain(async (run) => {
+      const offline = hidden.size === 0 ? await this.#offlineMap(projection, features) : null;
+      return offline ?? this.#layout(run, asked, report, partial);
+    });
+  }
+
+  /** The map of the classes in use under the chosen bins. */
+  refined(projection, { hidden, bins }, report, partial) {
+    const columns = Int32Array.from(bins).sort();
+    const asked = { method: projection, rows: this.rows(hidden), columns, by: "bins" };
+    return this.#chain((run) => this.#layout(run, asked, report, partial));
+  }
+
+  /** Relative scores of all columns; no numbers for those of features that are not in use. */
+  scores(scorer, separation, { hidden, features }, report) {
+    const offline = this.#offlineScores(scorer, separation, hidden, features);
+    if (offline !== null) return { done: offline, cancel: () => {} };
+    const columns = this.columns(features);
+    const groups = this.groups(hidden);
+    const rowsOf = (chosen) => Int32Array.from(this.model.groups.keys()).filter((row) => chosen.includes(this.model.groups[row]));
+    const asked = contests(separation, groups).map(({ positive, negative }) => ({ positive: rowsOf(positive), negative: rowsOf(negative) }));
+    return this.#chain(async (run) => {
+      const { scores } = await run("score", { method: scorer, contests: asked, columns, seed: this.data.seed }, report);
+      const all = new Float64Array(this.bins.count).fill(NaN);
+      for (const [place, column] of columns.entries()) all[column] = scores[place];
+      return all;
+    });
+  }
+
+  /** Without labels nothing is to be separated; then a bin says most where shapes differ most. */
+  spread({ features }) {
+    const all = new Float64Array(this.bins.count).fill(NaN);
+    for (const column of this.columns(features)) {
+      const values = this.bins.column(column);
+      const mean = values.reduce((sum, value) => sum + value, 0) / values.length;
+      all[column] = Math.sqrt(values.reduce((sum, value) => sum + (value - mean) ** 2, 0) / values.length);
+    }
+    const most = all.reduce((highest, value) => Math.max(highest, value || 0), 0) || 1;
+    return all.map((value) => value / most);
+  }
+
+  /** Classes in use that have a shape. */
+  groups(hidden) {
+    return this.model.classes.map((_, group) => group).filter((group) => !hidden.has(group));
+  }
+
+  /** The map of all shapes under some features, if it travels with the site. */
+  async #offlineMap(projection, features) {
+    const { model, bins } = this;
+    const { methods, subsets } = model.data;
+    if (features.size === bins.features.length) {
+      return methods.find(({ key }) => key === projection) ?? null;
+    }
+    if (!subsets || subsets.method !== projection) return null;
+    const searched = new Subsets(await chunk("search"));
+    const place = searched.find([...features].map((feature) => bins.features[feature].name));
+    return place === undefined ? null : searched.map(place, model.classes.length);
+  }
+
+  #offlineScores(scorer, separation, hidden, features) {
+    const { data, model, bins } = this;
+    const groups = model.classes.map((_, group) => group);
+    const single = contests(separation, groups).every(({ positive, negative }) => positive.length === 1 && negative.length === groups.length - 1);
+    if (!data.scored || !single || groups.some((group) => hidden.has(group)) || features.size < bins.features.length) return null;
+    const asked = contests(separation, groups).map(({ positive: [group] }) => group);
+    return this.#meanOfClasses(data.scorers.findIndex(({ key }) => key === scorer), asked);
+  }
+
+  async #meanOfClasses(method, groups) {
+    const steps = new Uint16Array(await chunk("scores"));
+    const { count } = this.bins;
+    const scores = new Float64Array(count);
+    for (const group of groups) {
+      const start = (method * this.model.classes.length + group) * count;
+      for (let column = 0; column < count; column += 1) scores[column] += steps[start + column] / SCORE_STEPS / groups.length;
+    }
+    return scores;
+  }
+
+  /** Lay out some shapes, then measure the map. */
+  async #layout(run, { method, rows, columns, by }, report, partial) {
+    const { model, data } = this;
+    // Every layout turns to agree with the site's own map, so that the same address gives the same map on any way
+    // there, and a reader finds shapes where they were.
+    const base = model.data.methods.find(({ key }) => key === method) ?? model.data.methods[0];
+    const reference = Float32Array.from({ length: 2 * rows.length }, (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]]);
+    const spread = (xy, place) => {
+      const all = new Array(model.count).fill(NaN);
+      rows.forEach((row, index) => (all[row] = xy[2 * index + place]));
+      return all;
+    };
+    const listen = (told) => {
+      report({ progress: told.progress * 0.97 });
+      if (told.partial) partial(spread(told.partial.xy, 0), spread(told.partial.xy, 1));
+    };
+    const { xy } = await run("layout", { method, rows, columns, by, start: null, reference, seed: data.seed }, listen);
+    const groups = Int32Array.from(rows, (row) => model.groups[row]);
+    const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
+    const hits = new Array(model.count).fill(null);
+    rows.forEach((row, index) => (hits[row] = known(hit[index])));
+    return {
+      key: "live",
+      ...this.titles.get(method),
+      features: [],
+      x: spread(xy, 0),
+      y: spread(xy, 1),
+      hit: hits,
+      neighbours: Math.min(data.neighbours, rows.length - 1),
+      hitOfClass: model.classes.map((_, group) => known(hitOfClass[group])),
+      hitOfAll: known(hitOfAll),
+      chance: chance(groups),
+      chanceSpread: null,
+    };
+  }
+
+  /** Several tasks of the engine one after the other as one job. */
+  #chain(work) {
+    let [running, cancelled] = [null, false];
+    const run = async (name, parameters, report) => {
+      running = (await this.engine).run(name, parameters, report);
+      if (cancelled) running.cancel();
+      return running.done;
+    };
+    return {
+      done: work(run),
+      cancel: () => {
+        cancelled = true;
+        running?.cancel();
+      },
+    };
+  }
+}
+
+function known(value) {
+  return value === undefined || Number.isNaN(value) ? null : value;
+}
+
+/** The neighbourhood hit that labels dealt at random have on average, whatever the map. */
+function chance(groups) {
+  const sizes = new Map();
+  for (const group of groups) if (group >= 0) sizes.set(group, (sizes.get(group) ?? 0) + 1);
+  const counts = [...sizes.values()];
+  const labelled = counts.reduce((sum, size) => sum + size, 0);
+  if (labelled === 0 || groups.length < 2) return null;
+  return counts.reduce((sum, size) => sum + size * (size - 1), 0) / labelled / (groups.length - 1);
+}

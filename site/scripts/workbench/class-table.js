@@ -1,0 +1,120 @@
+// The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
+
+import { element, swatch } from "../dom.js";
+import { figure } from "../words.js";
+import { difference } from "./figures.js";
+
+export class ClassTable {
+  /** `change(hidden)` takes other classes into use, `separate(part, groups)` ticks others: part "from" or "against". */
+  constructor(model, state, { change, separate }) {
+    this.model = model;
+    this.state = state;
+    this.change = change;
+    this.separate = separate;
+    this.table = document.getElementById("class-table");
+    this.body = this.table.tBodies[0];
+    this.groups = [...model.classes.keys(), ...(model.sizes.has(-1) ? [-1] : [])];
+    document.getElementById("classes-all").addEventListener("click", () => change(new Set()));
+    document.getElementById("classes-none").addEventListener("click", () => change(new Set(this.groups)));
+    for (const part of ["from", "against"]) {
+      const all = document.getElementById(part === "from" ? "separate-all" : "against-all");
+      all.addEventListener("click", () => separate(part, this.#ticked(part).size < model.classes.length ? [...model.classes.keys()] : []));
+    }
+    this.body.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
+    state.listen((changed) => {
+      if (["hidden", "separation"].some((name) => changed.has(name))) this.#mark();
+      if (["originalMap", "refinedMap", "theme"].some((name) => changed.has(name))) this.render();
+    });
+    this.render();
+  }
+
+  render() {
+    const focused = document.activeElement?.dataset?.key;
+    this.rows = new Map(this.groups.map((group) => [group, this.#row(group)]));
+    this.body.replaceChildren(...[...this.rows.values()].map(({ node }) => node));
+    this.#mark();
+    if (focused !== undefined) this.body.querySelector(`[data-key="${focused}"]`)?.focus({ preventScroll: true });
+  }
+
+  #row(group) {
+    const { model, state } = this;
+    const name = model.className(group);
+    const hit = state.get("originalMap")?.hitOfClass[group] ?? null;
+    const refined = state.get("refinedMap")?.hitOfClass[group] ?? null;
+    const use = element(
+      "button",
+      {
+        type: "button",
+        class: "use",
+        "data-key": `use ${group}`,
+        title: `${name}\nClick takes it into use or out of it.`,
+        onclick: (event) => (event.altKey ? this.#only(group) : this.#toggle(group)),
+      },
+      swatch(model.symbol(group), model.color(group)),
+      element("span", { class: "name", dir: "auto" }, name),
+    );
+    const only = element("button", { type: "button", class: "only", "data-key": `only ${group}`, "aria-label": `Only ${name}`, title: "Only this class", onclick: () => this.#only(group) }, "only");
+    const ticks = new Map(["from", "against"].map((part) => [part, group >= 0 && this.#tick(part, group, name)]));
+    const point = (value) => () => state.set({ pointedGroup: value });
+    const node = element(
+      "tr",
+      { onpointerenter: point(group), onpointerleave: point(null) },
+      element("th", { scope: "row" }, element("div", { class: "of-class" }, use, only, element("span", { class: "size" }, String(model.sizes.get(group) ?? 0)))),
+      element("td", { class: "tick" }, ticks.get("from")),
+      element("td", { class: "tick against" }, ticks.get("against")),
+      element("td", { class: "number" }, group < 0 ? "" : figure(hit)),
+      element("td", { class: "number change" }, hit !== null && refined !== null && change(refined - hit)),
+    );
+    return { node, use, only, ticks };
+  }
+
+  #tick(part, group, name) {
+    const label = part === "from" ? `Separate ${name}` : `Separate from ${name}`;
+    const input = element("input", { type: "checkbox", "data-key": `${part} ${group}`, "aria-label": label, title: `${label}\nClick with Alt: only this` });
+    input.addEventListener("click", (event) => {
+      const ticked = event.altKey ? new Set([group]) : this.#ticked(part);
+      if (!event.altKey && !ticked.delete(group)) ticked.add(group);
+      this.separate(part, [...ticked]);
+    });
+    return input;
+  }
+
+  #ticked(part) {
+    return new Set(this.state.get("separation")[part] ?? (part === "from" ? this.model.classes.keys() : []));
+  }
+
+  #toggle(group) {
+    const hidden = new Set(this.state.get("hidden"));
+    if (!hidden.delete(group)) hidden.add(group);
+    this.change(hidden);
+  }
+
+  #only(group) {
+    this.change(new Set(this.groups.filter((other) => other !== group)));
+  }
+
+  #mark() {
+    const { state } = this;
+    const hidden = state.get("hidden");
+    const chosen = state.get("separation").against !== null;
+    this.table.classList.toggle("chosen", chosen);
+    for (const [group, { node, use, only, ticks }] of this.rows) {
+      const used = !hidden.has(group);
+      node.classList.toggle("unused", !used);
+      use.setAttribute("aria-pressed", String(used));
+      only.disabled = used && hidden.size === this.groups.length - 1;
+      for (const [part, tick] of ticks) {
+        if (!tick) continue;
+        tick.disabled = !used;
+        tick.checked = used && this.#ticked(part).has(group);
+      }
+    }
+  }
+}
+
+/** A change as a bar from the middle and a number. */
+function change(value) {
+  const bar = element("i", { class: value < 0 ? "worse" : "better" });
+  bar.style.setProperty("--length", String(Math.min(Math.abs(value), 1)));
+  return [element("span", { class: "scale", "aria-hidden": "true" }, bar), difference(value)];
+}

@@ -1,0 +1,116 @@
+// The small controls: projection, colours, what dragging does, scorer and separation; and the keys of the page.
+
+import { element } from "../dom.js";
+import { count } from "../words.js";
+import { contests, separationWords } from "./separation.js";
+
+export function watchControls(model, data, state, desk) {
+  const radios = (id, name, changed = (value) => state.set({ [name]: value })) => {
+    const node = document.getElementById(id);
+    if (node === null) return;
+    const check = () => {
+      for (const input of node.querySelectorAll("input")) input.checked = input.value === state.get(name);
+    };
+    node.addEventListener("change", (event) => changed(event.target.value));
+    state.listen((now) => now.has(name) && check());
+    check();
+  };
+  radios("projections", "projection", (projection) => desk.ask({ projection }));
+  radios("colors", "color");
+  radios("drag", "drag", (drag) => {
+    state.set({ drag });
+    document.body.dataset.drag = drag;
+  });
+  document.body.dataset.drag = state.get("drag");
+  watchSelection(model, state);
+  if (model.separable) {
+    watchScorer(data, state, desk);
+    watchSeparation(model, state, desk);
+  }
+}
+
+function watchScorer(data, state, desk) {
+  const select = document.getElementById("scorer");
+  const words = document.getElementById("scorer-words");
+  select.replaceChildren(...data.scorers.map(({ key, title, explanation }) => element("option", { value: key, title: explanation }, title)));
+  const show = () => {
+    select.value = state.get("scorer");
+    words.textContent = data.scorers.find(({ key }) => key === select.value).explanation;
+  };
+  select.addEventListener("change", () => desk.ask({ scorer: select.value }));
+  state.listen((changed) => changed.has("scorer") && show());
+  show();
+}
+
+function watchSeparation(model, state, desk) {
+  const words = document.getElementById("separation-words");
+  const [against, each] = ["against", "each"].map((id) => document.getElementById(id));
+  const show = () => {
+    const separation = state.get("separation");
+    const groups = [...model.classes.keys()].filter((group) => !state.get("hidden").has(group));
+    const asked = contests(separation, groups);
+    words.textContent = asked.length > 0 ? separationWords(separation, groups, model) : "…";
+    words.parentElement.title = asked.length > 0 ? "" : missing(separation, groups);
+    words.parentElement.classList.toggle("missing", asked.length === 0);
+    for (const input of against.querySelectorAll("input")) input.checked = (input.value === "rest") === (separation.against === null);
+    for (const input of each.querySelectorAll("input")) input.checked = (input.value === "each") === separation.each;
+  };
+  against.addEventListener("change", (event) => {
+    const separation = state.get("separation");
+    desk.ask({ separation: { ...separation, against: event.target.value === "rest" ? null : new Set(model.classes.keys()) } });
+  });
+  each.addEventListener("change", (event) => desk.ask({ separation: { ...state.get("separation"), each: event.target.value === "each" } }));
+  state.listen((changed) => (changed.has("separation") || changed.has("hidden")) && show());
+  show();
+}
+
+/** Why there is nothing to score. */
+export function missing({ from, against, each }, groups) {
+  if (groups.length < 2) return "Scores tell classes apart: take at least two into use.";
+  if (from !== null && !groups.some((group) => from.has(group))) return "Tick under “separate” the classes to set apart.";
+  if (against !== null && !groups.some((group) => against.has(group))) return "Tick under “from” the classes to set them apart from.";
+  return each ? "A class cannot be set apart from itself: tick another." : "All classes are on one side: leave some out, or set each apart.";
+}
+
+/** The shapes collected on the maps, in words. */
+function watchSelection(model, state) {
+  const node = document.getElementById("picked");
+  const show = () => {
+    const chosen = [...state.get("selection")];
+    if (chosen.length === 0) {
+      node.replaceChildren();
+      return;
+    }
+    const census = model.labelled ? model.census(chosen).slice(0, 3).map(([group, number]) => `${model.className(group)} ${number}`).join(", ") : "";
+    node.replaceChildren(
+      element("span", { dir: "auto" }, `${count(chosen.length, "shape")} selected${census && `: ${census}`}${model.labelled && model.census(chosen).length > 3 ? " …" : ""}`),
+      element("button", { type: "button", class: "plain", onclick: () => state.set({ selection: new Set() }) }, "Clear"),
+    );
+  };
+  state.listen((changed) => changed.has("selection") && show());
+}
+
+export function watchKeys(state, desk, gestures) {
+  document.addEventListener("keydown", (event) => {
+    if (document.querySelector("dialog[open]") || event.altKey) return;
+    const typing = event.target.matches("input:not([type=checkbox]):not([type=radio]), textarea");
+    if (event.ctrlKey || event.metaKey) {
+      if (typing || event.key.toLowerCase() !== "z") return;
+      event.preventDefault();
+      desk.go(desk.history.at + (event.shiftKey ? 1 : -1));
+      return;
+    }
+    if (event.key === "Escape" && !event.defaultPrevented) {
+      // One press takes back the last thing: first the work in progress.
+      if (!desk.stopAll()) state.set(state.get("opened") !== null ? { opened: null } : { selection: new Set() });
+      return;
+    }
+    const gesture = gestures.get(event.target);
+    if (!gesture) return;
+    if (event.key === "+" || event.key === "=") gesture.zoom(1.5);
+    else if (event.key === "-") gesture.zoom(1 / 1.5);
+    else if (event.key === "0") state.set({ [gesture.scene.cameraName]: null });
+    else return;
+    event.preventDefault();
+  });
+}

@@ -1,0 +1,191 @@
+// What a reader does on the Workbench, in one place: every change of classes, features and bins is a step that can be
+// taken back; every change asks anew what it makes out of date.
+
+import { ranked } from "../bin-list.js";
+import { figure } from "../words.js";
+import { alike, History } from "./history.js";
+import { changeWords } from "./figures.js";
+import { Inquiry } from "./inquiry.js";
+import { contests, separationWords } from "./separation.js";
+
+/** Fewer shapes have no map worth the name. */
+export const FEWEST_SHAPES = 3;
+
+export class Desk {
+  constructor(model, data, bins, state, answers, scenes, announce) {
+    Object.assign(this, { model, data, bins, state, answers, scenes, announce });
+    this.history = new History();
+    this.history.push(this.#step());
+    this.arriving = false;
+    const tell = (name) => (status) => state.set({ [`${name}Status`]: status });
+    this.inquiries = Object.fromEntries(["original", "refined", "scores"].map((name) => [name, new Inquiry(tell(name))]));
+  }
+
+  // Steps
+
+  /** Take other classes, features or bins into use. Bins of a feature that is not in use go with it. */
+  use(patch) {
+    const next = { ...this.#step(), ...patch };
+    const kept = [...next.bins].filter((column) => next.features.has(this.bins.featureOf(column)));
+    if (kept.length < next.bins.size) next.bins = new Set(kept);
+    if (alike(next, this.history.current)) return;
+    this.history.push(next);
+    this.#show(next);
+  }
+
+  add(columns) {
+    this.use({ bins: new Set([...this.state.get("bins"), ...columns]) });
+  }
+
+  remove(columns) {
+    const bins = new Set(this.state.get("bins"));
+    for (const column of columns) bins.delete(column);
+    this.use({ bins });
+  }
+
+  toggle(columns) {
+    const bins = new Set(this.state.get("bins"));
+    for (const column of columns) if (!bins.delete(column)) bins.add(column);
+    this.use({ bins });
+  }
+
+  /** Choose the bins with the highest scores, and no others. */
+  takeBest(number) {
+    this.use({ bins: new Set(ranked(this.state.get("scores")).slice(0, number)) });
+  }
+
+  /** Go to another step. */
+  go(place) {
+    if (place < 0 || place >= this.history.steps.length || place === this.history.at) return;
+    this.history.at = place;
+    this.#show(this.history.current);
+    this.announce(`Step ${place + 1} of ${this.history.steps.length}`);
+  }
+
+  /** The address was changed from outside: by the browser's own way back, or by hand. */
+  arrive({ hidden, features, bins, ...questions }) {
+    const step = { hidden, features, bins };
+    const known = this.history.find(step);
+    if (known < 0) this.history.push(step);
+    else this.history.at = known;
+    this.arriving = true;
+    this.state.set(questions);
+    this.#show(this.history.current);
+    this.arriving = false;
+  }
+
+  #step() {
+    const { state } = this;
+    return { hidden: state.get("hidden"), features: state.get("features"), bins: state.get("bins"), originalMap: null, refinedMap: null };
+  }
+
+  #show({ hidden, features, bins }) {
+    this.state.set({ hidden, features, bins, step: this.history.current });
+    this.ask();
+  }
+
+  // Questions
+
+  /** Ask by another scorer, for another separation, or with another projection. */
+  ask(what = ["original", "refined", "scores"]) {
+    if (!Array.isArray(what)) {
+      this.state.set(what);
+      this.ask();
+      return;
+    }
+    const ways = { original: () => this.#askMap("original"), refined: () => this.#askMap("refined"), scores: () => this.#askScores() };
+    for (const name of what) ways[name]();
+  }
+
+  separate(part, groups) {
+    this.ask({ separation: { ...this.state.get("separation"), [part]: new Set(groups) } });
+  }
+
+  stop(name) {
+    const stopped = this.inquiries[name].stop();
+    if (stopped) this.scenes[name]?.rest();
+    return stopped;
+  }
+
+  /** Stop all work in progress; true if there was any. */
+  stopAll() {
+    return Object.keys(this.inquiries).map((name) => this.stop(name)).some(Boolean);
+  }
+
+  #askMap(which) {
+    const { state, answers, history } = this;
+    const inquiry = this.inquiries[which];
+    const step = history.current;
+    const projection = state.get("projection");
+    const rows = answers.rows(step.hidden);
+    if (rows.length < FEWEST_SHAPES || (which === "refined" && step.bins.size === 0)) {
+      inquiry.rest();
+      state.set({ [`${which}Map`]: null });
+      return;
+    }
+    const members = which === "original" ? step.features : step.bins;
+    const key = [projection, sorted(step.hidden), sorted(members)].join("|");
+    const scene = this.scenes[which];
+    const start = (report) => answers[which](projection, step, report, (x, y) => state.get(`${which}Status`).kind === "working" && scene.stream(x, y));
+    inquiry.ask(key, start, (map) => {
+      step[`${which}Map`] = map;
+      const shown = state.get(`${which}Map`) === map;
+      state.set({ [`${which}Map`]: map });
+      if (!shown) scene.show(map);
+      this.#say(which, map);
+    });
+  }
+
+  #say(which, map) {
+    if (map.hitOfAll === null) {
+      this.announce(`The ${which} map is ready.`);
+      return;
+    }
+    const before = this.state.get("originalMap")?.hitOfAll ?? null;
+    const change = which === "refined" && before !== null ? `, ${changeWords(map.hitOfAll - before)} against the original` : "";
+    this.announce(`NH of the ${which} map ${figure(map.hitOfAll)}${change}`);
+  }
+
+  #askScores() {
+    const { state, answers, model } = this;
+    const step = this.history.current;
+    if (!model.separable) {
+      this.inquiries.scores.rest();
+      state.set({ scores: answers.spread(step) });
+      return;
+    }
+    const separation = state.get("separation");
+    const asked = contests(separation, answers.groups(step.hidden));
+    if (asked.length === 0) {
+      this.inquiries.scores.rest();
+      state.set({ scores: null });
+      return;
+    }
+    const scorer = state.get("scorer");
+    const key = JSON.stringify([scorer, asked, sorted(step.features)]);
+    this.inquiries.scores.ask(key, (report) => answers.scores(scorer, separation, step, report), (scores) => state.set({ scores }));
+  }
+
+  /** All there is at this moment, for export. */
+  work() {
+    const { state, model, data, answers } = this;
+    const groups = answers.groups(state.get("hidden"));
+    const words = [
+      `map: ${state.get("projection")}, seed ${data.seed}`,
+      model.labelled && `classes: ${groups.length === model.classes.length ? "all" : groups.map((group) => model.className(group)).join(", ")}`,
+      model.separable && `scorer: ${state.get("scorer")}, separating ${separationWords(state.get("separation"), groups, model)}`,
+    ].filter(Boolean);
+    return {
+      chosen: state.get("bins"),
+      scores: state.get("scores"),
+      originalMap: state.get("originalMap"),
+      refinedMap: state.get("refinedMap"),
+      words,
+      address: window.location.href,
+    };
+  }
+}
+
+function sorted(members) {
+  return [...members].sort((a, b) => a - b).join();
+}

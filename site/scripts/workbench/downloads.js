@@ -1,0 +1,86 @@
+// What a reader takes away: the chosen bins, for a build of their own, and maps and scores for other programs.
+
+import { element } from "../dom.js";
+import { csvText, saveText } from "../export.js";
+import { ranked } from "../bin-list.js";
+import { count, figure } from "../words.js";
+
+const FILE = "bins.txt";
+
+/** Open the dialog of downloads; `work` says what there is at this moment. */
+export function watchDownloads(model, bins, work) {
+  const dialog = document.getElementById("export");
+  document.getElementById("open-export").addEventListener("click", () => {
+    dialog.replaceChildren(
+      element("div", { class: "detail-head" }, element("h2", {}, "Export"), element("button", { type: "button", class: "plain", onclick: () => dialog.close() }, "Close")),
+      ...content(model, bins, work()),
+    );
+    dialog.showModal();
+  });
+  dialog.addEventListener("click", (event) => {
+    if (event.target === dialog) dialog.close();
+  });
+}
+
+function content(model, bins, work) {
+  const { chosen, originalMap, refinedMap, scores } = work;
+  const save = (words, name, type, text) => element("button", { type: "button", class: "plain strong", "data-file": name, onclick: () => saveText(name, type, text()) }, words);
+  const command = `shapeviz-report build DATABASE -o OUT --bins ${FILE}`;
+  return [
+    element("h3", {}, "Chosen bins"),
+    chosen.size === 0
+      ? element("p", {}, "None is chosen yet.")
+      : element("p", {}, `${count(chosen.size, "bin")}, one name a line. The command below builds a site whose maps compare shapes by these bins alone.`),
+    chosen.size > 0 && element("pre", {}, command),
+    chosen.size > 0 && element("p", { class: "row" }, save("Save the bins", FILE, "text/plain", () => binsText(bins, work))),
+    element("h3", {}, "Maps and scores"),
+    element(
+      "p",
+      { class: "row" },
+      save("Maps as CSV", "maps.csv", "text/csv", () => mapsCsv(model, originalMap, refinedMap)),
+      scores && save("Scores as CSV", "scores.csv", "text/csv", () => scoresCsv(bins, scores, chosen)),
+      save("All as JSON", "workbench.json", "application/json", () => allJson(model, bins, work)),
+    ),
+  ].filter(Boolean);
+}
+
+/** One name a line, best first, under a header that says where they come from. */
+function binsText(bins, { chosen, scores, words, refinedMap, address }) {
+  const order = scores === null ? [...chosen].sort((a, b) => a - b) : [...ranked(scores)].filter((column) => chosen.has(column));
+  const header = [
+    `${count(chosen.size, "bin").replaceAll("\u2009", "")} chosen on the Workbench of ${document.title.split(" · ").at(-1)}`,
+    ...words,
+    ...(refinedMap?.hitOfAll ? [`NH_s of their map ${figure(refinedMap.hitOfAll)}`] : []),
+    address,
+  ];
+  return `${header.map((line) => `# ${line.replace(/\s+/g, " ")}`).join("\n")}\n${order.map((column) => bins.names[column]).join("\n")}\n`;
+}
+
+function mapsCsv(model, original, refined) {
+  const maps = [["original", original], ["refined", refined]].filter(([, map]) => map !== null);
+  const header = ["id", "class", ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`])];
+  const number = (value) => (value === null || Number.isNaN(value) ? "" : value);
+  const rows = model.ids.map((id, index) => [
+    id,
+    model.groups[index] < 0 ? "" : model.className(model.groups[index]),
+    ...maps.flatMap(([, map]) => [number(map.x[index]), number(map.y[index]), number(map.hit[index])]),
+  ]);
+  return csvText([header, ...rows]);
+}
+
+function scoresCsv(bins, scores, chosen) {
+  const rows = [...ranked(scores)].map((column, place) => [bins.names[column], place + 1, scores[column], chosen.has(column) ? 1 : 0]);
+  return csvText([["bin", "rank", "score", "chosen"], ...rows]);
+}
+
+function allJson(model, bins, { chosen, scores, words, originalMap, refinedMap }) {
+  const number = (value) => (value === null || Number.isNaN(value) ? null : value);
+  const map = (one) => one && {
+    nh_s: one.hitOfAll,
+    nh_c: Object.fromEntries(model.classes.map((name, group) => [name, one.hitOfClass[group]]).filter(([, hit]) => hit !== null)),
+    shapes: model.ids.map((id, index) => ({ id, x: number(one.x[index]), y: number(one.y[index]), nh: number(one.hit[index]) })).filter(({ x }) => x !== null),
+  };
+  const names = [...chosen].sort((a, b) => a - b).map((column) => bins.names[column]);
+  const scored = scores && [...ranked(scores)].map((column) => ({ bin: bins.names[column], score: scores[column] }));
+  return `${JSON.stringify({ about: words, bins: names, original: map(originalMap), refined: map(refinedMap), scores: scored }, null, 1)}\n`;
+}

@@ -1,0 +1,58 @@
+// The feature types in use, in their colours.
+
+import { element } from "../dom.js";
+
+export class FeatureList {
+  /** `change(features)` takes others into use; `pick(feature)` is called when one is to be the only one. */
+  constructor(bins, state, marks, change) {
+    this.bins = bins;
+    this.state = state;
+    this.marks = marks;
+    this.change = change;
+    this.list = document.getElementById("feature-list");
+    this.everything = new Set(bins.features.keys());
+    document.getElementById("features-all").addEventListener("click", () => change(this.everything));
+    state.listen((changed) => {
+      if (["features", "bins", "theme"].some((name) => changed.has(name))) this.render();
+    });
+    this.render();
+  }
+
+  render() {
+    const focused = document.activeElement?.dataset?.key;
+    this.list.replaceChildren(...this.bins.features.map((feature, index) => element("li", {}, this.#button(feature, index))));
+    if (focused !== undefined) this.list.querySelector(`[data-key="${focused}"]`)?.focus({ preventScroll: true });
+  }
+
+  #button({ name, title, start, dimensions, bins, hue }, index) {
+    const used = this.state.get("features");
+    const last = used.has(index) && used.size === 1;
+    const width = dimensions * bins;
+    const chosen = [...this.state.get("bins")].filter((column) => column >= start && column < start + width).length;
+    const mark = element("i", { class: "hued" });
+    mark.style.background = this.marks().features[hue];
+    return element(
+      "button",
+      {
+        type: "button",
+        class: "use",
+        "data-key": `feature ${index}`,
+        "aria-pressed": String(used.has(index)),
+        "aria-disabled": last ? "true" : null,
+        title: last ? `${title}\nA map needs at least one feature.` : `${title}\nClick takes it into use or out of it. Double-click, or click with Alt: only this.`,
+        onclick: (event) => (event.altKey ? this.change(new Set([index])) : this.#toggle(index, last)),
+        ondblclick: () => this.change(new Set([index])),
+      },
+      mark,
+      element("span", { class: "name", dir: "auto" }, name),
+      element("span", { class: "size" }, chosen > 0 ? element("b", { title: "bins chosen" }, String(chosen)) : "", chosen > 0 && " of ", String(width)),
+    );
+  }
+
+  #toggle(index, last) {
+    if (last) return;
+    const features = new Set(this.state.get("features"));
+    if (!features.delete(index)) features.add(index);
+    this.change(features);
+  }
+}

@@ -1,0 +1,96 @@
+// The steps as small maps, each with its NH and what it added or removed (paper, Fig. 7). Click one to go back to it.
+
+import { element } from "../dom.js";
+import { bounds } from "../model.js";
+import { count, figure } from "../words.js";
+import { changes } from "./history.js";
+
+const SIZE = 56;
+
+export class HistoryStrip {
+  constructor(model, state, history, { go }) {
+    this.model = model;
+    this.state = state;
+    this.history = history;
+    this.go = go;
+    this.list = document.getElementById("steps");
+    this.list.addEventListener("keydown", (event) => this.#key(event));
+    this.undo = document.getElementById("undo");
+    this.redo = document.getElementById("redo");
+    this.undo.addEventListener("click", () => go(history.at - 1));
+    this.redo.addEventListener("click", () => go(history.at + 1));
+    state.listen((changed) => {
+      if (["step", "originalMap", "refinedMap", "theme"].some((name) => changed.has(name))) this.render();
+    });
+  }
+
+  render() {
+    const { history } = this;
+    const focused = document.activeElement?.dataset?.step;
+    this.list.replaceChildren(...history.steps.map((_, place) => element("li", {}, this.#step(place))));
+    this.undo.disabled = !history.canUndo;
+    this.redo.disabled = !history.canRedo;
+    const current = this.list.children[history.at].firstElementChild;
+    current.scrollIntoView({ block: "nearest", inline: "nearest" });
+    if (focused !== undefined) (this.list.querySelector(`[data-step="${focused}"]`) ?? current).focus({ preventScroll: true });
+  }
+
+  #step(place) {
+    const { history } = this;
+    const step = history.steps[place];
+    const map = step.bins.size > 0 ? step.refinedMap : step.originalMap;
+    const changed = place === 0 ? [] : changes(history.steps[place - 1], step);
+    const words = place === 0 ? "start" : changed.map(([number, word]) => changeOf(number, word)).join(", ");
+    const parts = place === 0
+      ? [element("span", {}, "start")]
+      : changed.map(([number, word]) => element("span", { class: number < 0 ? "removed" : "added" }, `${number < 0 ? "−" : "+"}${Math.abs(number)} ${word}`));
+    return element(
+      "button",
+      {
+        type: "button",
+        class: "step-of-work",
+        "data-step": place,
+        tabindex: place === history.at ? "0" : "-1",
+        "aria-current": place === history.at ? "step" : null,
+        "aria-label": `Step ${place + 1}: ${words}${map?.hitOfAll ? `, NH ${figure(map.hitOfAll)}` : ""}`,
+        title: `Step ${place + 1}: ${words}. ${step.bins.size > 0 ? `The map of ${count(step.bins.size, "bin")}.` : "The original map; no bins were chosen."}`,
+        onclick: () => this.go(place),
+      },
+      map ? this.#picture(map, step.hidden) : element("span", { class: "no-map" }),
+      element("span", { class: "told" }, element("b", {}, map ? figure(map.hitOfAll) : "…"), element("span", { class: "changed" }, parts)),
+    );
+  }
+
+  #picture(map, hidden) {
+    const { model } = this;
+    const dense = window.devicePixelRatio || 1;
+    const canvas = element("canvas", { width: SIZE * dense, height: SIZE * dense, "aria-hidden": "true" });
+    const pen = canvas.getContext("2d");
+    const { x, y, width, height } = bounds(map);
+    const scale = (SIZE - 8) / Math.max(width, height);
+    pen.scale(dense, dense);
+    const radius = Math.min(Math.max(24 / Math.sqrt(model.count), 0.8), 2);
+    for (let index = 0; index < model.count; index += 1) {
+      if (Number.isNaN(map.x[index]) || hidden.has(model.groups[index])) continue;
+      pen.fillStyle = model.color(model.groups[index]);
+      pen.beginPath();
+      pen.arc(SIZE / 2 + (map.x[index] - x) * scale, SIZE / 2 - (map.y[index] - y) * scale, radius, 0, 7);
+      pen.fill();
+    }
+    return canvas;
+  }
+
+  #key(event) {
+    const steps = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity };
+    if (!(event.key in steps)) return;
+    event.preventDefault();
+    const place = Number(document.activeElement.dataset.step ?? this.history.at) + steps[event.key];
+    const last = this.list.children.length - 1;
+    this.list.children[Math.min(Math.max(place, 0), last)].firstElementChild.focus();
+  }
+}
+
+/** "10 bins more", "1 class less". */
+function changeOf(number, word) {
+  return `${count(Math.abs(number), word, word === "class" ? "classes" : `${word}s`)} ${number < 0 ? "removed" : "added"}`;
+}

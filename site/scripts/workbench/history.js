@@ -1,0 +1,59 @@
+// The steps of the work, for undo, redo and the strip of small maps. A step is what undo takes back: the classes, the
+// features and the bins in use. It keeps the maps that were made for it.
+
+const MOST_STEPS = 200;
+
+export class History {
+  steps = [];
+  at = -1;
+
+  get current() {
+    return this.steps[this.at];
+  }
+
+  get canUndo() {
+    return this.at > 0;
+  }
+
+  get canRedo() {
+    return this.at < this.steps.length - 1;
+  }
+
+  /** A new step after the current one; what had been undone is gone. */
+  push(step) {
+    this.steps.length = this.at + 1;
+    this.steps.push(step);
+    if (this.steps.length > MOST_STEPS) this.steps.shift();
+    this.at = this.steps.length - 1;
+  }
+
+  /** The step nearest to the current one that has the same classes, features and bins; -1 if there is none. */
+  find(step) {
+    let best = -1;
+    for (const [place, other] of this.steps.entries()) {
+      if (alike(step, other) && (best < 0 || Math.abs(place - this.at) < Math.abs(best - this.at))) best = place;
+    }
+    return best;
+  }
+}
+
+/** Whether two steps have the same classes, features and bins. */
+export function alike(one, other) {
+  return ["hidden", "features", "bins"].every((name) => sameMembers(one[name], other[name]));
+}
+
+function sameMembers(one, other) {
+  return one.size === other.size && [...one].every((member) => other.has(member));
+}
+
+/** What a step added and removed, as [how many, of what]: [[10, "bin"], [-1, "feature"]]. */
+export function changes(before, after) {
+  const found = [];
+  for (const [name, word, sign] of [["bins", "bin", 1], ["hidden", "class", -1], ["features", "feature", 1]]) {
+    const more = [...after[name]].filter((member) => !before[name].has(member)).length;
+    const less = [...before[name]].filter((member) => !after[name].has(member)).length;
+    if (more > 0) found.push([more * sign, word]);
+    if (less > 0) found.push([-less * sign, word]);
+  }
+  return found.sort((a, b) => b[0] - a[0]);
+}

@@ -1,0 +1,65 @@
+// What stands around a map: what it is made from, what it reaches, and how its work stands.
+
+import { element } from "../dom.js";
+import { count, figure } from "../words.js";
+import { difference, symbol } from "./figures.js";
+import { StatusLine } from "./status-line.js";
+
+export class MapPanel {
+  /**
+   * `other` names the state's map that this one is compared with, or is null; `again` restarts work that was stopped,
+   * `empty` says what to show, as elements, where there is no map and none is being made.
+   */
+  constructor(which, state, bins, { other, again, stop, empty }) {
+    this.which = which;
+    this.state = state;
+    this.bins = bins;
+    this.other = other;
+    this.empty = empty;
+    this.figure = document.querySelector(`figure[data-map="${which}"]`);
+    this.madeFrom = this.figure.querySelector(".made-from");
+    this.nh = this.figure.querySelector(".nh");
+    this.blank = this.figure.querySelector(".empty");
+    this.status = new StatusLine(this.figure.querySelector(".status"), { again, stop });
+    const names = [`${which}Map`, `${which}Status`, other, "bins", "features", "hidden", ...(which === "refined" ? ["scores"] : [])].filter(Boolean);
+    state.listen((changed) => {
+      if (names.some((name) => changed.has(name))) this.render();
+    });
+  }
+
+  render() {
+    const map = this.state.get(`${this.which}Map`);
+    const status = this.state.get(`${this.which}Status`);
+    const before = this.other && this.state.get(this.other);
+    this.status.show(status);
+    this.madeFrom.textContent = this.which === "original" ? featureWords(this.state.get("features"), this.bins.features) : binWords(this.state.get("bins"), this.bins);
+    this.#showEmpty(map);
+    this.figure.classList.toggle("stale", status.kind !== "answered" && map !== null);
+    this.figure.classList.toggle("without", map === null);
+    this.nh.replaceChildren(...(map?.hitOfAll === null || map === null ? [] : [
+      symbol(),
+      element("output", { class: "value" }, figure(map.hitOfAll)),
+      ...(before && before.hitOfAll !== null ? [element("span", { class: `change ${map.hitOfAll < before.hitOfAll ? "worse" : "better"}` }, difference(map.hitOfAll - before.hitOfAll))] : []),
+      ...(map.chance !== null ? [element("span", { class: "chance", title: "What labels dealt at random reach on average" }, `random ${figure(map.chance)}`)] : []),
+    ]));
+  }
+
+  #showEmpty(map) {
+    this.blank.hidden = map !== null || this.state.get(`${this.which}Status`).kind !== "none";
+    if (!this.blank.hidden) this.blank.replaceChildren(...this.empty());
+  }
+}
+
+/** "7 bins of 2 features". */
+function binWords(chosen, bins) {
+  if (chosen.size === 0) return "";
+  const features = new Set([...chosen].map((column) => bins.featureOf(column)));
+  return `${count(chosen.size, "bin")} of ${featureWords(features, bins.features)}`;
+}
+
+/** "all 8 features", "Agd, Sc". */
+function featureWords(features, all) {
+  if (features.size === all.length) return all.length === 1 ? all[0].name : `all ${all.length} features`;
+  if (features.size <= 3) return [...features].sort((a, b) => a - b).map((feature) => all[feature].name).join(", ");
+  return count(features.size, "feature");
+}

@@ -1,0 +1,62 @@
+// Separation control (paper, Fig. 5, view 6): which classes are to be told from which, and so what a bin's score means.
+//
+// A separation is { from, against, each }: the classes to set apart (null: all in use), the classes to set them apart
+// from (null: the rest), and whether each stands for itself or all together are one group.
+
+import { shortened } from "../words.js";
+
+const MOST_NAMED = 3;
+
+/** All classes in use, each from the rest: what a reader who asks nothing in particular wants to know. */
+export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true });
+
+/** The classes of a separation among those in use. */
+export function sides({ from, against }, groups) {
+  return {
+    positive: groups.filter((group) => from === null || from.has(group)),
+    negative: against === null ? null : groups.filter((group) => against.has(group)),
+  };
+}
+
+/**
+ * What the scorers are asked: every contest is one group of classes against another, `positive` and `negative`.
+ *
+ * A contest and its mirror image are one; none has an empty side.
+ */
+export function contests(separation, groups) {
+  const { positive, negative } = sides(separation, groups);
+  const without = (others, own) => others.filter((group) => !own.includes(group));
+  let pairs;
+  if (!separation.each) pairs = [[positive, without(negative ?? groups, positive)]];
+  else if (negative === null) pairs = positive.map((group) => [[group], without(groups, [group])]);
+  else pairs = positive.flatMap((group) => without(negative, [group]).map((other) => [[group], [other]]));
+  const seen = new Set();
+  return pairs
+    .filter(([own, others]) => {
+      const key = [own.join(), others.join()].sort().join("|");
+      if (own.length === 0 || others.length === 0 || seen.has(key)) return false;
+      seen.add(key);
+      return true;
+    })
+    .map(([own, others]) => ({ positive: own, negative: others }));
+}
+
+/** A separation in words: "bird and airplane, each from the rest". */
+export function separationWords(separation, groups, model) {
+  const { positive, negative } = sides(separation, groups);
+  const names = (chosen) => {
+    if (chosen.length === groups.length && chosen.length > 2) return `all ${chosen.length} classes`;
+    if (chosen.length > MOST_NAMED) return `${chosen.length} classes`;
+    return list(chosen.map((group) => shortened(model.className(group), 24)));
+  };
+  if (contests(separation, groups).length === 1 && separation.each) {
+    const [{ positive: [one], negative: others }] = contests(separation, groups);
+    return `${names([one])} from ${others.length === 1 ? names(others) : "the rest"}`;
+  }
+  const manner = positive.length < 2 ? "" : separation.each ? ", each" : ", together,";
+  return `${names(positive)}${manner} from ${negative === null ? "the rest" : names(negative)}`;
+}
+
+function list(words) {
+  return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
+}

@@ -1,0 +1,35 @@
+// How a piece of work stands: after a moment a bar of progress and a way to stop it, and what went wrong.
+
+import { element } from "../dom.js";
+
+/** What is done sooner shows no progress. */
+const PATIENCE = 300;
+
+export class StatusLine {
+  #waiting = null;
+
+  constructor(node, { again, stop }) {
+    this.node = node;
+    this.bar = element("progress", { max: 1, "aria-label": "Progress" });
+    this.working = [this.bar, element("button", { type: "button", class: "plain", title: "Stop (Escape)", onclick: stop }, "Stop")];
+    this.again = (words) => element("button", { type: "button", class: "plain", onclick: again }, words);
+  }
+
+  show({ kind, progress, message }) {
+    if (kind === "working") {
+      this.bar.value = progress;
+      this.#waiting ??= setTimeout(() => this.#put(...this.working), PATIENCE);
+      return;
+    }
+    clearTimeout(this.#waiting);
+    this.#waiting = null;
+    if (kind === "stopped") this.#put("Stopped.", this.again("Continue"));
+    else if (kind === "failed") this.#put(element("span", { role: "alert" }, `That did not work: ${message}`), this.again("Try again"));
+    else this.#put();
+  }
+
+  #put(...children) {
+    this.node.hidden = children.length === 0;
+    this.node.replaceChildren(...children);
+  }
+}
