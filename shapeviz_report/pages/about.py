@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 
+from shapeviz_report.features import PRESETS
 from shapeviz_report.pages.base import METHODS, PageContent, class_names
 from shapeviz_report.types import FeatureSearch, Report
 
@@ -23,6 +24,9 @@ class AboutPage:
                 "failures": report.failures,
                 "warnings": report.database.warnings,
                 "projections": _projections(report),
+                "bins": next(iter(report.projections.values()))[0].bins,
+                "balanced": PRESETS[str(report.parameters["preset"])].balanced,
+                "searched": report.search is not None,
                 "stages": _stages(report),
                 "parameters": [(name, _plain(value)) for name, value in report.parameters.items()],
                 "versions": list(report.versions.items()),
@@ -128,6 +132,11 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
             for method in report.projections
         ),
         *(_search_downloads(report.search) if report.search is not None else ()),
+        *(
+            (("scores.npz", "how well every bin separates each class, by every scorer"),)
+            if report.scores is not None
+            else ()
+        ),
     ]
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from shapeviz_report import charts
 from shapeviz_report.projections import PROJECTIONS
-from shapeviz_report.types import FloatArray, Report
+from shapeviz_report.types import FloatArray, Projection, Report
 
 #: The projections by name.
 METHODS = {method.name: method for method in PROJECTIONS}
@@ -58,6 +58,14 @@ class Page(Protocol):
 def class_names(report: Report) -> tuple[str, ...]:
     """The classes of the active labeling that have a shape, sorted."""
     return tuple(sorted({label for label in report.labels if label is not None}))
+
+
+def bins_note(projection: Projection) -> str:
+    """A sentence on what a map compares where that is a choice of bins; empty for all bins."""
+    if projection.bins is None:
+        return ""
+    count = "one chosen bin" if len(projection.bins) == 1 else f"{len(projection.bins)} chosen bins"
+    return f" Only {count} of {', '.join(projection.features)} are compared."
 
 
 def feature_marks() -> dict[str, object]:

@@ -36,7 +36,7 @@ class FeaturesPage:
             return PageContent({"search": None})
         ranking = Ranking.of(search)
         return PageContent(
-            context={"search": _context(search, ranking)},
+            context={"search": _context(report, search, ranking)},
             chunks={"search": _scores(report, search, ranking), "subsets": _maps(search, ranking)},
         )
 
@@ -171,12 +171,14 @@ def _chance(report: Report, search: FeatureSearch) -> float | None:
     return quality.score(search.subsets.xy[everything][0].astype(float), labels, k=search.k).null_mean
 
 
-def _context(search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
+def _context(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
     """What the template says in words and tables."""
+    bins = next(iter(report.projections.values()))[0].bins
     labelled = bool(search.effects)
     return {
         "method": METHODS[search.method].title,
         "features": search.features,
+        "bins": None if bins is None else len(bins),
         "subsets": len(ranking.order),
         "exhaustive": search.exhaustive,
         "refusal": search.refusal,

@@ -7,7 +7,7 @@ from hashlib import sha256
 import numpy as np
 
 from shapeviz_report import charts
-from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
+from shapeviz_report.pages.base import METHODS, PageContent, bins_note, class_names, rounded
 from shapeviz_report.types import Projection, Quality, Report
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
@@ -72,7 +72,7 @@ def _method(projection: Projection, quality: Quality, classes: tuple[str, ...]) 
     return {
         "key": projection.method,
         "title": METHODS[projection.method].title,
-        "note": METHODS[projection.method].explanation,
+        "note": METHODS[projection.method].explanation + bins_note(projection),
         "features": list(projection.features),
         "x": rounded(projection.xy[:, 0], COORDINATE_DECIMALS),
         "y": rounded(projection.xy[:, 1], COORDINATE_DECIMALS),
@@ -88,15 +88,18 @@ def _method(projection: Projection, quality: Quality, classes: tuple[str, ...]) 
 
 
 def _subsets(report: Report) -> dict[str, object] | None:
-    """Whose maps the page can show beside those of all features; None if there was no search, or of a sample only."""
+    """Whose maps the page can show beside those of all features or of chosen bins; None if there was no search, or of a
+    sample only."""
     search = report.search
     if search is None or len(search.rows) < search.shape_count or search.method not in report.projections:
         return None
+    bins = report.projections[search.method][0].bins
     scores = search.subsets.nh_s
     best = None if np.isnan(scores).any() else search.subsets.members[int(scores.argmax())]
     return {
         "method": search.method,
         "features": list(search.features),
+        "bins": None if bins is None else len(bins),
         "best": None
         if best is None
         else [name for name, has in zip(search.features, best, strict=True) if has],

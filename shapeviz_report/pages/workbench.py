@@ -15,9 +15,6 @@ from shapeviz_report.types import FeatureBlock, FloatArray, Report
 #: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
 STEPS = 65535
 
-#: Significant digits of a bin's edge.
-EDGE_DIGITS = 4
-
 _DESCRIPTORS = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
 
 
@@ -55,7 +52,6 @@ def _workbench(
     projection, hits = next(iter(report.projections.values()))
     return {
         "features": _features(report, compared),
-        "dimensions": _edges(report),
         "sentences": list(explain_bins(report.features, report.edges, by_area=preset.by_area)),
         "scaling": "balanced" if preset.balanced else "plain",
         "neighbours": hits.k,
@@ -63,6 +59,8 @@ def _workbench(
         "method": projection.method,
         "scorers": _scorers(),
         "scored": report.scores is not None,
+        # The columns that the maps of the site are made from; null for all of them.
+        "bins": None if projection.bins is None else _columns(report, projection.bins),
         "example": _example(report, classes),
         "marks": feature_marks(),
     }
@@ -114,16 +112,6 @@ def _span(values: FloatArray) -> tuple[float, float]:
     return float(values.min()), float(values.max())
 
 
-def _edges(report: Report) -> list[list[float] | None]:
-    """The bin edges of every dimension; None for those of external features."""
-    edges = iter(report.edges)
-    return [
-        None if block.bins == 1 else [float(f"{edge:.{EDGE_DIGITS}g}") for edge in next(edges)]
-        for block in report.features.blocks
-        for _ in range(block.dimensions)
-    ]
-
-
 def _bins(report: Report, compared: FloatArray) -> bytes:
     """The compared values, column after column, each a number of steps between the ends of its feature."""
     parts = []
@@ -137,6 +125,11 @@ def _steps(values: np.ndarray, low: float, high: float) -> bytes:
     """Values as 16-bit numbers of steps from ``low`` to ``high``, in the order of the array."""
     width = high - low if high > low else 1.0
     return np.round((values - low) / width * STEPS).astype("<u2").tobytes()
+
+
+def _columns(report: Report, bins: tuple[str, ...]) -> list[int]:
+    place = {column: index for index, column in enumerate(report.features.columns)}
+    return [place[name] for name in bins]
 
 
 def _scorers() -> list[dict[str, object]]:
@@ -153,20 +146,34 @@ def _scorers() -> list[dict[str, object]]:
 
 
 def _example(report: Report, classes: tuple[str, ...]) -> dict[str, object] | None:
-    """The two classes most mixed on the original map: whose shapes have the most neighbours of the other class.
+    """The two classes most mixed on the map of all features: whose shapes have the most neighbours of the other class.
 
     ``mixed`` is the mean of two shares: of the neighbours of the one class that belong to the other, and the other
-    way round. None where no two classes are neighbours.
+    way round. None where no two classes are neighbours, or there is no such map.
     """
-    projection, hits = next(iter(report.projections.values()))
-    if len(classes) < 2 or hits.k < 1:
+    original = _original_map(report)
+    if original is None or len(classes) < 2:
         return None
+    xy, k = original
     member = np.array([[label == name for label in report.labels] for name in classes], dtype=float)
-    shares = (
-        member @ quality.neighbour_weights(projection.xy, hits.k) @ member.T / member.sum(axis=1)[:, None]
-    )
+    shares = member @ quality.neighbour_weights(xy, k) @ member.T / member.sum(axis=1)[:, None]
     mixed = np.triu((shares + shares.T) / 2, k=1)
     first, second = divmod(int(mixed.argmax()), len(classes))
     if mixed[first, second] == 0:
         return None
     return {"classes": [first, second], "mixed": round(float(mixed[first, second]), 6)}
+
+
+def _original_map(report: Report) -> tuple[FloatArray, int] | None:
+    """The points of all features' map and the number of neighbours; None where a site of chosen bins has no such map,
+    and for a single shape."""
+    projection, hits = next(iter(report.projections.values()))
+    if hits.k < 1:
+        return None
+    if projection.bins is None:
+        return projection.xy, hits.k
+    search = report.search
+    if search is None or len(search.rows) < search.shape_count:
+        return None
+    everything = search.subsets.members.all(axis=1)
+    return search.subsets.xy[everything][0].astype(float), search.k

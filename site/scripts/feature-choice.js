@@ -1,4 +1,5 @@
-// Which features the map of the Overview is made from: all of them, the best subset, or one chosen on the Features page.
+// What the map of the Overview is made from: all features, or the bins that the site was made for; the best subset of the
+// features; or one chosen on the Features page.
 
 import { chunk } from "./chunks.js";
 import { Subsets } from "./subsets.js";
@@ -48,9 +49,9 @@ export class FeatureChoice {
 
 /** The index of a subset's map in the model, where it is added when first asked for; null if it was not evaluated. */
 export async function subsetMethod(model, names) {
-  const { method, features } = model.data.subsets;
+  const { method, features, bins } = model.data.subsets;
   const base = model.methods.findIndex(({ key }) => key === method);
-  if (names.length === features.length) return base;
+  if (bins === null && names.length === features.length) return base;
   const subsets = new Subsets(await chunk("search"));
   const place = subsets.find(names);
   return place === undefined ? null : model.add(await subsets.map(place, model.classes.length), base);
