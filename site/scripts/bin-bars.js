@@ -1,0 +1,94 @@
+// Paints bars of bins: thousands in a frame, none lost where several share a pixel.
+
+/** Bars narrower than this many pixels of the screen share their pixels. */
+const SHARED = 2;
+
+/**
+ * How much of every pixel column belongs to each feature, and the highest bar that touches it.
+ *
+ * `bars` are `{ columns, position, level, feature }`: the columns to paint, and by column its place, its height in
+ * [0, 1] and its feature. `view` is `{ left, step }`: the place at the left edge, and pixels a place.
+ */
+export function crowd({ columns, position, level, feature }, { left, step }, width, features) {
+  const shares = new Float32Array(width * features);
+  const totals = new Float32Array(width);
+  const peaks = new Float32Array(width);
+  for (const column of columns) {
+    const start = (position[column] - left) * step;
+    const end = start + step;
+    for (let pixel = Math.max(Math.floor(start), 0); pixel < Math.min(end, width); pixel += 1) {
+      const share = Math.min(end, pixel + 1) - Math.max(start, pixel);
+      shares[pixel * features + feature[column]] += share;
+      totals[pixel] += share;
+      if (level[column] > peaks[pixel]) peaks[pixel] = level[column];
+    }
+  }
+  return { shares, totals, peaks };
+}
+
+/** Height in pixels of a level; nothing above zero vanishes. */
+function heightOf(level, room) {
+  return level > 0 ? Math.max(Math.round(level * room), 1) : 0;
+}
+
+/**
+ * Paint bars that stand on `base` and may rise by `room`; all numbers are pixels of the screen.
+ *
+ * Where bars share a pixel column, it is as high as the highest of them, and each feature has its share of its length:
+ * the colours of a place say which features are found there.
+ */
+export function paintBars(context, bars, view, { width, base, room, colors }) {
+  if (view.step >= SHARED) {
+    for (const column of bars.columns) {
+      const [start, end] = edges(bars.position[column], view);
+      const height = heightOf(bars.level[column], room);
+      context.fillStyle = colors[bars.feature[column]];
+      context.fillRect(start, base - height, end - start, height);
+    }
+    return;
+  }
+  const { shares, totals, peaks } = crowd(bars, view, width, colors.length);
+  const floors = new Float32Array(width).fill(base);
+  for (const [feature, color] of colors.entries()) {
+    context.fillStyle = color;
+    for (let pixel = 0; pixel < width; pixel += 1) {
+      const share = shares[pixel * colors.length + feature];
+      if (share === 0) continue;
+      const height = (heightOf(peaks[pixel], room) * share) / totals[pixel];
+      floors[pixel] -= height;
+      context.fillRect(pixel, floors[pixel], 1, height);
+    }
+  }
+}
+
+/** Where a bar begins and ends, on whole pixels, with a gap to the next where there is room for one. */
+export function edges(position, { left, step }) {
+  const start = Math.round((position - left) * step);
+  const end = Math.round((position + 1 - left) * step);
+  return [start, end - (step >= 3 ? Math.max(1, Math.round(step / 12)) : 0)];
+}
+
+/** Paint a row of marks a feature, as the Features page has under its bars: a mark where one of its bins stands. */
+export function paintRows(context, bars, view, { width, top, height, gap, colors, rows }) {
+  const of = new Map(rows.map((feature, row) => [feature, row]));
+  if (view.step >= SHARED) {
+    for (const column of bars.columns) {
+      const [start, end] = edges(bars.position[column], view);
+      context.fillStyle = colors[bars.feature[column]];
+      context.fillRect(start, top + of.get(bars.feature[column]) * height, end - start, height - gap);
+    }
+    return;
+  }
+  const { shares } = crowd(bars, view, width, colors.length);
+  for (const [feature, row] of of) {
+    context.fillStyle = colors[feature];
+    for (let pixel = 0; pixel < width; pixel += 1) {
+      const share = shares[pixel * colors.length + feature];
+      if (share === 0) continue;
+      // A single bin among many still shows.
+      context.globalAlpha = Math.max(Math.min(share, 1), 0.35);
+      context.fillRect(pixel, top + row * height, 1, height - gap);
+    }
+  }
+  context.globalAlpha = 1;
+}

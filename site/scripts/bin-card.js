@@ -1,0 +1,165 @@
+// The card of a bin: what it is, how well it separates, and which classes have much of it.
+
+import { element, svg, swatch } from "./dom.js";
+import { count, figure, grouped, shortened } from "./words.js";
+
+const WIDTH = 190;
+const ROW = 16;
+const MOST_ROWS = 20;
+/** Above so many shapes in a class, dots would only be a smear. */
+const MOST_DOTS = 60;
+const GAP = 10;
+
+export class BinCard {
+  /** `bins` is a Bins, `model` the Model of the shapes, whose classes give names and colours. */
+  constructor(bins, model) {
+    this.bins = bins;
+    this.model = model;
+    this.node = element("div", { class: "card bin-card", hidden: true });
+    document.body.append(this.node);
+    this.members = new Map();
+    model.groups.forEach((group, row) => {
+      if (!this.members.has(group)) this.members.set(group, []);
+      this.members.get(group).push(row);
+    });
+  }
+
+  /**
+   * What is to be said of a bin besides itself: relative scores a column (NaN where not in use), the scorer's title,
+   * and the classes in use by their numbers, those that are to be separated apart from the others.
+   */
+  know({ scores, scorer, separated, others }) {
+    Object.assign(this, { scores, scorer, separated, others });
+  }
+
+  /** Show the card of a column beside a box of the window, its bar. */
+  show(column, box) {
+    this.node.replaceChildren(...this.#words(column), this.#classes(column));
+    this.node.hidden = false;
+    this.#place(box);
+  }
+
+  hide() {
+    this.node.hidden = true;
+  }
+
+  #words(column) {
+    const { bins } = this;
+    const feature = bins.features[bins.featureOf(column)];
+    const mark = element("i", { class: "hued" });
+    mark.style.background = bins.color(column);
+    const means = bins.isShare(column) && (bins.binOf(column) < feature.bins / 2 ? ["Low values: ", feature.lowMeans] : ["High values: ", feature.highMeans]);
+    const score = Number.isNaN(this.scores[column]) ? null : [figure(this.scores[column]), ` by ${this.scorer}, rank ${grouped(this.#rank(column))}`];
+    return [
+      element("p", { class: "name" }, mark, element("b", {}, element("bdi", {}, bins.names[column])), feature.title),
+      element("p", {}, bins.sentence(column)),
+      means && means[1] && element("p", { class: "quiet" }, means, "."),
+      score && element("p", { class: "quiet" }, "Score ", element("b", {}, score[0]), score[1]),
+    ].filter(Boolean);
+  }
+
+  #rank(column) {
+    const better = (score, other) => score > this.scores[column] || (score === this.scores[column] && other < column);
+    return this.scores.reduce((rank, score, other) => rank + better(score, other), 1);
+  }
+
+  /** A row a class: its shapes as dots on one axis, the middle half of them as a band, the median as a line. */
+  #classes(column) {
+    const rows = this.#rows(column);
+    const shown = rows.slice(0, MOST_ROWS);
+    const share = this.bins.isShare(column);
+    const values = shown.flatMap((row) => row.values);
+    const [least, most] = share ? [0, niceAbove(values.reduce((a, b) => Math.max(a, b), 0))] : [Math.min(...values), Math.max(...values)];
+    const x = (value) => (most > least ? (WIDTH * (value - least)) / (most - least) : 0);
+    const height = ROW * shown.length;
+    const edge = shown.findIndex(({ apart }) => !apart);
+    const chart = svg(
+      "svg",
+      { class: "strips", width: WIDTH, height, viewBox: `0 0 ${WIDTH} ${height}`, "aria-hidden": "true" },
+      [0, 0.5, 1].map((part) => svg("line", { class: "grid", x1: part * WIDTH, x2: part * WIDTH, y1: 0, y2: height })),
+      edge > 0 && svg("line", { class: "grid", x1: -8, x2: WIDTH + 8, y1: ROW * edge, y2: ROW * edge }),
+      shown.map((row, place) => strip(row, place, x)),
+    );
+    const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null, dir: "auto" }, content);
+    const told = share ? percent : (value) => String(Number(value.toPrecision(3)));
+    return element(
+      "div",
+      { class: "of-bin" },
+      element("ul", { class: "names" }, shown.map((row, place) => item(place, row.mark, shortened(row.name, 40)))),
+      chart,
+      element("ul", { class: "medians" }, shown.map((row, place) => item(place, told(row.median)))),
+      element("p", { class: "axis" }, [least, (least + most) / 2, most].map((value) => element("span", {}, told(value)))),
+      rows.length > shown.length && element("p", { class: "more" }, `and ${count(rows.length - shown.length, "more class", "more classes")}`),
+    );
+  }
+
+  /** The classes in use with their sorted values, those to be separated first, those with most of the bin on top. */
+  #rows(column) {
+    const { model, members } = this;
+    const row = (rows, apart, name, mark, color) => {
+      const values = rows.map((index) => this.bins.share(column, index)).sort((a, b) => a - b);
+      return { apart, name, mark, color, values, median: quantile(values, 0.5), mean: values.reduce((a, b) => a + b, 0) / values.length };
+    };
+    const byHeight = (a, b) => b.median - a.median || b.mean - a.mean;
+    const of = (groups, apart) =>
+      groups
+        .filter((group) => members.has(group))
+        .map((group) => row(members.get(group), apart, model.className(group), swatch(model.symbol(group), model.color(group)), model.color(group)))
+        .sort(byHeight);
+    const rows = [...of(this.separated, true), ...of(this.others, false)];
+    return rows.length > 0 ? rows : [row(model.groups.map((_, index) => index), false, "all shapes", null, model.color(-1))];
+  }
+
+  #place({ left, top, width, height }) {
+    const { offsetWidth, offsetHeight } = this.node;
+    const middle = left + width / 2;
+    let x = middle - offsetWidth / 2;
+    let y = top - GAP - offsetHeight;
+    if (y < 8) y = top + height + GAP;
+    if (y + offsetHeight > window.innerHeight - 8) {
+      // No room above or below: beside the bar.
+      y = Math.max(window.innerHeight - offsetHeight - 8, 8);
+      x = middle + 24 + offsetWidth < window.innerWidth - 8 ? middle + 24 : middle - 24 - offsetWidth;
+    }
+    x = Math.min(Math.max(x, 8), window.innerWidth - offsetWidth - 8);
+    this.node.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+  }
+}
+
+function strip({ values, median, color }, place, x) {
+  const middle = (place + 0.5) * ROW;
+  const [low, high] = [quantile(values, 0.25), quantile(values, 0.75)].map(x);
+  const dots = values.length <= MOST_DOTS ? values : [values[0], values.at(-1)];
+  const group = svg(
+    "g",
+    {},
+    values.length > MOST_DOTS && svg("line", { class: "reach", x1: x(values[0]), x2: x(values.at(-1)), y1: middle, y2: middle }),
+    svg("rect", { class: "band", x: low, width: Math.max(high - low, 1), y: middle - 5, height: 10 }),
+    dots.map((value) => svg("circle", { cx: x(value), cy: middle, r: 1.8 })),
+    svg("line", { class: "median", x1: x(median), x2: x(median), y1: middle - 6, y2: middle + 6 }),
+  );
+  group.style.setProperty("--class", color);
+  return group;
+}
+
+/** A quantile of sorted values. */
+function quantile(values, share) {
+  const place = share * (values.length - 1);
+  const below = Math.floor(place);
+  const above = Math.min(below + 1, values.length - 1);
+  return values[below] + (place - below) * (values[above] - values[below]);
+}
+
+/** A share in percent, short. */
+function percent(share) {
+  const value = 100 * share;
+  if (value > 0 && value < 0.05) return "< 0.1 %";
+  return `${value === 0 || value >= 9.95 ? value.toFixed(0) : value.toFixed(1)} %`;
+}
+
+/** The next share that an axis may well end at. */
+function niceAbove(share) {
+  if (share <= 0) return 0.01;
+  const unit = 10 ** Math.floor(Math.log10(share));
+  return Math.min([1, 2, 3, 4, 5, 6, 8, 10].find((step) => step * unit >= share - 1e-12) * unit, 1);
+}
