@@ -12,6 +12,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from shapeviz_report import quality
+from shapeviz_report.bins import features_of
 from shapeviz_report.features import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import make_space, search_features
@@ -118,8 +119,11 @@ def with_search(report: Report, *, limit: int = 1000) -> Report:
 
 
 def with_scores(report: Report) -> Report:
-    """The report with the scores of its bins for every class against the rest, by all scorers."""
+    """The report with the scores of its bins for every class against the rest, by all scorers; without where there
+    are not two classes."""
     classes = tuple(sorted({label for label in report.labels if label is not None}))
+    if len(classes) < 2:
+        return report
     compared = compared_values(report.features, PRESETS["default"])
     scores = [
         [score_separation(scorer, compared, as_one_group(report.labels, [name])) for name in classes]
@@ -127,6 +131,16 @@ def with_scores(report: Report) -> Report:
     ]
     names = tuple(scorer.name for scorer in SCORERS)
     return replace(report, scores=BinScores(names, classes, np.array(scores, dtype=np.float32)))
+
+
+def with_bins(report: Report, bins: tuple[str, ...]) -> Report:
+    """The report as if its maps, which stay as they are, were of these bins only."""
+    features = features_of(report.features, bins)
+    projections = {
+        method: (replace(projection, features=features, bins=bins), hits)
+        for method, (projection, hits) in report.projections.items()
+    }
+    return replace(report, projections=projections)
 
 
 def _facts(index: int) -> ShapeFacts:

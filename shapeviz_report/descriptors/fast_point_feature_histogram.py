@@ -40,20 +40,29 @@ def compute(surface: Surface) -> np.ndarray:
 def _word_bin(dimension: int) -> str:
     """The neighbours that a dimension counts."""
     angle, place = divmod(dimension, 11)
-    if angle == 2:
-        low, high = (
-            f"{abs(360 * (place + side) / 11 - 180):.0f}" for side in ((0, 1) if place > 5 else (1, 0))
+    ends = np.arange(place, place + 2) / 11 * 2 - 1
+    degrees = np.sort(np.abs(180 * ends if angle == 2 else np.degrees(np.arcsin(ends)))).round().astype(int)
+    near, far = degrees
+    middle = place == 5
+    if angle == 0:
+        side = "right" if place > 5 else "left"
+        which = (
+            f"whose normal leans sideways by less than {far}°"
+            if middle
+            else f"whose normal leans to the {side} by {near} to {far}°"
         )
-        way = "outwards" if place > 5 else "inwards"
-        turn = f"by less than {high}°" if place == 5 else f"{way} by {low} to {high}°"
-        return f"the share of neighbouring points whose normal turns {turn}"
-    low, high = (f"{2 * (place + side) / 11 - 1:.2f}".replace("-", "−") for side in (0, 1))
-    if angle == 1:
-        return (
-            "the share of neighbouring points that lie above the tangent plane at an angle with a sine of "
-            f"{low} to {high}"
+    elif angle == 1:
+        side = "above" if place > 5 else "below"
+        which = f"that lie within {far}° of" if middle else f"that lie {near} to {far}° {side}"
+        which += " the tangent plane"
+    else:
+        side = "outwards" if place > 5 else "inwards"
+        which = (
+            f"whose normal turns by less than {far}°"
+            if middle
+            else f"whose normal turns {side} by {near} to {far}°"
         )
-    return f"the share of neighbouring points whose normal leans to the right with a sine of {low} to {high}"
+    return f"the share of neighbouring points {which}"
 
 
 FAST_POINT_FEATURE_HISTOGRAM = Descriptor(

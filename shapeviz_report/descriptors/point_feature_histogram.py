@@ -32,8 +32,20 @@ def compute(surface: Surface) -> np.ndarray:
     return count_pfh(surface.vertices, surface.normals, surface.neighbours)
 
 
-LEANS = ("steeply to the left", "to the left", "not sideways", "to the right", "steeply to the right")
-HEIGHTS = ("far below", "below", "level with", "above", "far above")
+LEANS = (
+    "leans more than 37° to the left",
+    "leans 12 to 37° to the left",
+    "leans sideways by less than 12°",
+    "leans 12 to 37° to the right",
+    "leans more than 37° to the right",
+)
+HEIGHTS = (
+    "more than 37° below",
+    "12 to 37° below",
+    "within 12° of",
+    "12 to 37° above",
+    "more than 37° above",
+)
 TURNS = (
     "folds inwards by more than 108°",
     "bends inwards by 36 to 108°",
@@ -49,7 +61,7 @@ def _word_cell(dimension: int) -> str:
     alpha, phi, theta = dimension // 25, dimension // 5 % 5, dimension % 5
     return (
         f"the share of point pairs in a patch of which one lies {HEIGHTS[phi]} the other's tangent plane, while the "
-        f"normal {TURNS[theta]} on the way and leans {LEANS[alpha]}"
+        f"normal {TURNS[theta]} on the way and {LEANS[alpha]}"
     )
 
 

@@ -7,11 +7,12 @@ import pkgutil
 from pathlib import Path
 
 import pytest
+from solids import lump
 
 from shapeviz_report import database, demo, descriptors, projections
 from shapeviz_report.database import LAYOUTS
 from shapeviz_report.demo import CLASSES
-from shapeviz_report.descriptors import DESCRIPTORS
+from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.features import PRESETS
 from shapeviz_report.projections import PROJECTIONS
 
@@ -32,6 +33,11 @@ def test_descriptor(descriptor) -> None:
     assert "Returns" in text
     assert f"(n, {descriptor.dimensions})" in text
     assert descriptor.measures.endswith(".")
+    assert len(set(descriptor.quantities)) == descriptor.dimensions
+    assert descriptor.compute(Surface(lump())).shape[1] == descriptor.dimensions
+    for words in (*descriptor.quantities, descriptor.low, descriptor.high):
+        assert words
+        assert not words.endswith("."), "these words stand within a sentence"
     assert f"**{descriptor.name}**" in METHOD
 
 

@@ -12,6 +12,7 @@ from scipy.spatial import Delaunay, cKDTree
 from solids import ball, from_trimesh, lump, rotation, sheet, torus, tube
 
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
+from shapeviz_report.descriptors.kernels.pairs import count_pfh, count_spfh
 from shapeviz_report.descriptors.shape_context import SEEN, SHELLS
 from shapeviz_report.descriptors.surface import CENTRES
 from shapeviz_report.features import compute_histograms, fixed_edges
@@ -415,3 +416,65 @@ def test_ranges_sit_where_the_values_are(descriptor) -> None:
     limb = Mesh(lump().vertices * [1, 0.3, 0.3], lump().faces)
     values = np.asarray(descriptor.compute(Surface(normalise(limb))))
     assert np.mean((values >= edges[0]) & (values <= edges[-1])) > 0.9
+
+
+# What dimensions are in words
+
+
+def seen_from(direction, normal) -> set[str]:
+    """What PFH and FPFH say, in words, of a point in some direction from one whose normal points up."""
+    vertices = np.array([[0, 0, 0], direction], float)
+    normals = np.array([[0, 0, 1], normal], float)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    neighbours = np.array([[1], [0]])
+    three = count_spfh(vertices, normals, neighbours)[0]
+    # PFH counts both directions of the pair; the first point as seen from the second is a cell of its own.
+    both = count_pfh(vertices, normals, np.array([[0, 1]] * 2))[0]
+    return {BY_NAME["FPFH"].quantities[i] for i in np.flatnonzero(three)} | {
+        BY_NAME["PFH"].quantities[i] for i in np.flatnonzero(both)
+    }
+
+
+@pytest.mark.parametrize(
+    ("direction", "normal", "words"),
+    [
+        # Ahead lies x, up lies z, so y is on the left.
+        (
+            (1, 0, 0),
+            (1, 0, 1),
+            ["turns outwards by 16 to 49°", "lies within 12° of", "bends outwards by 36 to 108°"],
+        ),
+        ((1, 0, 0), (-1, 0, 1), ["turns inwards by 16 to 49°", "bends inwards by 36 to 108°"]),
+        (
+            (1, 0, 0),
+            (0, -1, 1),
+            ["leans to the right by 40 to 55°", "leans more than 37° to the right"],
+        ),
+        ((1, 0, 0), (0, 1, 2), ["leans to the left by 16 to 27°", "leans 12 to 37° to the left"]),
+        (
+            (1, 0, -1),
+            (0, 0, 1),
+            ["lie 40 to 55° below", "lies more than 37° below", "turns by less than 36°"],
+        ),
+        ((2, 0, 1), (0, 0, 1), ["lie 16 to 27° above", "lies 12 to 37° above", "turns by less than 16°"]),
+    ],
+)
+def test_point_pairs_in_words(direction, normal, words) -> None:
+    found = seen_from(direction, normal)
+    for word in words:
+        assert any(word in text for text in found), (word, found)
+
+
+def test_shape_contexts_in_words() -> None:
+    surface = Surface(ball(3))
+    shares = dict(zip(BY_NAME["Sc"].quantities, compute("Sc", ball(3)).mean(axis=0), strict=True))
+    # All of a ball lies inside its tangent planes.
+    assert sum(
+        share for text, share in shares.items() if "inside the tangent plane" in text
+    ) == pytest.approx(1)
+    distances = np.linalg.norm(surface.vertices[:, None] - surface.vertices, axis=2)
+    far = (distances > 0.6).sum() / (len(distances) * (len(distances) - 1))
+    found = sum(
+        share for text, share in shares.items() if "more than 0.6 times the shape's radius away" in text
+    )
+    assert found == pytest.approx(far, abs=0.01)
