@@ -1,5 +1,6 @@
 // The Workbench (paper, 4.3 and Fig. 5): choose classes, features and bins, and see the maps they make.
 
+import { BinCard } from "../bin-card.js";
 import { BinChart } from "../bin-chart.js";
 import { Bins } from "../bins.js";
 import { Card } from "../card.js";
@@ -23,7 +24,7 @@ import { FeatureList } from "../workbench/feature-list.js";
 import { Guide } from "../workbench/guide.js";
 import { HistoryStrip } from "../workbench/history-strip.js";
 import { MapPanel } from "../workbench/map-panel.js";
-import { separationWords } from "../workbench/separation.js";
+import { separationWords, sides } from "../workbench/separation.js";
 import { StatusLine } from "../workbench/status-line.js";
 import { workTables } from "../workbench/work-tables.js";
 
@@ -34,6 +35,7 @@ async function main() {
   const [overview, data, bytes] = await Promise.all([chunk("overview"), chunk("workbench"), chunk("bins")]);
   const bins = new Bins(data, bytes);
   const model = new Model(overview, currentTheme);
+  const content = document.getElementById("content");
   const live = document.getElementById("live");
   const announce = (text) => {
     live.textContent = text;
@@ -87,21 +89,34 @@ async function main() {
   if (model.labelled) new ClassTable(model, state, { change: (hidden) => desk.use({ hidden }), separate: (part, groups) => desk.separate(part, groups) });
   new FeatureList(bins, state, marks, (features) => desk.use({ features }));
   const strip = new HistoryStrip(model, state, desk.history, { go: (place) => desk.go(place) });
+  const binCard = new BinCard(bins, model);
   const chart = new BinChart(document.getElementById("bin-chart"), bins, {
     onToggle: (column) => desk.toggle([column]),
     onRange: (columns) => desk.add(columns),
     onRemove: (columns) => desk.remove(columns),
-    onPoint: () => {},
+    onPoint: (column, box) => (column === null ? binCard.hide() : binCard.show(column, box)),
     announce,
   });
   const status = new StatusLine(document.getElementById("scores-status"), { again: () => desk.ask(["scores"]), stop: () => desk.stop("scores") });
-  const drawChart = () =>
+  const noScores = new Float64Array(bins.count).fill(NaN);
+  const drawChart = () => {
+    const scores = state.get("scores") ?? noScores;
+    const groups = answers.groups(state.get("hidden"));
+    const separation = state.get("separation");
+    const { positive } = sides(separation, groups);
+    binCard.know({
+      scores,
+      scorer: model.separable ? data.scorers.find(({ key }) => key === state.get("scorer")).title : "standard deviation",
+      separated: positive,
+      others: groups.filter((group) => !positive.includes(group)),
+    });
     chart.draw({
-      scores: state.get("scores") ?? new Float64Array(bins.count).fill(NaN),
+      scores,
       chosen: state.get("bins"),
       busy: state.get("scoresStatus").kind === "working",
-      separation: model.separable ? separationWords(state.get("separation"), answers.groups(state.get("hidden")), model) : null,
+      separation: model.separable ? separationWords(separation, groups, model) : null,
     });
+  };
   watchControls(model, data, state, desk);
   watchKeys(state, desk, new Map(maps.map((map, place) => [map.surface, gestures[place]])));
   watchTables(() => workTables(model, bins, state));
@@ -109,8 +124,9 @@ async function main() {
   new Guide(model, data, bins, state, desk);
 
   state.listen((changed) => {
-    if (["scores", "bins", "scoresStatus", "separation", "hidden"].some((name) => changed.has(name))) drawChart();
+    if (["scores", "bins", "scoresStatus", "separation", "hidden", "scorer"].some((name) => changed.has(name))) drawChart();
     if (changed.has("scoresStatus")) status.show(state.get("scoresStatus"));
+    if ([...changed].some((name) => name.endsWith("Status"))) content.setAttribute("aria-busy", String(desk.busy));
     if (changed.has("color")) {
       for (const map of maps) {
         map.name = state.get("color");

@@ -1,6 +1,7 @@
 // The work in the address: a link, and a reload, bring back the same maps and the same figures.
 
 import { joinNames, splitNames } from "../address.js";
+import { isSame } from "./answers.js";
 import { readShortNames, shortNames } from "./bin-names.js";
 import { EVERY_CLASS } from "./separation.js";
 
@@ -13,7 +14,8 @@ export function readWorkAddress(model, data) {
   const known = splitNames(query.get("features"), data.features.map(({ name }) => name));
   const features = new Set(data.features.keys());
   if (known.length > 0) for (const [index, { name }] of data.features.entries()) if (!known.includes(name)) features.delete(index);
-  const bins = [...readShortNames(query.get("bins"), data.features)].filter((column) => features.has(featureOf(column, data)));
+  const chosen = query.has("bins") ? readShortNames(query.get("bins"), data.features) : (data.bins ?? []);
+  const bins = [...chosen].filter((column) => features.has(featureOf(column, data)));
   const scorers = data.scorers.map(({ key }) => key);
   return {
     hidden: readHidden(query, named, model),
@@ -57,7 +59,7 @@ export function workAddress(model, data, state) {
   if (used.length === 0) query.append("class", "");
   const features = state.get("features");
   if (features.size < data.features.length) query.set("features", joinNames([...features].sort((a, b) => a - b).map((index) => data.features[index].name)));
-  if (state.get("bins").size > 0) query.set("bins", shortNames(state.get("bins"), data.features));
+  if (!isSame(state.get("bins"), data.bins ?? [])) query.set("bins", shortNames(state.get("bins"), data.features));
   if (state.get("projection") !== (PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0])) query.set("map", state.get("projection"));
   if (state.get("scorer") !== "trees") query.set("scorer", state.get("scorer"));
   const { from, against, each } = state.get("separation");

@@ -53,7 +53,8 @@ export class Answers {
   refined(projection, { hidden, bins }, report, partial) {
     const columns = Int32Array.from(bins).sort();
     const asked = { method: projection, rows: this.rows(hidden), columns, by: "bins" };
-    return this.#chain((run) => this.#layout(run, asked, report, partial));
+    const offline = hidden.size === 0 && isSame(bins, this.data.bins) ? this.#siteMap(projection) : null;
+    return this.#chain(async (run) => offline ?? this.#layout(run, asked, report, partial));
   }
 
   /** Relative scores of all columns; no numbers for those of features that are not in use. */
@@ -92,14 +93,17 @@ export class Answers {
   /** The map of all shapes under some features, if it travels with the site. */
   async #offlineMap(projection, features) {
     const { model, bins } = this;
-    const { methods, subsets } = model.data;
-    if (features.size === bins.features.length) {
-      return methods.find(({ key }) => key === projection) ?? null;
-    }
+    const { subsets } = model.data;
+    if (features.size === bins.features.length && this.data.bins === null) return this.#siteMap(projection);
     if (!subsets || subsets.method !== projection) return null;
     const searched = new Subsets(await chunk("search"));
     const place = searched.find([...features].map((feature) => bins.features[feature].name));
     return place === undefined ? null : searched.map(place, model.classes.length);
+  }
+
+  /** The map that the whole site shows. */
+  #siteMap(projection) {
+    return this.model.data.methods.find(({ key }) => key === projection) ?? null;
   }
 
   #offlineScores(scorer, separation, hidden, features) {
@@ -127,7 +131,7 @@ export class Answers {
     const { model, data } = this;
     // Every layout turns to agree with the site's own map, so that the same address gives the same map on any way
     // there, and a reader finds shapes where they were.
-    const base = model.data.methods.find(({ key }) => key === method) ?? model.data.methods[0];
+    const base = this.#siteMap(method) ?? model.data.methods[0];
     const reference = Float32Array.from({ length: 2 * rows.length }, (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]]);
     const spread = (xy, place) => {
       const all = new Array(model.count).fill(NaN);
@@ -174,6 +178,11 @@ export class Answers {
       },
     };
   }
+}
+
+/** Whether a site of chosen bins is made from just these. */
+export function isSame(bins, ofSite) {
+  return ofSite !== null && bins.size === ofSite.length && ofSite.every((column) => bins.has(column));
 }
 
 function known(value) {

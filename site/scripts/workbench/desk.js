@@ -101,6 +101,11 @@ export class Desk {
     this.ask({ separation: { ...this.state.get("separation"), [part]: new Set(groups) } });
   }
 
+  /** Whether anything is being worked on. */
+  get busy() {
+    return Object.keys(this.inquiries).some((name) => this.state.get(`${name}Status`).kind === "working");
+  }
+
   stop(name) {
     const stopped = this.inquiries[name].stop();
     if (stopped) this.scenes[name]?.rest();

@@ -48,7 +48,7 @@ export class Guide {
     if (this.step === null || this.example === null) return;
     const focused = this.node.contains(document.activeElement);
     const steps = this.#steps();
-    const { words, action, todo } = steps[this.step];
+    const { words, action, todo } = steps[this.step]();
     this.node.replaceChildren(
       element("b", { class: "which" }, `Example, step ${this.step + 1} of ${steps.length}`),
       element("p", { "aria-live": "polite" }, words),
@@ -72,26 +72,26 @@ export class Guide {
     const others = [...this.model.sizes.keys()].filter((group) => group !== one && group !== other);
     const settled = (name) => state.get(`${name}Status`).kind === "answered";
     return [
-      {
+      () => ({
         words: [...pair, ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(this.example.mixed * 100)} % are of the other of the two.`],
         action: "Show only these two",
         todo: () => act.use({ hidden: new Set(others) }),
-      },
-      {
+      }),
+      () => ({
         words: ["Each bar below is one bin: the share of a surface within a small range of a feature. Its height can say how well this share alone tells ", ...pair, " apart."],
         action: "Score the bins for that",
-        todo: () => act.ask({ scorer: "trees", separation: { from: new Set([one]), against: new Set([other]), each: true } }),
-      },
-      {
+        todo: () => act.ask({ separation: { from: new Set([one]), against: new Set([other]), each: true } }),
+      }),
+      () => ({
         words: settled("scores") ? this.#bestBin() : "Scoring …",
         action: `Take the best ${BEST}`,
         todo: settled("scores") ? () => act.takeBest(BEST) : null,
-      },
-      {
+      }),
+      () => ({
         words: settled("refined") && settled("original") ? this.#result(pair) : "Making the map of these bins …",
         action: "Bring all classes back",
         todo: settled("refined") ? () => act.use({ hidden: new Set() }) : null,
-      },
+      }),
     ];
   }
 

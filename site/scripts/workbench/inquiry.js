@@ -27,27 +27,25 @@ export class Inquiry {
     this.#drop();
     this.key = key;
     if (this.#answers.has(key)) {
-      this.tell({ kind: "answered" });
       answered(this.#answers.get(key));
+      this.tell({ kind: "answered" });
       return;
     }
     const report = ({ progress }) => this.#job === job && this.tell({ kind: "working", progress });
     const job = start(report);
     this.#job = job;
     this.tell({ kind: "working", progress: 0 });
-    try {
-      const answer = await job.done;
-      if (this.#job !== job) return;
-      this.#job = null;
-      this.#keep(key, answer);
-      this.tell({ kind: "answered" });
-      answered(answer);
-    } catch (error) {
-      if (this.#job !== job) return;
-      this.#job = null;
+    const ending = await job.done.then((answer) => ({ answer }), (error) => ({ error }));
+    if (this.#job !== job) return;
+    this.#job = null;
+    if (ending.error) {
       this.key = null;
-      this.tell(error instanceof Cancelled ? { kind: "stopped" } : { kind: "failed", message: error.message });
+      this.tell(ending.error instanceof Cancelled ? { kind: "stopped" } : { kind: "failed", message: ending.error.message });
+      return;
     }
+    this.#keep(key, ending.answer);
+    answered(ending.answer);
+    this.tell({ kind: "answered" });
   }
 
   /** Nothing is asked any more. */
