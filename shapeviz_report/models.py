@@ -17,6 +17,9 @@ FACES = 4000
 AGGRESSIVENESS = 5.0
 """How readily edges collapse: below the library's usual 7, which is quicker and leaves slivers."""
 
+ROUGHNESS = 0.1
+"""Noise on the vertices before edges collapse, in edge lengths."""
+
 POSITION_STEPS = 8191
 """Steps of a coordinate from 0 to 1: a fiftieth of an edge, so that shading shows none of them."""
 
@@ -54,22 +57,25 @@ def simplify(mesh: Mesh, faces: int = FACES) -> Model:
     -------
     Model
     """
-    vertices, triangles = mesh.vertices.astype(np.float32), mesh.faces
+    tree = cKDTree(mesh.vertices)
+    vertices, triangles = mesh.vertices, mesh.faces
     if len(triangles) > faces:
+        # Edges collapse first where the surface is flat, and leave slivers there along which colours smear. On a rough
+        # surface they collapse evenly.
+        length = np.linalg.norm(vertices[triangles[:, 0]] - vertices[triangles[:, 1]], axis=1).mean()
+        rough = vertices + np.random.default_rng(0).normal(0, ROUGHNESS * length, vertices.shape)
         simpler, kept = fast_simplification.simplify(
-            vertices, triangles, target_count=faces, agg=AGGRESSIVENESS
+            rough.astype(np.float32), triangles, target_count=faces, agg=AGGRESSIVENESS
         )
         # What collapses altogether is better shown in full.
         if len(kept) > 0:
-            vertices, triangles = simpler, kept
-    positions = np.round(vertices.astype(np.float64) * POSITION_STEPS) / POSITION_STEPS
+            vertices, triangles = _smoothed(simpler.astype(np.float64), mesh, tree), kept
+    positions = np.round(vertices * POSITION_STEPS) / POSITION_STEPS
     order = np.argsort(_along_curve(positions), kind="stable")
     place = np.empty(len(order), np.int32)
     place[order] = np.arange(len(order), dtype=np.int32)
     positions = positions[order]
-    return Model(
-        positions, _sorted_faces(place[triangles]), np.asarray(cKDTree(mesh.vertices).query(positions)[1])
-    )
+    return Model(positions, _sorted_faces(place[triangles]), np.asarray(tree.query(positions)[1]))
 
 
 def pack_model(model: Model, bins: npt.NDArray[np.uint8], view: FloatArray) -> bytes:
@@ -104,6 +110,20 @@ def pack_model(model: Model, bins: npt.NDArray[np.uint8], view: FloatArray) -> b
         padded[:, 0::2] | padded[:, 1::2] << 4,
     )
     return b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
+
+
+def _smoothed(points: FloatArray, mesh: Mesh, tree: cKDTree) -> FloatArray:
+    """Points moved onto the plane that touches the mesh at its vertex nearest to each."""
+    corners = mesh.vertices[mesh.faces]
+    crosses = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals = np.stack(
+        [np.bincount(mesh.faces.ravel(), np.repeat(c, 3), len(mesh.vertices)) for c in crosses.T], axis=1
+    )
+    nearest = tree.query(points)[1]
+    normals = normals[nearest]
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    offsets = np.einsum("pa,pa->p", points - mesh.vertices[nearest], normals)
+    return points - offsets[:, None] * normals
 
 
 def _along_curve(positions: FloatArray) -> npt.NDArray[np.uint64]:

@@ -1,0 +1,45 @@
+// The 3D model of a shape, from the bytes that shapeviz_report/models.py packs.
+
+const POSITION_STEPS = 8191;
+
+export function unpackModel(buffer) {
+  const [vertexCount, faceCount, dimensions] = new Uint32Array(buffer, 0, 3);
+  let at = 12;
+  const take = (Kind, length) => {
+    // Parts follow each other without gaps, so that not every one starts where its kind may.
+    const part = new Kind(buffer.slice(at, at + length * Kind.BYTES_PER_ELEMENT));
+    at += part.byteLength;
+    return part;
+  };
+  const view = take(Float32Array, 9);
+  const steps = take(Int16Array, 3 * vertexCount);
+  const first = take(Int32Array, faceCount);
+  const others = take(Int32Array, 2 * faceCount);
+  const nibbles = take(Uint8Array, dimensions * Math.ceil(vertexCount / 2));
+
+  const positions = new Float32Array(3 * vertexCount);
+  for (let vertex = 0; vertex < vertexCount; vertex += 1) {
+    for (let axis = 0; axis < 3; axis += 1) {
+      positions[3 * vertex + axis] = steps[axis * vertexCount + vertex] / POSITION_STEPS;
+    }
+  }
+  const faces = new Uint32Array(3 * faceCount);
+  for (let face = 0, lowest = 0; face < faceCount; face += 1) {
+    lowest += first[face];
+    faces[3 * face] = lowest;
+    faces[3 * face + 1] = lowest + others[face];
+    faces[3 * face + 2] = lowest + others[faceCount + face];
+  }
+  return {
+    vertexCount,
+    dimensions,
+    view,
+    positions,
+    faces,
+    /** The bin from 0 of every vertex in one dimension of the descriptors. */
+    bins(dimension) {
+      const row = nibbles.subarray(dimension * Math.ceil(vertexCount / 2));
+      return Uint8Array.from({ length: vertexCount }, (_, vertex) => (row[vertex >> 1] >> (4 * (vertex & 1))) & 15);
+    },
+  };
+}
