@@ -14,10 +14,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from scipy.spatial.distance import pdist
 from small_database import OPTIONS, WITH_SEARCH, make_shape, read_site, write_database
 
 import shapeviz_report
+from shapeviz_report.bins import scale_bins
 from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
+from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 
 
 def entries(cache: Path, stage: str) -> dict[Path, int]:
@@ -257,6 +261,49 @@ def test_external_features_join(tmp_path, database, cache, built) -> None:
         shapeviz_report.build(
             database, tmp_path / "s", cache=cache, external=[tmp_path / "PFH.npy"], **OPTIONS
         )
+
+
+def test_every_class_is_scored_against_the_rest(built, database, cache, tmp_path) -> None:
+    _, report = built
+    assert report.scores.classes == ("ball", "box", "ring")
+    assert report.scores.methods == tuple(scorer.name for scorer in SCORERS)
+    assert report.scores.values.max(axis=2) == pytest.approx(1)
+    values = compared_values(report.features, PRESETS["default"])
+    scored = score_separation(SCORERS[0], values, as_one_group(report.labels, ["ring"]))
+    assert report.scores.values[0, 2] == pytest.approx(scored, abs=1e-6)
+    found = entries(cache, "scored")
+    assert len(found) == 3, "a task a class"
+    again = shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS)
+    assert entries(cache, "scored") == found
+    np.testing.assert_array_equal(again.scores.values, report.scores.values)
+
+
+def test_maps_of_chosen_bins(tmp_path, database, cache, built) -> None:
+    chosen = tmp_path / "best.txt"
+    chosen.write_text("# from the Workbench\nFPFH[14]:3\nAgd:6\nNd:2\n")
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, bins=chosen, **WITH_SEARCH)
+    for method, (projection, _) in report.projections.items():
+        assert projection.bins == ("Agd:6", "Nd:2", "FPFH[14]:3")
+        assert projection.features == ("Agd", "Nd", "FPFH")
+        assert not np.allclose(projection.xy, built[1].projections[method][0].xy, atol=0.01)
+    # A map of one component: along it, shapes stand as in the values that are compared.
+    scaled = scale_bins(report.features, PRESETS["default"], ("Agd:6", "Nd:2", "FPFH[14]:3"))
+    pca = pdist(report.projections["pca"][0].xy)
+    assert np.corrcoef(pca, pdist(scaled - scaled.mean(axis=0)))[0, 1] > 0.9
+    np.testing.assert_array_equal(report.search.subsets.nh_s, built[1].search.subsets.nh_s)
+    np.testing.assert_array_equal(report.scores.values, built[1].scores.values)
+    summary = json.loads((tmp_path / "site/data/summary.json").read_text())
+    assert summary["projections"]["umap"]["bins"] == ["Agd:6", "Nd:2", "FPFH[14]:3"]
+    assert summary["parameters"]["bins"] == "best.txt"
+
+
+def test_bins_that_are_not_there_stop_a_build_before_any_work(tmp_path, database) -> None:
+    (tmp_path / "bins.txt").write_text("deep[3]\n")
+    with pytest.raises(ConfigError, match=r"no such feature.*--external"):
+        shapeviz_report.build(
+            database, tmp_path / "site", cache=tmp_path / "cache", bins=tmp_path / "bins.txt", **OPTIONS
+        )
+    assert not (tmp_path / "cache").exists()
 
 
 def test_the_papers_preset(tmp_path, database, cache, built) -> None:

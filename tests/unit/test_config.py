@@ -33,8 +33,9 @@ def test_the_file_wins_over_defaults_and_flags_over_the_file(database) -> None:
 
 
 def test_paths_of_the_file_start_at_its_folder(database) -> None:
-    write(database, 'external = ["deep.npy"]\ncache = "/somewhere"\n')
+    write(database, 'external = ["deep.npy"]\nbins = "best.txt"\ncache = "/somewhere"\n')
     config = load_config(database, {})
+    assert config.bins == database / "best.txt"
     assert config.external == (database / "deep.npy",)
     assert config.cache == Path("/somewhere")
 
@@ -88,4 +89,6 @@ def test_parameters_are_json_and_leave_out_what_cannot_change_the_result() -> No
     parameters = Config(external=(Path("/x/deep.npy"),), jobs=3, cache=Path("/y")).as_parameters()
     assert json.loads(json.dumps(parameters)) == parameters
     assert parameters["external"] == ["deep.npy"]
+    assert parameters["bins"] is None
+    assert Config(bins=Path("/x/best.txt")).as_parameters()["bins"] == "best.txt"
     assert not {"jobs", "cache", "time_limit"} & set(parameters)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reports import NASTY_LABELS, make_report, with_search
+from reports import NASTY_LABELS, make_report, with_bins, with_scores, with_search
 
 from shapeviz_report.site.data_files import data_files, json_text, summary
 from shapeviz_report.types import Failure
@@ -45,6 +45,7 @@ def test_summary_has_the_promised_keys(folder):
     tsne = content["projections"]["tsne"]
     quality = report.projections["tsne"][1]
     assert tsne["features"] == ["Gc", "Sc"]
+    assert tsne["bins"] is None
     assert tsne["nh_s"] == quality.nh_s
     assert tsne["nh_c"] == dict(quality.nh_c)
     assert list(tsne["nh_c"]) == list(quality.nh_c)
@@ -88,6 +89,24 @@ def test_features_need_no_pickle(folder):
         np.testing.assert_array_equal(content["values"], report.features.values)
         assert tuple(content["columns"]) == report.features.columns
         assert tuple(content["shape_ids"]) == report.features.shape_ids
+        np.testing.assert_array_equal(content["edges"], report.edges)
+
+
+def test_summary_names_the_bins_that_maps_are_made_of():
+    content = summary(with_bins(make_report(), ("Gc:3", "Gc:4")), "1")
+    assert {tuple(projection["bins"]) for projection in content["projections"].values()} == {("Gc:3", "Gc:4")}
+    assert content["projections"]["pca"]["features"] == ["Gc"]
+
+
+def test_scores_stand_beside_what_they_are_scores_of(tmp_path):
+    report = with_scores(make_report([*NASTY_LABELS[:3], None], 4))
+    (tmp_path / "scores.npz").write_bytes(data_files(report, "1")["scores.npz"])
+    with np.load(tmp_path / "scores.npz", allow_pickle=False) as content:
+        np.testing.assert_array_equal(content["scores"], report.scores.values)
+        assert tuple(content["methods"]) == report.scores.methods
+        assert tuple(content["classes"]) == tuple(sorted(NASTY_LABELS[:3]))
+        assert tuple(content["columns"]) == report.features.columns
+    assert "scores.npz" not in data_files(make_report(), "1")
 
 
 @pytest.fixture(scope="module")

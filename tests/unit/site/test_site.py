@@ -9,9 +9,10 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from reports import NASTY_LABELS, make_report
+from reports import NASTY_LABELS, make_report, with_scores
 
 from shapeviz_report.errors import SiteError
+from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import Failure, Projection
 
@@ -75,8 +76,21 @@ def test_a_chunk_holds_the_maps(tmp_path):
         assert (tmp_path / "thumbnails" / picture).is_file()
 
 
-def test_equal_input_gives_equal_bytes_but_for_the_times(tmp_path):
+def test_a_chunk_of_bytes_keeps_them(tmp_path):
     report = make_report()
+    write_site(report, tmp_path)
+    assert chunk(tmp_path, "bins") == WorkbenchPage().content(report).chunks["bins"]
+
+
+def test_the_worker_travels_as_text(tmp_path):
+    write_site(make_report(), tmp_path)
+    engine = chunk(tmp_path, "engine")
+    assert "onmessage" in engine
+    assert not re.search(r"^(import|export)\b", engine, re.MULTILINE)
+
+
+def test_equal_input_gives_equal_bytes_but_for_the_times(tmp_path):
+    report = with_scores(make_report())
     write_site(report, tmp_path / "one")
     write_site(dataclasses.replace(report, seconds={"read": 9.0}), tmp_path / "two")
     one, two = contents(tmp_path / "one"), contents(tmp_path / "two")
