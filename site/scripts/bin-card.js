@@ -1,6 +1,7 @@
 // The card of a bin: what it is, how well it separates, and which classes have much of it.
 
-import { element, svg, swatch } from "./dom.js";
+import { element, swatch } from "./dom.js";
+import { styleColor } from "./theme.js";
 import { count, figure, grouped, shortened } from "./words.js";
 
 const WIDTH = 190;
@@ -9,6 +10,8 @@ const MOST_ROWS = 20;
 /** Above so many shapes in a class, dots would only be a smear. */
 const MOST_DOTS = 60;
 const GAP = 10;
+/** Room for dots beyond the ends of the axis. */
+const MARGIN = 8;
 
 export class BinCard {
   /** `bins` is a Bins, `model` the Model of the shapes, whose classes give names and colours. */
@@ -71,22 +74,14 @@ export class BinCard {
     const values = shown.flatMap((row) => row.values);
     const [least, most] = share ? [0, niceAbove(values.reduce((a, b) => Math.max(a, b), 0))] : [Math.min(...values), Math.max(...values)];
     const x = (value) => (most > least ? (WIDTH * (value - least)) / (most - least) : 0);
-    const height = ROW * shown.length;
     const edge = shown.findIndex(({ apart }) => !apart);
-    const chart = svg(
-      "svg",
-      { class: "strips", width: WIDTH, height, viewBox: `0 0 ${WIDTH} ${height}`, "aria-hidden": "true" },
-      [0, 0.5, 1].map((part) => svg("line", { class: "grid", x1: part * WIDTH, x2: part * WIDTH, y1: 0, y2: height })),
-      edge > 0 && svg("line", { class: "grid", x1: -8, x2: WIDTH + 8, y1: ROW * edge, y2: ROW * edge }),
-      shown.map((row, place) => strip(row, place, x)),
-    );
     const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null, dir: "auto" }, content);
     const told = share ? percent : (value) => String(Number(value.toPrecision(3)));
     return element(
       "div",
       { class: "of-bin" },
       element("ul", { class: "names" }, shown.map((row, place) => item(place, row.mark, shortened(row.name, 40)))),
-      chart,
+      strips(shown, edge, x),
       element("ul", { class: "medians" }, shown.map((row, place) => item(place, told(row.median)))),
       element("p", { class: "axis" }, [least, (least + most) / 2, most].map((value) => element("span", {}, told(value)))),
       rows.length > shown.length && element("p", { class: "more" }, `and ${count(rows.length - shown.length, "more class", "more classes")}`),
@@ -126,20 +121,35 @@ export class BinCard {
   }
 }
 
-function strip({ values, median, color }, place, x) {
-  const middle = (place + 0.5) * ROW;
-  const [low, high] = [quantile(values, 0.25), quantile(values, 0.75)].map(x);
-  const dots = values.length <= MOST_DOTS ? values : [values[0], values.at(-1)];
-  const group = svg(
-    "g",
-    {},
-    values.length > MOST_DOTS && svg("line", { class: "reach", x1: x(values[0]), x2: x(values.at(-1)), y1: middle, y2: middle }),
-    svg("rect", { class: "band", x: low, width: Math.max(high - low, 1), y: middle - 5, height: 10 }),
-    dots.map((value) => svg("circle", { cx: x(value), cy: middle, r: 1.8 })),
-    svg("line", { class: "median", x1: x(median), x2: x(median), y1: middle - 6, y2: middle + 6 }),
-  );
-  group.style.setProperty("--class", color);
-  return group;
+/** The rows on a canvas, which is filled faster than hundreds of elements are made; their medians stand beside it in words. */
+function strips(rows, edge, x) {
+  const density = window.devicePixelRatio;
+  const height = ROW * rows.length;
+  const canvas = element("canvas", { width: Math.round((WIDTH + 2 * MARGIN) * density), height: Math.round(height * density), "aria-hidden": "true" });
+  const context = canvas.getContext("2d");
+  context.scale(density, density);
+  context.translate(MARGIN, 0);
+  context.fillStyle = styleColor("line");
+  for (const part of [0, 0.5, 1]) context.fillRect(part * WIDTH, 0, 1, height);
+  if (edge > 0) context.fillRect(-MARGIN, ROW * edge, WIDTH + 2 * MARGIN, 1);
+  for (const [place, { values, median, color }] of rows.entries()) {
+    const middle = (place + 0.5) * ROW;
+    const [low, high] = [quantile(values, 0.25), quantile(values, 0.75)].map(x);
+    context.fillStyle = color;
+    context.globalAlpha = 0.32;
+    context.fillRect(low, middle - 5, Math.max(high - low, 1), 10);
+    context.globalAlpha = 0.75;
+    if (values.length > MOST_DOTS) context.fillRect(x(values[0]), middle - 0.5, x(values.at(-1)) - x(values[0]), 1);
+    for (const value of values.length > MOST_DOTS ? [values[0], values.at(-1)] : values) {
+      context.beginPath();
+      context.arc(x(value), middle, 1.8, 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.globalAlpha = 1;
+    context.fillStyle = styleColor("ink");
+    context.fillRect(x(median) - 1, middle - 6, 2, 12);
+  }
+  return canvas;
 }
 
 /** A quantile of sorted values. */

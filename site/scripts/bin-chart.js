@@ -159,12 +159,13 @@ export class BinChart {
 
   /** Put the bars into their order, the chosen first. */
   #arrange() {
-    const { chosen, rankOf } = this;
-    const weight = (column) => (this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1);
-    const places = this.ranking.slice().sort((a, b) => weight(a) - weight(b) || rankOf[a] - rankOf[b]);
+    const { chosen, ranking } = this;
+    const groups = Array.from({ length: 2 * this.bins.features.length }, () => []);
+    for (const column of ranking) groups[(this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(column);
+    const places = Int32Array.from(groups.flat());
     this.range = null;
     this.plot.show({ scores: this.scores, chosen, places });
-    if (this.pointed !== null && rankOf[this.pointed] === 0) this.point(null);
+    if (this.pointed !== null && this.rankOf[this.pointed] === 0) this.point(null);
     this.#search();
     this.#offer();
     this.#explain();
@@ -215,11 +216,22 @@ export class BinChart {
 
   /** The best bins that are not chosen yet; those with a score of 0 separate nothing. */
   #best() {
-    return [...this.ranking.filter((column) => !this.chosen.has(column) && this.scores[column] > 0).subarray(0, this.#wanted)];
+    return this.#first(this.ranking, (column) => !this.chosen.has(column) && this.scores[column] > 0);
   }
 
   #weakest() {
-    return [...this.ranking.filter((column) => this.chosen.has(column)).subarray(-this.#wanted)];
+    return this.#first(this.ranking.toReversed(), (column) => this.chosen.has(column));
+  }
+
+  /** As many columns as are wanted for which something holds. */
+  #first(columns, holds) {
+    const wanted = this.#wanted;
+    const found = [];
+    for (const column of columns) {
+      if (found.length === wanted) break;
+      if (holds(column)) found.push(column);
+    }
+    return found;
   }
 
   /** What the buttons would do, in words. */
@@ -258,7 +270,8 @@ export class BinChart {
   }
 
   #match() {
-    this.plot.match(this.found ?? this.emphasised);
+    const matched = this.found ?? this.emphasised;
+    if (matched !== this.plot.matched) this.plot.match(matched);
   }
 
   /** The columns found, in the order of their bars. */

@@ -96,15 +96,19 @@ export class BinPlot {
     const whole = this.view.step <= this.#least;
     const first = this.places.length === 0;
     const [position, level] = [this.position.slice(), this.level.slice()];
-    for (const [place, column] of places.entries()) {
-      if (this.placeOf[column] >= 0) continue;
+    // New ones grow where they stand.
+    places.forEach((column, place) => {
+      if (this.placeOf[column] >= 0) return;
       position[column] = place;
       level[column] = 0;
-    }
+    });
     this.placeOf.fill(-1);
-    places.forEach((column, place) => (this.placeOf[column] = place));
-    Object.assign(this, { scores, chosen, places });
-    this.features = [...new Set(this.feature.filter((_, column) => this.placeOf[column] >= 0))].sort((a, b) => a - b);
+    const features = new Set();
+    places.forEach((column, place) => {
+      this.placeOf[column] = place;
+      features.add(this.feature[column]);
+    });
+    Object.assign(this, { scores, chosen, places, features: [...features].sort((a, b) => a - b) });
     if (first) this.resize();
     else this.#listRows();
     this.look(this.view.left, whole ? 0 : this.view.step);
@@ -117,10 +121,10 @@ export class BinPlot {
     const step = () => {
       const share = duration === 0 ? 1 : Math.min((performance.now() - begin) / duration, 1);
       const gone = 1 - (1 - share) ** 3;
-      for (const [place, column] of this.places.entries()) {
+      this.places.forEach((column, place) => {
         this.position[column] = position[column] + gone * (place - position[column]);
         this.level[column] = level[column] + gone * (this.scores[column] - level[column]);
-      }
+      });
       this.#movement = share < 1 ? requestAnimationFrame(step) : null;
       this.#paint();
       this.#paintStrip();
