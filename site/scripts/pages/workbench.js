@@ -13,7 +13,7 @@ import { Model } from "../model.js";
 import { State } from "../state.js";
 import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
-import { count } from "../words.js";
+import { count, grouped } from "../words.js";
 import { readWorkAddress, workAddress } from "../workbench/address.js";
 import { Answers } from "../workbench/answers.js";
 import { Desk, FEWEST_SHAPES } from "../workbench/desk.js";
@@ -24,6 +24,7 @@ import { FeatureList } from "../workbench/feature-list.js";
 import { Guide } from "../workbench/guide.js";
 import { HistoryStrip } from "../workbench/history-strip.js";
 import { MapPanel } from "../workbench/map-panel.js";
+import { MOST_SHAPES } from "../workbench/sample.js";
 import { separationWords, sides } from "../workbench/separation.js";
 import { StatusLine } from "../workbench/status-line.js";
 import { workTables } from "../workbench/work-tables.js";
@@ -133,7 +134,7 @@ async function main() {
         map.start();
       }
     }
-    if (["projection", "scorer", "separation", "color"].some((name) => changed.has(name)) && !desk.arriving) window.history.replaceState(null, "", workAddress(model, data, state));
+    if (["projection", "scorer", "separation", "sample", "color"].some((name) => changed.has(name)) && !desk.arriving) window.history.replaceState(null, "", workAddress(model, data, state));
     // Every step is a place that the browser's way back leads to, unless it has just led here.
     if (changed.has("step") && !desk.arriving) window.history.pushState(null, "", workAddress(model, data, state));
   });
@@ -158,16 +159,22 @@ async function main() {
 
 /** Why there is no map, and what to do next. */
 function emptyMap(which, state, answers, desk) {
-  const rows = answers.rows(state.get("hidden")).length;
+  const rows = answers.rows({ hidden: state.get("hidden"), sample: state.get("sample") }).length;
   if (rows < FEWEST_SHAPES) {
     const words = answers.model.count < FEWEST_SHAPES ? `This database has ${count(answers.model.count, "shape")}; a map needs ${FEWEST_SHAPES}.` : "A map needs three shapes: take more classes into use.";
     return [element("p", {}, words)];
+  }
+  if (rows > MOST_SHAPES && (which === "original" || state.get("bins").size > 0)) {
+    return [
+      element("p", {}, `A map of ${count(rows, "shape")} would keep you waiting for minutes. A sample of ${grouped(MOST_SHAPES)}, each class in proportion, is made in seconds; so are both maps then, and their NH can be compared.`),
+      element("button", { type: "button", class: "plain strong", id: "use-sample", onclick: () => desk.ask({ sample: true }) }, "Use a sample"),
+    ];
   }
   if (which === "original") return [];
   const scored = state.get("scores") !== null;
   return [
     element("p", {}, "No bins are chosen yet. The refined map shows the same shapes, compared by chosen bins alone."),
-    element("button", { type: "button", class: "plain strong", id: "first-best", disabled: !scored, onclick: () => desk.takeBest(BEST) }, `Take the best ${BEST}`),
+    element("button", { type: "button", class: "plain strong", id: "first-best", disabled: !scored, onclick: () => desk.takeBest(BEST) }, answers.model.separable ? `Take the best ${BEST}` : `Take the ${BEST} that vary most`),
   ];
 }
 

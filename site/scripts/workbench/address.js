@@ -28,6 +28,7 @@ export function readWorkAddress(model, data) {
       against: query.has("from") ? new Set(named("from")) : EVERY_CLASS.against,
       each: !query.has("together"),
     },
+    sample: query.has("sample"),
     color: query.get("color") === "hit" && model.labelled ? "hit" : "class",
   };
 }
@@ -70,6 +71,7 @@ export function workAddress(model, data, state) {
   if (from !== null) names("separate", from);
   if (against !== null) names("from", against);
   if (!each) query.set("together", "");
+  if (state.get("sample")) query.set("sample", "");
   if (state.get("color") !== "class") query.set("color", state.get("color"));
   const hash = query.toString();
   return hash === "" ? window.location.pathname + window.location.search : `#${hash}`;

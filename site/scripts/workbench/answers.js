@@ -3,6 +3,7 @@
 import { chunk } from "../chunks.js";
 import { startEngine } from "../engine/client.js";
 import { Subsets } from "../subsets.js";
+import { sampled } from "./sample.js";
 import { contests } from "./separation.js";
 
 const SCORE_STEPS = 65535;
@@ -30,9 +31,19 @@ export class Answers {
     return this.#engine;
   }
 
-  /** The shapes of the classes in use. */
-  rows(hidden) {
-    return Int32Array.from(this.model.groups.keys()).filter((row) => !hidden.has(this.model.groups[row]));
+  /** The shapes of the classes in use, or of a large database a sample of them. */
+  rows({ hidden, sample }) {
+    const { groups } = this.model;
+    const rows = Int32Array.from(groups.keys()).filter((row) => !hidden.has(groups[row]));
+    return sample ? sampled(rows, groups) : rows;
+  }
+
+  /** Whether a map of all shapes that answers the question travels with the site. */
+  hasMap(which, projection, { hidden, sample, features, bins }) {
+    const { model, data } = this;
+    if (hidden.size > 0 || sample) return false;
+    if (which === "refined") return isSame(bins, data.bins);
+    return (features.size === data.features.length && data.bins === null) || model.data.subsets?.method === projection;
   }
 
   /** The columns of the features in use. */
@@ -41,29 +52,31 @@ export class Answers {
   }
 
   /** The map of the classes in use under the features in use. */
-  original(projection, { hidden, features }, report, partial) {
-    const asked = { method: projection, rows: this.rows(hidden), columns: this.columns(features), by: "features" };
+  original(projection, step, report, partial) {
+    const asked = { method: projection, rows: this.rows(step), columns: this.columns(step.features), by: "features" };
     return this.#chain(async (run) => {
-      const offline = hidden.size === 0 ? await this.#offlineMap(projection, features) : null;
+      const offline = this.hasMap("original", projection, step) ? await this.#offlineMap(projection, step.features) : null;
       return offline ?? this.#layout(run, asked, report, partial);
     });
   }
 
   /** The map of the classes in use under the chosen bins. */
-  refined(projection, { hidden, bins }, report, partial) {
-    const columns = Int32Array.from(bins).sort();
-    const asked = { method: projection, rows: this.rows(hidden), columns, by: "bins" };
-    const offline = hidden.size === 0 && isSame(bins, this.data.bins) ? this.#siteMap(projection) : null;
+  refined(projection, step, report, partial) {
+    const columns = Int32Array.from(step.bins).sort();
+    const asked = { method: projection, rows: this.rows(step), columns, by: "bins" };
+    const offline = this.hasMap("refined", projection, step) ? this.#siteMap(projection) : null;
     return this.#chain(async (run) => offline ?? this.#layout(run, asked, report, partial));
   }
 
   /** Relative scores of all columns; no numbers for those of features that are not in use. */
-  scores(scorer, separation, { hidden, features }, report) {
+  scores(scorer, separation, step, report) {
+    const { hidden, features } = step;
     const offline = this.#offlineScores(scorer, separation, hidden, features);
     if (offline !== null) return { done: offline, cancel: () => {} };
     const columns = this.columns(features);
     const groups = this.groups(hidden);
-    const rowsOf = (chosen) => Int32Array.from(this.model.groups.keys()).filter((row) => chosen.includes(this.model.groups[row]));
+    const rows = this.rows(step);
+    const rowsOf = (chosen) => rows.filter((row) => chosen.includes(this.model.groups[row]));
     const asked = contests(separation, groups).map(({ positive, negative }) => ({ positive: rowsOf(positive), negative: rowsOf(negative) }));
     return this.#chain(async (run) => {
       const { scores } = await run("score", { method: scorer, contests: asked, columns, seed: this.data.seed }, report);

@@ -97,7 +97,7 @@ export class ClassTable {
     const { state } = this;
     const hidden = state.get("hidden");
     const chosen = state.get("separation").against !== null;
-    this.table.classList.toggle("chosen", chosen);
+    this.table.toggleAttribute("data-against", chosen);
     for (const [group, { node, use, only, ticks }] of this.rows) {
       const used = !hidden.has(group);
       node.classList.toggle("unused", !used);

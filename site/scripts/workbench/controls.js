@@ -1,7 +1,8 @@
 // The small controls: projection, colours, what dragging does, scorer and separation; and the keys of the page.
 
 import { element } from "../dom.js";
-import { count } from "../words.js";
+import { count, grouped } from "../words.js";
+import { MOST_SHAPES } from "./sample.js";
 import { contests, separationWords } from "./separation.js";
 
 export function watchControls(model, data, state, desk) {
@@ -22,7 +23,7 @@ export function watchControls(model, data, state, desk) {
     document.body.dataset.drag = drag;
   });
   document.body.dataset.drag = state.get("drag");
-  watchSelection(model, state);
+  watchSelection(model, state, desk);
   if (model.separable) {
     watchScorer(data, state, desk);
     watchSeparation(model, state, desk);
@@ -72,13 +73,16 @@ export function missing({ from, against, each }, groups) {
   return each ? "A class cannot be set apart from itself: tick another." : "All classes are on one side: leave some out, or set each apart.";
 }
 
-/** The shapes collected on the maps, in words. */
-function watchSelection(model, state) {
+/** The shapes collected on the maps, in words; else whether the maps are those of a sample. */
+function watchSelection(model, state, desk) {
   const node = document.getElementById("picked");
   const show = () => {
     const chosen = [...state.get("selection")];
     if (chosen.length === 0) {
-      node.replaceChildren();
+      node.replaceChildren(...(state.get("sample") ? [
+        element("span", {}, `A sample of ${grouped(MOST_SHAPES)} shapes at most`),
+        element("button", { type: "button", class: "plain", onclick: () => desk.ask({ sample: false }) }, "All shapes"),
+      ] : []));
       return;
     }
     const census = model.labelled ? model.census(chosen).slice(0, 3).map(([group, number]) => `${model.className(group)} ${number}`).join(", ") : "";
@@ -87,7 +91,8 @@ function watchSelection(model, state) {
       element("button", { type: "button", class: "plain", onclick: () => state.set({ selection: new Set() }) }, "Clear"),
     );
   };
-  state.listen((changed) => changed.has("selection") && show());
+  state.listen((changed) => (changed.has("selection") || changed.has("sample")) && show());
+  show();
 }
 
 export function watchKeys(state, desk, gestures) {

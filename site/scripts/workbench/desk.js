@@ -6,6 +6,7 @@ import { figure } from "../words.js";
 import { alike, History } from "./history.js";
 import { changeWords } from "./figures.js";
 import { Inquiry } from "./inquiry.js";
+import { MOST_SHAPES } from "./sample.js";
 import { contests, separationWords } from "./separation.js";
 
 /** Fewer shapes have no map worth the name. */
@@ -122,16 +123,18 @@ export class Desk {
     const inquiry = this.inquiries[which];
     const step = history.current;
     const projection = state.get("projection");
-    const rows = answers.rows(step.hidden);
-    if (rows.length < FEWEST_SHAPES || (which === "refined" && step.bins.size === 0)) {
+    const asked = { ...step, sample: state.get("sample") };
+    const { length: shapes } = answers.rows(asked);
+    const large = shapes > MOST_SHAPES && !answers.hasMap(which, projection, asked);
+    if (shapes < FEWEST_SHAPES || large || (which === "refined" && step.bins.size === 0)) {
       inquiry.rest();
       state.set({ [`${which}Map`]: null });
       return;
     }
     const members = which === "original" ? step.features : step.bins;
-    const key = [projection, sorted(step.hidden), sorted(members)].join("|");
+    const key = [projection, asked.sample, sorted(step.hidden), sorted(members)].join("|");
     const scene = this.scenes[which];
-    const start = (report) => answers[which](projection, step, report, (x, y) => state.get(`${which}Status`).kind === "working" && scene.stream(x, y));
+    const start = (report) => answers[which](projection, asked, report, (x, y) => state.get(`${which}Status`).kind === "working" && scene.stream(x, y));
     inquiry.ask(key, start, (map) => {
       step[`${which}Map`] = map;
       const shown = state.get(`${which}Map`) === map;
@@ -167,8 +170,9 @@ export class Desk {
       return;
     }
     const scorer = state.get("scorer");
-    const key = JSON.stringify([scorer, asked, sorted(step.features)]);
-    this.inquiries.scores.ask(key, (report) => answers.scores(scorer, separation, step, report), (scores) => state.set({ scores }));
+    const sample = state.get("sample");
+    const key = JSON.stringify([scorer, sample, asked, sorted(step.features)]);
+    this.inquiries.scores.ask(key, (report) => answers.scores(scorer, separation, { ...step, sample }, report), (scores) => state.set({ scores }));
   }
 
   /** All there is at this moment, for export. */

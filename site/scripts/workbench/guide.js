@@ -71,6 +71,7 @@ export class Guide {
     const pair = [this.#name(one), " and ", this.#name(other)];
     const others = [...this.model.sizes.keys()].filter((group) => group !== one && group !== other);
     const settled = (name) => state.get(`${name}Status`).kind === "answered";
+    const waiting = (name, words) => (state.get(`${name}Status`).kind === "working" ? words : "This was stopped or did not work; start it again where it says so.");
     return [
       () => ({
         words: [...pair, ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(this.example.mixed * 100)} % are of the other of the two.`],
@@ -83,14 +84,14 @@ export class Guide {
         todo: () => act.ask({ separation: { from: new Set([one]), against: new Set([other]), each: true } }),
       }),
       () => ({
-        words: settled("scores") ? this.#bestBin() : "Scoring …",
+        words: settled("scores") ? this.#bestBin() : waiting("scores", "Scoring …"),
         action: `Take the best ${BEST}`,
         todo: settled("scores") ? () => act.takeBest(BEST) : null,
       }),
       () => ({
-        words: settled("refined") && settled("original") ? this.#result(pair) : "Making the map of these bins …",
+        words: settled("refined") && settled("original") ? this.#result(pair) : waiting("refined", "Making the map of these bins …"),
         action: "Bring all classes back",
-        todo: settled("refined") ? () => act.use({ hidden: new Set() }) : null,
+        todo: state.get("refinedStatus").kind === "working" ? null : () => act.use({ hidden: new Set() }),
       }),
     ];
   }

@@ -43,7 +43,7 @@ export class HistoryStrip {
     const words = place === 0 ? "start" : changed.map(([number, word]) => changeOf(number, word)).join(", ");
     const parts = place === 0
       ? [element("span", {}, "start")]
-      : changed.map(([number, word]) => element("span", { class: number < 0 ? "removed" : "added" }, `${number < 0 ? "−" : "+"}${Math.abs(number)} ${word}`));
+      : changed.map(([number, word]) => element("span", { class: number < 0 ? "removed" : "added" }, `${number < 0 ? "−" : "+"}${count(Math.abs(number), word, many(word))}`));
     return element(
       "button",
       {
@@ -57,7 +57,7 @@ export class HistoryStrip {
         onclick: () => this.go(place),
       },
       map ? this.#picture(map, step.hidden) : element("span", { class: "no-map" }),
-      element("span", { class: "told" }, element("b", {}, map ? figure(map.hitOfAll) : "…"), element("span", { class: "changed" }, parts)),
+      element("span", { class: "told" }, map?.hitOfAll !== null && element("b", {}, map ? figure(map.hitOfAll) : "…"), element("span", { class: "changed" }, parts)),
     );
   }
 
@@ -90,7 +90,11 @@ export class HistoryStrip {
   }
 }
 
-/** "10 bins more", "1 class less". */
+function many(word) {
+  return word === "class" ? "classes" : `${word}s`;
+}
+
+/** "10 bins added", "1 class removed". */
 function changeOf(number, word) {
-  return `${count(Math.abs(number), word, word === "class" ? "classes" : `${word}s`)} ${number < 0 ? "removed" : "added"}`;
+  return `${count(Math.abs(number), word, many(word))} ${number < 0 ? "removed" : "added"}`;
 }

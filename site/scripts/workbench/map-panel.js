@@ -32,7 +32,7 @@ export class MapPanel {
     const status = this.state.get(`${this.which}Status`);
     const before = this.other && this.state.get(this.other);
     this.status.show(status);
-    this.madeFrom.textContent = this.which === "original" ? featureWords(this.state.get("features"), this.bins.features) : binWords(this.state.get("bins"), this.bins);
+    this.madeFrom.textContent = this.which === "original" ? featureWords(this.state.get("features"), this.bins.features) : chosenWords(this.state.get("bins"));
     this.#showEmpty(map);
     this.figure.classList.toggle("stale", status.kind !== "answered" && map !== null);
     this.figure.classList.toggle("without", map === null);
@@ -50,11 +50,8 @@ export class MapPanel {
   }
 }
 
-/** "7 bins of 2 features". */
-function binWords(chosen, bins) {
-  if (chosen.size === 0) return "";
-  const features = new Set([...chosen].map((column) => bins.featureOf(column)));
-  return `${count(chosen.size, "bin")} of ${featureWords(features, bins.features)}`;
+function chosenWords({ size }) {
+  return size === 0 ? "" : count(size, "bin");
 }
 
 /** "all 8 features", "Agd, Sc". */

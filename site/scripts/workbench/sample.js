@@ -1,0 +1,23 @@
+// A sample of a large database: each class in proportion, always the same shapes.
+
+/** More shapes than this are too many for a map or a score while one waits; docs/workbench.md has the measurements. */
+export const MOST_SHAPES = 3000;
+
+/** As many of `rows` as a browser can take, each class in proportion and none left out; rising. */
+export function sampled(rows, groups, most = MOST_SHAPES) {
+  if (rows.length <= most) return rows;
+  const members = new Map();
+  for (const row of rows) {
+    if (!members.has(groups[row])) members.set(groups[row], []);
+    members.get(groups[row]).push(row);
+  }
+  const taken = [...members.values()].flatMap((own) => own.sort((a, b) => scattered(a) - scattered(b)).slice(0, Math.max(Math.floor((own.length * most) / rows.length), 1)));
+  return Int32Array.from(taken).sort();
+}
+
+/** A number for each row that has nothing to do with where it stands. */
+function scattered(row) {
+  let mixed = Math.imul(row + 1, 0x9e3779b1);
+  mixed = Math.imul(mixed ^ (mixed >>> 15), 0x85ebca6b);
+  return (mixed ^ (mixed >>> 13)) >>> 0;
+}
