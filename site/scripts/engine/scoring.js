@@ -2,6 +2,7 @@
 
 import { scoreByAnova } from "./score-anova.js";
 import { scoreByChi2 } from "./score-chi2.js";
+import { scoreByTrees } from "./score-trees.js";
 
 /**
  * The methods by their keys. Each is a generator `(table, contest, columns, seed)` that yields `{ progress }` and returns a
@@ -10,6 +11,7 @@ import { scoreByChi2 } from "./score-chi2.js";
 const METHODS = new Map([
   ["chi2", scoreByChi2],
   ["anova", scoreByAnova],
+  ["trees", scoreByTrees],
 ]);
 
 /**

@@ -1,0 +1,1 @@
+"""Compiled loops of scorers: arrays in, arrays out, inputs trusted."""

@@ -1,0 +1,127 @@
+// Importances in extremely randomised trees: the steps of shapeviz_report/scorers/kernels/extra_trees.py, with the same
+// random numbers.
+
+import { Random } from "./random.js";
+
+const TREES = 1000;
+
+/** Trees between two looks at whether the reader still wants them. */
+const BATCH = 4;
+
+/** Scores of `columns`, all of which vary over the contest's rows. */
+export function* scoreByTrees(table, contest, columns, seed) {
+  const forest = new Forest(table, contest, columns, seed);
+  for (let tree = 1; tree <= TREES; tree += 1) {
+    forest.grow();
+    if (tree % BATCH === 0) yield { progress: tree / TREES };
+  }
+  return forest.total;
+}
+
+class Forest {
+  constructor({ rows, values }, { positive, negative }, columns, seed) {
+    const count = positive.length + negative.length;
+    this.count = count;
+    this.width = columns.length;
+    this.candidates = Math.floor(Math.sqrt(this.width));
+    this.random = new Random(seed);
+    // The rows of the contest only, one column after the other, so that the values of a column lie close together.
+    const chosen = [...positive, ...negative];
+    this.values = new Float32Array(count * this.width);
+    columns.forEach((column, place) => {
+      for (let i = 0; i < count; i += 1) this.values[place * count + i] = values[column * rows + chosen[i]];
+    });
+    this.positive = Uint8Array.from({ length: count }, (_, i) => Number(i < positive.length));
+    this.total = new Float64Array(this.width);
+    this.gains = new Float64Array(this.width);
+    this.order = Int32Array.from({ length: this.width }, (_, place) => place);
+    this.rows = Int32Array.from({ length: count }, (_, i) => i);
+    // The classes and the values of one column of the rows of the node that is cut.
+    this.isHit = new Uint8Array(count);
+    this.inside = new Float32Array(count);
+  }
+
+  /** Grow a tree, and add its share of the importances. */
+  grow() {
+    this.gains.fill(0);
+    const nodes = [[0, this.count]];
+    while (nodes.length) {
+      const [begin, end] = nodes.pop();
+      const middle = this.cut(begin, end);
+      if (middle > 0) nodes.push([begin, middle], [middle, end]);
+    }
+    const whole = this.gains.reduce((sum, gain) => sum + gain, 0);
+    if (whole > 0) for (let place = 0; place < this.width; place += 1) this.total[place] += this.gains[place] / whole / TREES;
+  }
+
+  /** Cut a node in two; returns the place in `rows` where the second part begins, 0 if there is nothing to cut. */
+  cut(begin, end) {
+    const { rows, order, random, isHit, inside, width, candidates } = this;
+    const size = end - begin;
+    let hits = 0;
+    for (let i = 0; i < size; i += 1) {
+      isHit[i] = this.positive[rows[begin + i]];
+      hits += isHit[i];
+    }
+    if (hits === 0 || hits === size) return 0;
+    // n times the impurity of a node of n rows, p of them positive, is 2 p (n - p) / n.
+    const impurity = (2 * hits * (size - hits)) / size;
+    let bestGain = -1;
+    let bestColumn = -1;
+    let bestThreshold = 0;
+    for (let drawn = 0, varying = 0; varying < candidates && drawn < width; drawn += 1) {
+      const pick = drawn + random.below(width - drawn);
+      const column = order[pick];
+      order[pick] = order[drawn];
+      order[drawn] = column;
+      this.gather(column, begin, size);
+      let low = inside[0];
+      let high = inside[0];
+      for (let i = 1; i < size; i += 1) {
+        const value = inside[i];
+        if (value < low) low = value;
+        if (value > high) high = value;
+      }
+      if (low === high) continue;
+      varying += 1;
+      let threshold = Math.fround(low + random.uniform() * (high - low));
+      if (threshold >= high) threshold = low; // by rounding
+      let below = 0;
+      let belowHits = 0;
+      for (let i = 0; i < size; i += 1) {
+        if (inside[i] <= threshold) {
+          below += 1;
+          belowHits += isHit[i];
+        }
+      }
+      const above = size - below;
+      const aboveHits = hits - belowHits;
+      let rest = (2 * belowHits * (below - belowHits)) / below;
+      rest += (2 * aboveHits * (above - aboveHits)) / above;
+      if (impurity - rest > bestGain) {
+        bestGain = impurity - rest;
+        bestColumn = column;
+        bestThreshold = threshold;
+      }
+    }
+    if (bestColumn < 0) return 0;
+    this.gains[bestColumn] += bestGain;
+    const start = bestColumn * this.count;
+    let middle = begin;
+    for (let place = begin; place < end; place += 1) {
+      const row = rows[place];
+      if (this.values[start + row] <= bestThreshold) {
+        rows[place] = rows[middle];
+        rows[middle] = row;
+        middle += 1;
+      }
+    }
+    return middle;
+  }
+
+  gather(column, begin, size) {
+    const { values, rows, inside } = this;
+    const start = column * this.count;
+    for (let i = 0; i < size; i += 1) inside[i] = values[start + rows[begin + i]];
+  }
+}
