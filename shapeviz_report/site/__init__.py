@@ -224,6 +224,15 @@ def _check_report(report: Report) -> None:
         report.features.values.shape == (count, len(report.features.columns)), "feature table of another size"
     )
     require(bool(np.isfinite(report.features.values).all()), "a feature is not finite")
+    dimensions = sum(block.dimensions for block in report.features.blocks if block.bins > 1)
+    require(report.edges.shape == (dimensions, 11), "edges do not match the features")
+    if report.scores is not None:
+        classes = class_names(report)
+        require(report.scores.classes == classes, "scores do not match the classes")
+        size = (len(report.scores.methods), len(classes), len(report.features.columns))
+        require(report.scores.values.shape == size, "scores of another size")
+        held = (report.scores.values >= 0) & (report.scores.values <= 1)
+        require(bool(held.all()), "a score is not in [0, 1]")
     for name in ("facts", "thumbnails", "labels"):
         require(len(getattr(report, name)) == count, f"{name} do not match the shapes")
     for thumbnail in report.thumbnails:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from engine_page import EnginePage
 from playwright.sync_api import Browser, Page, sync_playwright
-from reports import NASTY_LABELS, make_report, with_search
+from reports import NASTY_LABELS, make_report, with_bins, with_search
 
 from shapeviz_report.site import write_site
 
@@ -37,6 +37,10 @@ SITES = {
     "sampled": lambda: with_search(make_report(["ant", "bird"], 20, features=FEATURES[:3]), limit=24),
     "refused": lambda: with_search(
         make_report(["ant", "bird", "cup"], 6, features=[f"own {number}" for number in range(11)])
+    ),
+    "chosen bins": lambda: with_bins(
+        with_search(make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)),
+        ("Gc:3", "PFH:10"),
     ),
     "large": lambda: make_report([f"class {number}" for number in range(8)], 250, methods=("tsne", "pca")),
 }
@@ -101,7 +105,7 @@ def open_page(browser, site) -> Iterator[Callable[..., Page]]:
         page = watched(context.new_page())
         watches.append(page.watch)
         page.goto(address or f"{site(name).as_uri()}/{file}")
-        if file.startswith(("index.html", "features.html")):
+        if file.startswith(("index.html", "features.html", "workbench.html")):
             page.wait_for_selector("html[data-ready]", state="attached")
         return page
 

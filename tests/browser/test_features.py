@@ -283,7 +283,7 @@ class TestOverview:
         eventually(page, lambda: ring.get_attribute("cx") != place)
         eventually(page, lambda: f"features={' '.join(best['features'])}" in address(page))
         page.locator("#features label", has_text="All features").click()
-        eventually(page, lambda: ring.get_attribute("cx") == place)
+        eventually(page, lambda: float(ring.get_attribute("cx")) == pytest.approx(float(place)))
         eventually(page, lambda: "features=" not in address(page))
 
     def test_another_projection_is_of_all_features(self, open_page):
@@ -311,6 +311,27 @@ class TestOverview:
         write_site(with_search(make_report(["ant", "bird"], 6, features=("Sc",))), tmp_path)
         page = open_page("", address=f"{tmp_path.as_uri()}/index.html")
         assert page.locator("#features label:visible").all_inner_texts() == ["All features (best)"]
+
+    def test_a_site_of_chosen_bins_keeps_the_maps_of_features_apart(self, open_page, site):
+        page = open_page("chosen bins", "index.html#open=class002/0003")
+        assert (
+            "2 chosen bins of Gc, PFH are compared"
+            in page.locator("figure[data-slot=large] .reading").inner_text()
+        )
+        ring = page.locator("figure[data-slot=large] .ring.opened")
+        place = ring.get_attribute("cx")
+        # All features are another map here, which a link from the Features page leads to.
+        page.goto(
+            f"{site('chosen bins').as_uri()}/index.html#features={' '.join(FEATURES)}&open=class002/0003"
+        )
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        everything = next(s for s in subsets_of(site("chosen bins")) if len(s["features"]) == len(FEATURES))
+        assert page.locator("#quality .value").inner_text() == f"{everything['nh_s']:.3f}"
+        assert float(ring.get_attribute("cx")) != pytest.approx(float(place))
+        page.locator("#features label", has_text="2 chosen bins").click()
+        eventually(page, lambda: float(ring.get_attribute("cx")) == pytest.approx(float(place)))
+        eventually(page, lambda: "features=" not in address(page))
 
     def test_an_unknown_subset_is_no_error(self, open_page):
         page = open_page("refused", "index.html#features=own 1 gone")

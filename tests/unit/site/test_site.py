@@ -189,6 +189,12 @@ def test_a_report_without_shapes_is_refused_with_the_reason(tmp_path):
         (lambda r: {"thumbnails": (b"GIF89a", *r.thumbnails[1:])}, "not a WebP"),
         (lambda r: {"shapes": r.shapes[::-1]}, "not sorted"),
         (lambda r: {"projections": {}}, "no projection"),
+        (lambda r: {"edges": r.edges[1:]}, "edges do not match"),
+        (
+            lambda r: {"scores": dataclasses.replace(r.scores, classes=("ant", "bee", "cup"))},
+            "scores do not match",
+        ),
+        (lambda r: {"scores": dataclasses.replace(r.scores, values=r.scores.values + 1)}, r"not in \[0, 1\]"),
         (
             lambda r: {
                 "projections": {
@@ -200,7 +206,7 @@ def test_a_report_without_shapes_is_refused_with_the_reason(tmp_path):
     ],
 )
 def test_parts_that_do_not_fit_are_a_bug_of_the_caller(tmp_path, change, complaint):
-    report = make_report()
+    report = with_scores(make_report())
     with pytest.raises(ValueError, match=complaint):
         write_site(dataclasses.replace(report, **change(report)), tmp_path / "site")
     assert not (tmp_path / "site").exists()
