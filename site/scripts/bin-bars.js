@@ -26,6 +26,13 @@ export function crowd({ columns, position, level, feature }, { left, step }, wid
   return { shares, totals, peaks };
 }
 
+/** The next value above one that an axis may well end at, and be halved. */
+export function axisEnd(value) {
+  if (value <= 0) return 1;
+  const unit = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 3, 4, 5, 6, 8, 10].find((step) => step * unit >= value * (1 - 1e-9)) * unit;
+}
+
 /** Height in pixels of a level; nothing above zero vanishes. */
 function heightOf(level, room) {
   return level > 0 ? Math.max(Math.round(level * room), 1) : 0;

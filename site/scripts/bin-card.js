@@ -1,5 +1,6 @@
 // The card of a bin: what it is, how well it separates, and which classes have much of it.
 
+import { axisEnd } from "./bin-bars.js";
 import { element, swatch } from "./dom.js";
 import { styleColor } from "./theme.js";
 import { count, figure, grouped, shortened } from "./words.js";
@@ -20,6 +21,8 @@ export class BinCard {
     this.model = model;
     this.node = element("div", { class: "card bin-card", hidden: true });
     document.body.append(this.node);
+    // It stands where its bar stood.
+    window.addEventListener("scroll", () => this.hide(), { passive: true });
     this.members = new Map();
     model.groups.forEach((group, row) => {
       if (!this.members.has(group)) this.members.set(group, []);
@@ -71,8 +74,9 @@ export class BinCard {
     const rows = this.#rows(column);
     const shown = rows.slice(0, MOST_ROWS);
     const share = this.bins.isShare(column);
-    const values = shown.flatMap((row) => row.values);
-    const [least, most] = share ? [0, niceAbove(values.reduce((a, b) => Math.max(a, b), 0))] : [Math.min(...values), Math.max(...values)];
+    const lowest = Math.min(...shown.map(({ values }) => values[0]));
+    const highest = Math.max(...shown.map(({ values }) => values.at(-1)));
+    const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest];
     const x = (value) => (most > least ? (WIDTH * (value - least)) / (most - least) : 0);
     const edge = shown.findIndex(({ apart }) => !apart);
     const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null, dir: "auto" }, content);
@@ -163,13 +167,6 @@ function quantile(values, share) {
 /** A share in percent, short. */
 function percent(share) {
   const value = 100 * share;
-  if (value > 0 && value < 0.05) return "< 0.1 %";
+  if (value > 0 && value < 0.05) return "<0.1 %";
   return `${value === 0 || value >= 9.95 ? value.toFixed(0) : value.toFixed(1)} %`;
-}
-
-/** The next share that an axis may well end at. */
-function niceAbove(share) {
-  if (share <= 0) return 0.01;
-  const unit = 10 ** Math.floor(Math.log10(share));
-  return Math.min([1, 2, 3, 4, 5, 6, 8, 10].find((step) => step * unit >= share - 1e-12) * unit, 1);
 }

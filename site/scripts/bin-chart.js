@@ -12,10 +12,6 @@ const ORDERS = {
   score: ["By score", "The best bins first"],
   feature: ["By feature", "The bins of each feature together, its best first"],
 };
-const DRAGS = {
-  select: ["Select", "Drag over bars to choose them"],
-  move: ["Move", "Drag to move the bars"],
-};
 
 export class BinChart {
   /**
@@ -51,18 +47,13 @@ export class BinChart {
     this.key = element("p", { class: "key" });
     this.node.classList.add("bin-chart");
     this.node.replaceChildren(
-      element("div", { class: "bin-tools" }, this.#searchTools(), this.#choiceTools()),
       element(
         "div",
-        { class: "bin-head" },
-        this.reading,
+        { class: "bin-tools" },
+        this.#searchTools(),
         radios("Order of the bars", "bin-order", ORDERS, this.order, (order) => {
           this.order = order;
           this.#arrange();
-        }),
-        // A finger moves what it touches; a mouse has a wheel for that.
-        radios("What dragging does", "bin-drag", DRAGS, window.matchMedia("(pointer: coarse)").matches ? "move" : "select", (drag) => {
-          plot.surface.dataset.drag = drag;
         }),
         element(
           "div",
@@ -73,6 +64,7 @@ export class BinChart {
           button("All", "Show all bars (0)", () => plot.look(0, 0)),
         ),
       ),
+      element("div", { class: "bin-tools" }, this.reading, this.#choiceTools()),
       plot.node,
       this.key,
       element(
@@ -81,7 +73,6 @@ export class BinChart {
         "Arrow keys go from bar to bar, Page Up and Page Down further, Home and End to the first and the last. Space or Enter chooses a bin, or gives it up. Shift with arrow keys marks a range, which Enter adds and Delete removes. Plus and minus zoom, zero shows all, Escape lets go.",
       ),
     );
-    plot.surface.dataset.drag = this.node.querySelector("#bin-drag :checked").value;
   }
 
   #searchTools() {
@@ -384,13 +375,15 @@ export class BinChart {
   }
 
   #explain() {
-    const separates = ["The higher the bar, the better this share alone separates ", element("b", {}, this.separation ?? ""), ", on a scale where the best reach 1. "];
+    const separates = ["The higher the bar, the better this share alone separates ", element("b", {}, this.separation ?? ""), ". "];
+    const touched = window.matchMedia("(pointer: coarse)").matches;
     const sentences = [
       "Each bar is one of ",
       element("b", {}, count(this.ranking.length, "bin")),
       ": what share of a shape lies in one small range of a feature. ",
       ...(this.separation === null ? [] : separates),
-      "Chosen bins come first, with a blue border: click a bar to choose it, or drag over several.",
+      "Chosen bins come first, with a blue border: ",
+      touched ? "tap a bar to read it, and again to choose it." : "click a bar to choose it, or drag over several.",
     ];
     this.key.replaceChildren(...sentences);
   }

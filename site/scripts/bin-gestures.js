@@ -37,7 +37,8 @@ export class BinGestures {
       this.chart.mark(null);
       return;
     }
-    const moves = this.plot.surface.dataset.drag === "move" || event.button === 1;
+    // One choice on the page says what dragging does, on the maps and here.
+    const moves = this.plot.surface.closest("[data-drag='move']") !== null || event.button === 1;
     this.#drag = { kind: "press", then: moves ? "move" : "select", start: x, left: this.plot.view.left, place: this.plot.at(x, true) };
   }
 

@@ -1,6 +1,6 @@
 // The bars of the bins on a canvas: where each stands, which part is in view, and what is marked.
 
-import { edges, paintBars, paintRows } from "./bin-bars.js";
+import { axisEnd, edges, paintBars, paintRows } from "./bin-bars.js";
 import { BinStrip } from "./bin-strip.js";
 import { calm, element, svg } from "./dom.js";
 import { styleColor } from "./theme.js";
@@ -39,7 +39,7 @@ export class BinPlot {
     this.canvas = element("canvas");
     this.pointer = svg("rect", { class: "column pointed", y: 0 });
     this.brush = svg("rect", { class: "brush", y: 0 });
-    this.message = element("p", { class: "message" });
+    this.message = element("p", { class: "message" }, "No bins to show yet.");
     this.surface = element(
       "div",
       { class: "surface", tabindex: "0", role: "application", "aria-label": "Bins and their scores", "aria-describedby": "bin-keys" },
@@ -48,11 +48,12 @@ export class BinPlot {
       this.message,
     );
     this.rows = element("ul");
+    this.levels = element("div", { class: "levels" });
     this.strip = new BinStrip((from, to, held) => this.#frameShares(from, to, held));
     this.node = element(
       "div",
       { class: "bin-plot" },
-      element("div", { class: "sides", "aria-hidden": "true" }, element("div", { class: "levels" }, ["1", "0.5", "0"].map((level) => element("span", {}, level))), this.rows),
+      element("div", { class: "sides", "aria-hidden": "true" }, this.levels, this.rows),
       this.surface,
       this.strip.node,
     );
@@ -109,6 +110,8 @@ export class BinPlot {
       features.add(this.feature[column]);
     });
     Object.assign(this, { scores, chosen, places, features: [...features].sort((a, b) => a - b) });
+    this.top = axisEnd(places.reduce((most, column) => Math.max(most, scores[column]), 0));
+    this.levels.replaceChildren(...[this.top, this.top / 2, 0].map((level) => element("span", {}, String(Number(level.toPrecision(3))))));
     if (first) this.resize();
     else this.#listRows();
     this.look(this.view.left, whole ? 0 : this.view.step);
@@ -123,7 +126,7 @@ export class BinPlot {
       const gone = 1 - (1 - share) ** 3;
       this.places.forEach((column, place) => {
         this.position[column] = position[column] + gone * (place - position[column]);
-        this.level[column] = level[column] + gone * (this.scores[column] - level[column]);
+        this.level[column] = level[column] + gone * (this.scores[column] / this.top - level[column]);
       });
       this.#movement = share < 1 ? requestAnimationFrame(step) : null;
       this.#paint();
@@ -245,7 +248,7 @@ export class BinPlot {
     this.#frame = null;
     const context = this.canvas.getContext("2d");
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
-    this.message.textContent = this.places.length === 0 ? "No bins in use: switch a feature on." : "";
+    this.message.hidden = this.places.length > 0;
     this.#placeMarks();
     if (this.places.length === 0) return;
     const view = { left: this.view.left, step: this.view.step * this.density };

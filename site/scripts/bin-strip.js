@@ -3,6 +3,9 @@
 import { element } from "./dom.js";
 import { paintBars } from "./bin-bars.js";
 
+/** Pixels below which the ends of the window leave nothing between them. */
+const NARROW = 40;
+
 export class BinStrip {
   #drag = null;
 
@@ -36,6 +39,7 @@ export class BinStrip {
     this.node.classList.toggle("whole", to - from > 0.9999);
     this.window.style.left = `${100 * from}%`;
     this.window.style.width = `${100 * (to - from)}%`;
+    this.window.classList.toggle("narrow", (to - from) * this.node.clientWidth < NARROW);
   }
 
   #share(event) {
@@ -52,7 +56,7 @@ export class BinStrip {
     const grip = event.target.closest(".grip");
     if (grip) this.#drag = { kind: grip.classList.contains("from") ? "from" : "to" };
     else {
-      const inside = share >= this.from && share <= this.to;
+      const inside = event.target === this.window;
       this.#drag = { kind: "move", offset: inside ? share - this.from : width / 2 };
       if (!inside) this.#move(event);
     }
