@@ -18,17 +18,24 @@ export class Answers {
     this.titles = new Map(model.data.methods.map(({ key, title, note }) => [key, { title, note }]));
   }
 
-  /** The engine, started when first needed. */
+  /** The engine, started when first needed, and again after it could not be started. */
   get engine() {
+    this.#engine ??= this.#start().catch((error) => {
+      this.#engine = null;
+      throw error;
+    });
+    return this.#engine;
+  }
+
+  #start() {
     const { bins, data } = this;
-    this.#engine ??= startEngine({
+    return startEngine({
       rows: bins.rows,
       columns: bins.count,
       values: bins.values(),
       blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
       scaling: data.scaling,
     });
-    return this.#engine;
   }
 
   /** The shapes of the classes in use, or of a large database a sample of them. */

@@ -24,8 +24,12 @@ export class Desk {
 
   // Steps
 
-  /** Take other classes, features or bins into use. Bins of a feature that is not in use go with it. */
-  use(patch) {
+  /**
+   * Take other classes, features or bins into use, and ask other questions with it. Bins of a feature that is not in use
+   * go with it.
+   */
+  use(patch, questions = {}) {
+    this.state.set(questions);
     const next = { ...this.#step(), ...patch };
     const kept = [...next.bins].filter((column) => next.features.has(this.bins.featureOf(column)));
     if (kept.length < next.bins.size) next.bins = new Set(kept);
@@ -53,6 +57,12 @@ export class Desk {
   /** Choose the bins with the highest scores, and no others. */
   takeBest(number) {
     this.use({ bins: new Set(ranked(this.state.get("scores")).slice(0, number)) });
+  }
+
+  /** Choose as many more, those with the highest scores. */
+  addBest(number) {
+    const chosen = this.state.get("bins");
+    this.add([...ranked(this.state.get("scores"))].filter((column) => !chosen.has(column)).slice(0, number));
   }
 
   /** Go to another step. */

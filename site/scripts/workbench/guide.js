@@ -2,11 +2,16 @@
 
 import { ranked } from "../bin-list.js";
 import { element, swatch } from "../dom.js";
-import { figure } from "../words.js";
+import { count, figure } from "../words.js";
 import { difference } from "./figures.js";
+import { EVERY_CLASS } from "./separation.js";
 
 const KEY = "shapeviz-guide";
-const BEST = 10;
+const FEW = 10;
+const MANY = 40;
+
+/** A change of NH that shows in three decimals. */
+const LEAST = 0.0005;
 
 export class Guide {
   /** `act` are the same actions that the controls of the page do. */
@@ -49,8 +54,9 @@ export class Guide {
     const focused = this.node.contains(document.activeElement);
     const steps = this.#steps();
     const { words, action, todo } = steps[this.step]();
+    const last = steps.length - 1;
     this.node.replaceChildren(
-      element("b", { class: "which" }, `Example, step ${this.step + 1} of ${steps.length}`),
+      element("b", { class: "which" }, this.step < last ? `Example, step ${this.step + 1} of ${last}` : "Example, the end"),
       element("p", { "aria-live": "polite" }, words),
       element("button", { type: "button", class: "plain strong", id: "do-it", disabled: todo === null, onclick: () => this.#do(todo) }, action),
       element("button", { type: "button", class: "plain", id: "close-guide", "aria-label": "Close the example", title: "Close the example", onclick: () => this.#dismiss() }, "×"),
@@ -59,19 +65,24 @@ export class Guide {
   }
 
   #do(todo) {
-    if (this.step === this.#steps().length - 1) this.#close();
-    else this.step += 1;
+    if (this.step === this.#steps().length - 1) {
+      this.#dismiss();
+      return;
+    }
+    this.step += 1;
     todo();
     this.render();
   }
 
+  /** What each step says and does; the last one only says how it ended. */
   #steps() {
     const { act, state } = this;
     const [one, other] = this.example.classes;
     const pair = [this.#name(one), " and ", this.#name(other)];
     const others = [...this.model.sizes.keys()].filter((group) => group !== one && group !== other);
-    const settled = (name) => state.get(`${name}Status`).kind === "answered";
-    const waiting = (name, words) => (state.get(`${name}Status`).kind === "working" ? words : "This was stopped or did not work; start it again where it says so.");
+    const kind = (name) => state.get(`${name}Status`).kind;
+    const settled = (...names) => names.every((name) => kind(name) === "answered");
+    const waiting = (name, words) => (kind(name) === "working" ? words : "This was stopped or did not work; start it again where it says so.");
     return [
       () => ({
         words: [...pair, ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(this.example.mixed * 100)} % are of the other of the two.`],
@@ -81,17 +92,27 @@ export class Guide {
       () => ({
         words: ["Each bar below is one bin: the share of a surface within a small range of a feature. Its height can say how well this share alone tells ", ...pair, " apart."],
         action: "Score the bins for that",
-        todo: () => act.ask({ separation: { from: new Set([one]), against: new Set([other]), each: true } }),
+        todo: () => act.ask({ scorer: "trees", separation: { from: new Set([one]), against: new Set([other]), each: true } }),
       }),
       () => ({
         words: settled("scores") ? this.#bestBin() : waiting("scores", "Scoring …"),
-        action: `Take the best ${BEST}`,
-        todo: settled("scores") ? () => act.takeBest(BEST) : null,
+        action: `Take the best ${FEW}`,
+        todo: settled("scores") ? () => act.takeBest(FEW) : null,
       }),
       () => ({
-        words: settled("refined") && settled("original") ? this.#result(pair) : waiting("refined", "Making the map of these bins …"),
+        words: settled("refined", "original") ? this.#resultOfTwo(pair) : waiting("refined", "Making the map of these bins …"),
         action: "Bring all classes back",
-        todo: state.get("refinedStatus").kind === "working" ? null : () => act.use({ hidden: new Set() }),
+        todo: kind("refined") === "working" ? null : () => act.use({ hidden: new Set() }, { separation: EVERY_CLASS }),
+      }),
+      () => ({
+        words: settled("refined", "original") ? this.#resultOfAll(" Other classes need other bins: those with the best scores for each class against the rest.") : waiting("refined", "Making the map of all classes …"),
+        action: `Add the best ${MANY} for all classes`,
+        todo: settled("scores") ? () => act.addBest(MANY) : null,
+      }),
+      () => ({
+        words: settled("refined", "original") ? this.#resultOfAll(" Every step stands at the bottom: click one to go back. Undo, try other bins, or export these.") : waiting("refined", "Making the map of these bins …"),
+        action: "Done",
+        todo: () => {},
       }),
     ];
   }
@@ -102,17 +123,29 @@ export class Guide {
   }
 
   /** What the data says, whichever way it went. */
-  #result(pair) {
-    const before = this.state.get("originalMap").hitOfAll;
-    const after = this.state.get("refinedMap")?.hitOfAll ?? null;
-    if (after === null) return "No bins are chosen: take the best to see their map.";
-    const moved = difference(after - before);
-    const verdict = after - before >= 0.0005
+  #resultOfTwo(pair) {
+    const result = this.#result();
+    if (result === null) return "No bins are chosen: take the best to see their map.";
+    const [hits, moved] = result;
+    const verdict = moved >= LEAST
       ? "these bins keep them apart better than all features do"
-      : after - before > -0.0005
+      : moved > -LEAST
         ? "these bins keep them apart as well as all features do"
         : "these bins alone keep them apart less well than all features do: try more of them, or another scorer";
-    return ["On the refined map of ", ...pair, " NH is ", element("b", {}, figure(after)), ` (${moved} against the original): ${verdict}. Every step is kept at the bottom; the classes left out may mix by these bins.`];
+    return ["On the refined map of ", ...pair, ...hits, `: ${verdict}. But what does it do to the other classes?`];
+  }
+
+  #resultOfAll(next) {
+    const result = this.#result();
+    if (result === null) return ["No bins are chosen.", next];
+    return [`The map of all classes by these ${count(this.state.get("bins").size, "bin")}: `, ...result[0], ".", next];
+  }
+
+  /** NH of the refined map in words, and its change against the original; null without a refined map. */
+  #result() {
+    const [before, after] = [this.state.get("originalMap").hitOfAll, this.state.get("refinedMap")?.hitOfAll ?? null];
+    if (after === null) return null;
+    return [[" NH is ", element("b", {}, figure(after)), `, ${difference(after - before)} against the original`], after - before];
   }
 
   #name(group) {
