@@ -1,0 +1,220 @@
+// Randomised logistic regression: the steps of shapeviz_report/scorers/logistic.py and kernels/stability.py, which say them
+// in full, with the same random numbers.
+
+import { standardise } from "./balance.js";
+import { Random } from "./random.js";
+
+const PAIRS = 30;
+const STRENGTHS = Array.from({ length: 12 }, (_, step) => 0.8 ** (step + 1));
+const WEAKEST = 0.5;
+const TOLERANCE = 1e-4;
+const MOST_STEPS = 50;
+const MOST_SWEEPS = 1000;
+
+/** Scores of `columns`, all of which vary over the contest's rows. */
+export function* scoreByLogistic(table, contest, columns, seed) {
+  const { values, count, hits } = standardise(table, contest, columns);
+  const width = columns.length;
+  const random = new Random(seed);
+  const selected = new Float64Array(width);
+  const order = Int32Array.from({ length: count }, (_, i) => i);
+  const first = order.subarray(0, hits);
+  const second = order.subarray(hits);
+  const taken = (hits + 1) >> 1;
+  const others = (count - hits + 1) >> 1;
+  const run = new LassoPath(width, taken, others);
+  for (let pair = 0; pair < PAIRS; pair += 1) {
+    shuffle(first, random);
+    shuffle(second, random);
+    for (let half = 0; half < 2; half += 1) {
+      run.sample(values, count, half ? first.subarray(hits - taken) : first, half ? second.subarray(second.length - others) : second, random);
+      for (let step = 0; step < STRENGTHS.length; step += 1) {
+        yield { progress: (2 * pair + half + step / STRENGTHS.length) / (2 * PAIRS) };
+        run.fit(STRENGTHS[step]);
+        for (let place = 0; place < run.size; place += 1) {
+          const column = run.active[place];
+          if (run.coefficients[column] !== 0) selected[column] += 1;
+        }
+      }
+    }
+  }
+  return selected.map((times) => times / (2 * PAIRS * STRENGTHS.length));
+}
+
+function shuffle(order, random) {
+  for (let place = 0; place < order.length; place += 1) {
+    const pick = place + random.below(order.length - place);
+    const row = order[place];
+    order[place] = order[pick];
+    order[pick] = row;
+  }
+}
+
+/** Logistic regressions with a falling L1 penalty on a sample of the rows, each started from the one before. */
+class LassoPath {
+  constructor(width, hits, misses) {
+    const count = hits + misses;
+    this.width = width;
+    this.count = count;
+    this.hits = hits;
+    this.values = new Float64Array(width * count);
+    this.penalties = new Float64Array(width);
+    this.coefficients = new Float64Array(width);
+    this.gradient = new Float64Array(width);
+    this.within = new Uint8Array(width);
+    this.active = new Int32Array(width);
+    this.bends = new Float64Array(width);
+    this.linear = new Float64Array(count);
+    this.move = new Float64Array(count);
+    this.residuals = new Float64Array(count);
+    this.curvatures = new Float64Array(count);
+    this.weights = Float64Array.from({ length: count }, (_, row) => 0.5 / (row < hits ? hits : misses));
+  }
+
+  /** Take rows of either group and draw a penalty for each column; all coefficients become zero. */
+  sample(values, rows, first, second, random) {
+    const { hits, count, width, weights, residuals, penalties } = this;
+    for (let column = 0; column < width; column += 1) {
+      const from = column * rows;
+      const to = column * count;
+      for (let place = 0; place < hits; place += 1) this.values[to + place] = values[from + first[place]];
+      for (let place = hits; place < count; place += 1) this.values[to + place] = values[from + second[place - hits]];
+      penalties[column] = 1 / (WEAKEST + (1 - WEAKEST) * random.uniform());
+    }
+    this.coefficients.fill(0);
+    this.linear.fill(0);
+    this.within.fill(0);
+    this.size = 0;
+    // With weights that give either group one half, an intercept of 0 is best while there are no coefficients.
+    for (let row = 0; row < count; row += 1) residuals[row] = (row < hits ? 0.5 : -0.5) * weights[row];
+    this.highest = 0;
+    for (let column = 0; column < width; column += 1) {
+      this.gradient[column] = this.slope(column);
+      this.highest = Math.max(this.highest, Math.abs(this.gradient[column]) / penalties[column]);
+    }
+    this.last = this.highest;
+  }
+
+  /** Lower the penalty to a part of the least one at which all coefficients are zero. */
+  fit(strength) {
+    const { width, within, gradient, penalties } = this;
+    if (this.highest < 1e-12) return;
+    const now = strength * this.highest;
+    const allowed = TOLERANCE * this.highest;
+    // The strong rules expect these to get a coefficient; those they missed join until none is left that wants in.
+    for (let column = 0; column < width; column += 1) {
+      if (!within[column] && Math.abs(gradient[column]) >= penalties[column] * (2 * now - this.last)) this.join(column);
+    }
+    this.last = now;
+    for (let complete = false; !complete; ) {
+      for (let step = 0; step < MOST_STEPS; step += 1) {
+        const violation = this.approximate(now);
+        if (violation <= allowed) break;
+        this.descend(now, violation);
+      }
+      complete = true;
+      for (let column = 0; column < width; column += 1) {
+        gradient[column] = this.slope(column);
+        if (!within[column] && Math.abs(gradient[column]) > now * penalties[column] + allowed) {
+          this.join(column);
+          complete = false;
+        }
+      }
+    }
+  }
+
+  join(column) {
+    this.within[column] = 1;
+    this.active[this.size] = column;
+    this.size += 1;
+  }
+
+  /** The second-order approximation at the current place; returns by how much the optimum's conditions are violated. */
+  approximate(now) {
+    const { count, hits, weights, linear, curvatures, residuals, coefficients, active, penalties } = this;
+    let slope = 0;
+    let bend = 0;
+    for (let row = 0; row < count; row += 1) {
+      const share = 1 / (1 + Math.exp(-linear[row]));
+      curvatures[row] = weights[row] * Math.max(share * (1 - share), 1e-9);
+      residuals[row] = weights[row] * ((row < hits ? 1 : 0) - share);
+      slope += residuals[row];
+      bend += curvatures[row];
+    }
+    this.bend = bend;
+    let violation = Math.abs(slope);
+    for (let place = 0; place < this.size; place += 1) {
+      const column = active[place];
+      const pull = this.slope(column);
+      const limit = now * penalties[column];
+      const excess = coefficients[column] === 0 ? Math.abs(pull) - limit : Math.abs(pull - Math.sign(coefficients[column]) * limit);
+      violation = Math.max(violation, excess);
+    }
+    return violation;
+  }
+
+  /** Coordinate descent on the approximation; `residuals` become those of it. */
+  descend(now, violation) {
+    const { count, values, curvatures, residuals, move, linear, bends, active, coefficients, penalties } = this;
+    for (let place = 0; place < this.size; place += 1) {
+      const start = active[place] * count;
+      let total = 0;
+      for (let row = 0; row < count; row += 1) {
+        const value = values[start + row];
+        total += curvatures[row] * value * value;
+      }
+      bends[place] = total;
+    }
+    move.fill(0);
+    let everyone = true;
+    for (let sweep = 0; sweep < MOST_SWEEPS; sweep += 1) {
+      let slope = 0;
+      for (let row = 0; row < count; row += 1) slope += residuals[row];
+      let largest = Math.abs(slope);
+      const step = slope / this.bend;
+      for (let row = 0; row < count; row += 1) {
+        move[row] += step;
+        residuals[row] -= curvatures[row] * step;
+      }
+      for (let place = 0; place < this.size; place += 1) {
+        const column = active[place];
+        const before = coefficients[column];
+        if (before === 0 && !everyone) continue;
+        const pull = this.slope(column) + bends[place] * before;
+        const excess = Math.abs(pull) - now * penalties[column];
+        const change = (excess > 0 ? (Math.sign(pull) * excess) / bends[place] : 0) - before;
+        if (change === 0) continue;
+        coefficients[column] = before + change;
+        largest = Math.max(largest, Math.abs(change) * bends[place]);
+        const start = column * count;
+        for (let row = 0; row < count; row += 1) {
+          const shift = values[start + row] * change;
+          move[row] += shift;
+          residuals[row] -= curvatures[row] * shift;
+        }
+      }
+      // Most sweeps go over the coefficients that are not zero only; one over all ends it.
+      if (largest > 0.1 * violation) everyone = false;
+      else if (everyone) break;
+      else everyone = true;
+    }
+    for (let row = 0; row < count; row += 1) linear[row] += move[row];
+  }
+
+  /** The product of a column and the residuals, in four sums that do not wait for each other. */
+  slope(column) {
+    const { count, values, residuals } = this;
+    const start = column * count;
+    const whole = count - (count % 4);
+    let a = 0, b = 0, c = 0, d = 0;
+    for (let row = 0; row < whole; row += 4) {
+      const at = start + row;
+      a += values[at] * residuals[row];
+      b += values[at + 1] * residuals[row + 1];
+      c += values[at + 2] * residuals[row + 2];
+      d += values[at + 3] * residuals[row + 3];
+    }
+    for (let row = whole; row < count; row += 1) a += values[start + row] * residuals[row];
+    return a + b + (c + d);
+  }
+}
