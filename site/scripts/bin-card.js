@@ -10,7 +10,8 @@ const ROW = 16;
 const MOST_ROWS = 20;
 /** Above so many shapes in a class, dots would only be a smear. */
 const MOST_DOTS = 60;
-const GAP = 10;
+const GAP = 8;
+const BESIDE = 24;
 /** Room for dots beyond the ends of the axis. */
 const MARGIN = 8;
 
@@ -38,7 +39,7 @@ export class BinCard {
     Object.assign(this, { scores, scorer, separated, others });
   }
 
-  /** Show the card of a column beside a box of the window, its bar. */
+  /** Show the card of a column at its bar: a box in the window, and `free`, the height down to which the card may hang. */
   show(column, box) {
     this.node.replaceChildren(...this.#words(column), this.#classes(column));
     this.node.hidden = false;
@@ -109,18 +110,18 @@ export class BinCard {
     return rows.length > 0 ? rows : [row(model.groups.map((_, index) => index), false, "all shapes", null, model.color(-1))];
   }
 
-  #place({ left, top, width, height }) {
+  #place({ left, top, width, height, free }) {
     const { offsetWidth, offsetHeight } = this.node;
     const middle = left + width / 2;
     let x = middle - offsetWidth / 2;
-    let y = top - GAP - offsetHeight;
-    if (y < 8) y = top + height + GAP;
-    if (y + offsetHeight > window.innerHeight - 8) {
-      // No room above or below: beside the bar.
-      y = Math.max(window.innerHeight - offsetHeight - 8, 8);
-      x = middle + 24 + offsetWidth < window.innerWidth - 8 ? middle + 24 : middle - 24 - offsetWidth;
+    // Above the tools if there is room, at least above the bars, else below them.
+    let y = Math.max(free - GAP - offsetHeight, GAP);
+    if (y + offsetHeight > top - GAP) y = top + height + GAP;
+    if (y + offsetHeight > window.innerHeight - GAP) {
+      y = Math.max(window.innerHeight - offsetHeight - GAP, GAP);
+      x = middle + BESIDE + offsetWidth < window.innerWidth ? middle + BESIDE : middle - BESIDE - offsetWidth;
     }
-    x = Math.min(Math.max(x, 8), window.innerWidth - offsetWidth - 8);
+    x = Math.min(Math.max(x, GAP), window.innerWidth - offsetWidth - GAP);
     this.node.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
   }
 }

@@ -17,7 +17,7 @@ export class BinChart {
   /**
    * `bins` is a `Bins`. The chart keeps no choice of its own: it asks with `onToggle(column)`, `onRange(columns)` to
    * add several and `onRemove(columns)`, and is told by `draw`. `onPoint(column, box)` says which bar is pointed at and
-   * where it stands in the window, `onPoint(null)` that none is.
+   * where it stands in the window, for the card; `onPoint(null)` that none is.
    */
   constructor(node, bins, { onToggle, onRange, onRemove, onPoint, announce }) {
     Object.assign(this, { node, bins, onToggle, onRange, onRemove, onPoint, announce });
@@ -303,7 +303,7 @@ export class BinChart {
     this.pointed = column;
     this.#beside = null;
     this.#show();
-    this.onPoint(column, column === null ? null : this.plot.box(this.plot.placeOf[column]));
+    this.onPoint(column, column === null ? null : { ...this.plot.box(this.plot.placeOf[column]), free: this.node.getBoundingClientRect().top });
   }
 
   /** Point at a column wherever it stands, and say which it is. */

@@ -79,7 +79,7 @@ export class BinPlot {
     this.width = Math.max(this.surface.clientWidth, 10);
     this.height = Math.max(this.surface.clientHeight, 10);
     const foot = Math.min(Math.max(this.features.length * ROW + MARKS, FOOT[0]), FOOT[1]);
-    this.foot = Math.min(foot, Math.round(this.height * 0.45));
+    this.foot = Math.min(foot, Math.round(this.height * 0.48));
     this.node.style.setProperty("--foot", `${this.foot}px`);
     this.#listRows();
     Object.assign(this.canvas, { width: this.#pixels(this.width), height: this.#pixels(this.height) });
@@ -225,8 +225,8 @@ export class BinPlot {
 
   /** Where a bar stands in the window. */
   box(place) {
-    const box = this.surface.getBoundingClientRect();
-    return new DOMRect(box.left + this.xOf(place), box.top, this.view.step, this.height - this.foot);
+    const { left, top } = this.surface.getBoundingClientRect();
+    return { left: left + this.xOf(place), top, width: this.view.step, height: this.height - this.foot };
   }
 
   // Painting
@@ -354,7 +354,8 @@ export class BinPlot {
 
   #paintNames(context, visible, view, { base }) {
     Object.assign(context, { fillStyle: this.ink, textAlign: "right", textBaseline: "middle" });
-    const plain = `${11 * this.density}px ${this.family}`;
+    // On a low window, names are a little smaller rather than cut.
+    const plain = `${(this.foot < FOOT[0] ? 10 : 11) * this.density}px ${this.family}`;
     for (const column of visible) {
       context.font = this.chosen.has(column) || this.matched?.has(column) ? `600 ${plain}` : plain;
       context.setTransform(0, -1, 1, 0, (this.position[column] + 0.5 - view.left) * view.step, base + this.#pixels(MARKS));
