@@ -461,6 +461,147 @@ class BinScores:
 
 
 @dataclass(frozen=True)
+class BinStep:
+    """A place on the path of the automatic selection of bins.
+
+    Attributes
+    ----------
+    bins : tuple of str
+        The chosen ones, in the order of the columns.
+    added, removed : tuple of str
+        What changed against the step before.
+    nh_space : float
+        NH_s of the shapes in the space of the bins.
+    nh_s : float
+        NH_s of their t-SNE map.
+    xy : (m, 2) float32 array
+        The map, as in :class:`Projection`, turned towards that of the step before.
+    """
+
+    bins: tuple[str, ...]
+    added: tuple[str, ...]
+    removed: tuple[str, ...]
+    nh_space: float
+    nh_s: float
+    xy: npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class BinSelection:
+    """A small set of bins whose map separates all classes, and how it was found (paper, 4.4 B, Fig. 7).
+
+    Attributes
+    ----------
+    seed : int
+        Of the maps.
+    k : int
+        Of the neighbourhood hit.
+    rows : (m,) int32 array
+        The shapes that took part, as rising rows of the feature table.
+    shape_count : int
+        Of the table. More than ``m`` if the search went over a sample.
+    path : tuple of BinStep
+        From one bin to the result. Up to where ``nh_s`` of the map takes over from ``nh_space``, the latter rises;
+        from there on the former does. Empty if there are not two classes.
+    nh_s_other_seeds : FloatArray
+        NH_s of maps of the result with seeds that had no say in it.
+    cpu_seconds : float
+    """
+
+    seed: int
+    k: int
+    rows: IntArray
+    shape_count: int
+    path: tuple[BinStep, ...]
+    nh_s_other_seeds: FloatArray
+    cpu_seconds: float
+
+    @property
+    def bins(self) -> tuple[str, ...]:
+        """The result."""
+        return self.path[-1].bins if self.path else ()
+
+    @property
+    def nh_s(self) -> float:
+        """NH_s of its map; NaN without one."""
+        return self.path[-1].nh_s if self.path else float("nan")
+
+
+@dataclass(frozen=True)
+class HeldOutBins:
+    """Selecting bins without some shapes, then scoring these.
+
+    Attributes
+    ----------
+    bins : tuple of str
+        What the other shapes select.
+    shapes : int
+        Number held out.
+    nh_s_seen : float
+        NH_s of the map of the other shapes, at which the selection stopped.
+    nh_space, nh_s : float
+        Mean NH of the held-out shapes among all, in the space of the bins and on their map.
+    nh_s_all : float
+        The same on the map of all features.
+    knn_accuracy, knn_accuracy_all : float
+        Share of the held-out shapes that their k nearest others recognise, by the bins and by all features.
+    """
+
+    bins: tuple[str, ...]
+    shapes: int
+    nh_s_seen: float
+    nh_space: float
+    nh_s: float
+    nh_s_all: float
+    knn_accuracy: float
+    knn_accuracy_all: float
+
+
+@dataclass(frozen=True)
+class MinimalSet:
+    """The bins of one number that separate a class best.
+
+    Attributes
+    ----------
+    bins : tuple of str
+        In the order of the columns.
+    nh_c_space, nh_c : float
+        NH_c of the class in the space of the bins, and on their t-SNE map.
+    xy : (m, 2) float32 array
+        The map, as in :class:`Projection`.
+    """
+
+    bins: tuple[str, ...]
+    nh_c_space: float
+    nh_c: float
+    xy: npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class MinimalBins:
+    """The fewest bins that separate a class from the rest (paper, 4.4 A, Fig. 6).
+
+    Attributes
+    ----------
+    label : str
+        The class.
+    rows : (m,) int32 array
+        The shapes that took part, as rising rows of the feature table.
+    sets : tuple of MinimalSet
+        Of 1, 2, ... bins.
+    """
+
+    label: str
+    rows: IntArray
+    sets: tuple[MinimalSet, ...]
+
+    def fewest(self, nh_c: float) -> MinimalSet:
+        """The smallest set that reaches an NH_c in the space of the bins and on the map; else the best one."""
+        reached = (found for found in self.sets if min(found.nh_c_space, found.nh_c) >= nh_c)
+        return next(reached, max(self.sets, key=lambda found: min(found.nh_c_space, found.nh_c)))
+
+
+@dataclass(frozen=True)
 class ShapeFacts:
     """What was measured of one prepared shape.
 

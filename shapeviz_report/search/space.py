@@ -103,7 +103,7 @@ def make_space(
     """
     order = canonical_order(scaled)
     if len(order) > limit:
-        order = order[_sample([labels[i] for i in order], limit, seed)]
+        order = order[stratified_sample([labels[i] for i in order], limit, seed)]
     chosen = scaled[order]
     with threadpool_limits(limits=1):
         squared = np.stack(
@@ -113,7 +113,7 @@ def make_space(
     return SearchSpace(names, order.astype(np.int32), len(scaled), squared)
 
 
-def _sample(labels: Sequence[str | None], size: int, seed: int) -> npt.NDArray[np.intp]:
+def stratified_sample(labels: Sequence[str | None], size: int, seed: int) -> npt.NDArray[np.intp]:
     """Rising indices of ``size`` labels in which each class has its share, rounded."""
     random = np.random.default_rng(seed)
     # With the places of a class spread evenly over [0, 1), any threshold cuts all classes in proportion.

@@ -1,0 +1,20 @@
+"""The search for bins: the fewest that separate a class, a set that separates all, and what these are worth.
+
+Every function is pure and does a piece of work of its own (one class, one fold), so that a caller may spread them
+over processes.
+"""
+
+from shapeviz_report.search.bins.automatic import select_bins
+from shapeviz_report.search.bins.honest import hold_out, shuffle_labels
+from shapeviz_report.search.bins.minimal import find_minimal_bins
+from shapeviz_report.search.bins.space import BinSpace, encode, make_bin_space
+
+__all__ = [
+    "BinSpace",
+    "encode",
+    "find_minimal_bins",
+    "hold_out",
+    "make_bin_space",
+    "select_bins",
+    "shuffle_labels",
+]

@@ -1,0 +1,100 @@
+"""What a selection of bins is worth on shapes it never saw, and what it makes of labels without meaning."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from shapeviz_report.quality import NEIGHBOURS, TIE
+from shapeviz_report.search.bins.automatic import LIMIT, select_bins
+from shapeviz_report.search.bins.space import BinSpace, Codes, encode, hits_of, hits_on, lay_out
+from shapeviz_report.types import FloatArray, HeldOutBins
+
+
+def hold_out(
+    space: BinSpace,
+    labels: Sequence[str | None],
+    fold: npt.NDArray[np.intp],
+    everything: FloatArray,
+    *,
+    k: int = NEIGHBOURS,
+    limit: int = LIMIT,
+    seed: int = 0,
+) -> HeldOutBins:
+    """Select bins without some shapes, then see how well these are separated and recognised.
+
+    The selection knows neither their labels nor their values, but for the scale of each bin. They are then scored
+    among all shapes by Eq. 7 with all labels, and recognised by the vote of the k nearest shapes that the selection
+    saw.
+
+    Parameters
+    ----------
+    space : BinSpace
+    labels : labels of all shapes of the table
+    fold : int array
+        The held-out shapes, as places in ``space.rows`` (:func:`shapeviz_report.search.certainty.deal_folds` of the
+        numbers that :func:`~shapeviz_report.search.bins.space.encode` gives); all labelled.
+    everything : (m, m) float array
+        Squared distances of the space's shapes by all features: what is to be surpassed.
+    k, limit, seed
+        As in :func:`~shapeviz_report.search.bins.automatic.select_bins`.
+    """
+    _, codes = encode(space, labels)
+    seen = np.setdiff1d(np.arange(len(codes)), fold)
+    selection = select_bins(space.keep(seen), labels, k=k, limit=limit, seed=seed)
+    bins = [space.names.index(name) for name in selection.bins]
+    squared = space.squared(bins)
+    k = min(k, len(codes) - 1)
+    return HeldOutBins(
+        bins=selection.bins,
+        shapes=len(fold),
+        nh_s_seen=selection.nh_s,
+        nh_space=float(hits_of(squared, fold, codes, k).mean()),
+        nh_s=float(hits_on(lay_out(squared, seed), codes, k)[fold].mean()),
+        nh_s_all=float(hits_on(lay_out(everything, seed), codes, k)[fold].mean()),
+        knn_accuracy=recognise(squared, codes, fold, k),
+        knn_accuracy_all=recognise(everything, codes, fold, k),
+    )
+
+
+def recognise(squared: FloatArray, codes: Codes, fold: npt.NDArray[np.intp], k: int) -> float:
+    """The share of held-out shapes whose class the k nearest labelled other shapes elect.
+
+    Neighbours that tie for the last places share their votes, and classes that tie share the success: the mean over
+    all ways to break ties.
+
+    Parameters
+    ----------
+    squared : (m, m) float array
+    codes : (m,) int array
+        -1 without a label.
+    fold : int array
+        The held-out shapes, of which none votes.
+    k : int
+    """
+    voters = np.setdiff1d(np.flatnonzero(codes >= 0), fold)
+    k = min(k, len(voters))
+    success = 0.0
+    for shape in fold:
+        distances = squared[shape, voters]
+        last = np.partition(distances, k - 1)[k - 1]
+        nearer = distances < last * (1 - TIE)
+        tied = (distances <= last * (1 + TIE)) & ~nearer
+        weights = nearer + tied * ((k - nearer.sum()) / tied.sum())
+        votes = np.bincount(codes[voters], weights, codes.max() + 1)
+        elected = np.flatnonzero(votes > votes.max() - 1e-9)
+        success += (codes[shape] in elected) / len(elected)
+    return success / len(fold)
+
+
+def shuffle_labels(space: BinSpace, labels: Sequence[str | None], seed: int) -> list[str | None]:
+    """Labels dealt out anew among the labelled shapes of a space; which shape had which has no effect."""
+    random = np.random.default_rng(seed)
+    shuffled = list(labels)
+    rows = [int(row) for row in space.rows if labels[row] is not None]
+    names = sorted(label for row in rows if (label := labels[row]) is not None)
+    for row, name in zip(rows, random.permutation(len(names))):
+        shuffled[row] = names[name]
+    return shuffled

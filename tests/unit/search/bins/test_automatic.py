@@ -1,0 +1,71 @@
+"""The automatic selection finds what was planted, whoever comes first, and nothing beyond its limit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from planted_bins import PLANTED, make_table
+
+from shapeviz_report.features import PRESETS
+from shapeviz_report.quality import score
+from shapeviz_report.search.bins import make_bin_space, select_bins
+from shapeviz_report.types import BinSelection
+
+
+@pytest.fixture(scope="module")
+def selection(planted) -> BinSelection:
+    return select_bins(planted.space, planted.labels)
+
+
+def test_planted_bins_are_found(selection) -> None:
+    # Three bins tell four classes apart.
+    assert len(set(selection.bins) & set(PLANTED)) >= 3
+    assert selection.nh_s > 0.97
+    assert selection.nh_s_other_seeds.mean() > 0.95
+
+
+def test_the_path_leads_from_one_bin_to_the_result(selection) -> None:
+    bins: set[str] = set()
+    for step in selection.path:
+        assert not bins & set(step.added)
+        assert set(step.removed) <= bins
+        bins = (bins | set(step.added)) - set(step.removed)
+        assert bins == set(step.bins)
+        assert len(step.added) + len(step.removed) == 1
+    assert len(selection.path[0].bins) == 1
+    assert selection.path[-1].nh_s > selection.path[0].nh_s
+
+
+def test_every_step_states_the_hits_of_its_own_map(planted, selection) -> None:
+    assert selection.rows.tolist() == list(range(48))
+    for step in selection.path:
+        assert score(step.xy, planted.labels).nh_s == pytest.approx(step.nh_s, abs=0.005)
+
+
+def test_the_order_of_shapes_does_not_matter(planted, selection) -> None:
+    order = np.random.default_rng(1).permutation(48)
+    labels = [planted.labels[i] for i in order]
+    space = make_bin_space(make_table(planted.table.values[order]), PRESETS["default"], labels)
+    other = select_bins(space, labels)
+    assert [step.bins for step in other.path] == [step.bins for step in selection.path]
+    assert [step.nh_s for step in other.path] == [step.nh_s for step in selection.path]
+    assert (other.path[-1].xy == selection.path[-1].xy[order]).all()
+
+
+def test_the_limit_holds(planted) -> None:
+    found = select_bins(planted.space, planted.labels, limit=2)
+    assert max(len(step.bins) for step in found.path) == 2
+
+
+def test_shapes_without_a_label_count_as_misses(planted) -> None:
+    labels = [None if i % 12 == 0 else label for i, label in enumerate(planted.labels)]
+    found = select_bins(planted.space, labels, limit=4)
+    # Of the eleven neighbours from a class one has no label: ten are taken, of which a miss is one in eleven.
+    assert found.nh_s == pytest.approx(10 / 11, abs=0.03)
+
+
+@pytest.mark.parametrize("label", ["ant", None])
+def test_without_two_classes_nothing_is_selected(planted, label) -> None:
+    found = select_bins(planted.space, [label] * 48)
+    assert found.bins == ()
+    assert np.isnan(found.nh_s)

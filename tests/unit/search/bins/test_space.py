@@ -1,0 +1,74 @@
+"""Distances by chosen bins: exact, fair to ties, and the same in any order of the shapes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from shapeviz_report.bins import scale_bins
+from shapeviz_report.features import PRESETS
+from shapeviz_report.projections import squared_distances
+from shapeviz_report.quality import score
+from shapeviz_report.search.bins import encode, make_bin_space
+from shapeviz_report.search.bins.space import hits_of, hits_of_additions
+from shapeviz_report.types import FeatureBlock, FeatureTable
+
+
+def test_distances_are_those_of_maps_of_chosen_bins(planted) -> None:
+    bins = ("A:2", "A:7", "B[0]:3")
+    values = scale_bins(planted.table, PRESETS["default"], bins)[planted.space.rows]
+    squared = planted.space.squared([planted.space.names.index(name) for name in bins])
+    assert squared == pytest.approx(squared_distances(values), rel=1e-4, abs=1e-4)
+
+
+def test_sums_do_not_depend_on_what_was_added_and_removed(planted) -> None:
+    space = planted.space
+    squared = space.squared([3, 1, 7])
+    squared += space.squared_by(20)
+    squared += space.squared_by(9)
+    squared -= space.squared_by(3)
+    assert (squared == space.squared([20, 9, 7, 1])).all()
+
+
+@pytest.mark.parametrize("k", [1, 4, 10, 47])
+@pytest.mark.parametrize("values", [2, 3, 1000])
+def test_hits_are_those_of_the_quality(values, k) -> None:
+    """With two or three different values a bin, nearly all distances are equal to others."""
+    random = np.random.default_rng(values)
+    table = FeatureTable(
+        tuple(map(str, range(48))), (FeatureBlock("x", 1, 4),), random.integers(values, size=(48, 4)) / values
+    )
+    labels = ["a"] * 20 + ["b"] * 20 + [None] * 8
+    space = make_bin_space(table, PRESETS["default"], labels)
+    _, codes = encode(space, labels)
+    rows = np.flatnonzero(codes >= 0)
+    own = [labels[row] for row in space.rows]
+
+    def expected(bins: list[int]) -> np.ndarray:
+        return score(space.columns[bins].T, own, k=k).nh[rows]
+
+    found = hits_of_additions(space.columns, space.squared([2]), rows, codes, k)
+    for b in (0, 1, 3):
+        assert found[b] == pytest.approx(expected([2, b]))
+    assert hits_of(space.squared([0, 1, 3]), rows, codes, k) == pytest.approx(expected([0, 1, 3]))
+
+
+def test_only_bins_that_differ_and_each_once() -> None:
+    random = np.random.default_rng(0)
+    values = random.random((12, 5))
+    values[:, 1] = 0.3
+    values[:, 3] = values[:, 0]
+    table = FeatureTable(tuple(map(str, range(12))), (FeatureBlock("x", 1, 5),), values)
+    assert make_bin_space(table, PRESETS["default"], [None] * 12).names == ("x:1", "x:3", "x:5")
+
+
+def test_shapes_that_are_all_alike_leave_no_bin() -> None:
+    table = FeatureTable(("a", "b", "c"), (FeatureBlock("x", 1, 5),), np.full((3, 5), 0.2))
+    assert make_bin_space(table, PRESETS["default"], [None] * 3).names == ()
+
+
+def test_a_large_database_is_sampled_by_class(planted) -> None:
+    space = make_bin_space(planted.table, PRESETS["default"], planted.labels, limit=20)
+    _, codes = encode(space, planted.labels)
+    assert np.bincount(codes).tolist() == [5, 5, 5, 5]
+    assert space.shape_count == 48
