@@ -2,6 +2,7 @@
 
 import { scoreByAnova } from "./score-anova.js";
 import { scoreByChi2 } from "./score-chi2.js";
+import { scoreByRelief } from "./score-relief.js";
 import { scoreByTrees } from "./score-trees.js";
 
 /**
@@ -12,6 +13,7 @@ const METHODS = new Map([
   ["chi2", scoreByChi2],
   ["anova", scoreByAnova],
   ["trees", scoreByTrees],
+  ["relief", scoreByRelief],
 ]);
 
 /**

@@ -1,0 +1,52 @@
+"""The two sums over all pairs of rows that iterative Relief spends its time on.
+
+Vector instructions of single precision take 280 rows of 1870 columns in a few hundredths of a second.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from numba import njit
+
+Float32Array = npt.NDArray[np.float32]
+_REORDERED = {"nnan", "nsz", "reassoc", "contract"}
+"""What the compiler may assume so that sums become vector instructions; the last digits follow from it."""
+
+
+@njit(cache=True, error_model="numpy", fastmath=_REORDERED)
+def distances(weighted: Float32Array) -> Float32Array:
+    """Sums over the columns of absolute differences between all rows of ``weighted`` (n, d); (n, n), symmetric."""
+    count, width = weighted.shape
+    found = np.zeros((count, count), np.float32)
+    for i in range(count):
+        for j in range(i):
+            total = np.float32(0)
+            for k in range(width):
+                total += abs(weighted[i, k] - weighted[j, k])
+            found[i, j] = found[j, i] = total
+    return found
+
+
+@njit(cache=True, error_model="numpy", fastmath=_REORDERED)
+def differences(values: Float32Array, shares: Float32Array) -> Float32Array:
+    """Sums over all pairs of rows of their absolute differences in each column, each pair with its share.
+
+    Parameters
+    ----------
+    values : (n, d) float32 array
+    shares : (n, n) float32 array
+        Of a pair (i, j) counts what stands at [i, j], with j < i.
+
+    Returns
+    -------
+    (d,) float32 array
+    """
+    count, width = values.shape
+    total = np.zeros(width, np.float32)
+    for i in range(count):
+        for j in range(i):
+            share = shares[i, j]
+            for k in range(width):
+                total[k] += share * abs(values[i, k] - values[j, k])
+    return total
