@@ -40,7 +40,7 @@ STAGES = {
     "project": "Projecting",
     "search": "Searching features",
     "bins": "Scoring bins",
-    "score": "Scoring",
+    "score": "Scoring maps",
     "write": "Writing the site",
 }
 """What a person reads of each stage."""

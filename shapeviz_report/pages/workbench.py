@@ -95,14 +95,12 @@ def _words(block: FeatureBlock) -> dict[str, str]:
         return {
             "title": block.name,
             "measures": "A feature that was brought along.",
-            "unit": "",
             "lowMeans": "",
             "highMeans": "",
         }
     return {
         "title": descriptor.title,
         "measures": descriptor.measures,
-        "unit": descriptor.unit,
         "lowMeans": descriptor.low,
         "highMeans": descriptor.high,
     }
@@ -138,7 +136,6 @@ def _scorers() -> list[dict[str, object]]:
             "key": scorer.name,
             "title": scorer.title,
             "explanation": scorer.explanation,
-            "source": scorer.source,
             "exact": scorer.exact,
         }
         for scorer in SCORERS
