@@ -3,7 +3,7 @@
 import { axisEnd } from "./bin-bars.js";
 import { element, swatch } from "./dom.js";
 import { styleColor } from "./theme.js";
-import { count, figure, grouped, shortened } from "./words.js";
+import { figure, grouped } from "./words.js";
 
 const WIDTH = 190;
 const ROW = 16;
@@ -58,7 +58,7 @@ export class BinCard {
     const means = bins.isShare(column) && (bins.binOf(column) < feature.bins / 2 ? ["Low values: ", feature.lowMeans] : ["High values: ", feature.highMeans]);
     const score = Number.isNaN(this.scores[column]) ? null : [figure(this.scores[column]), ` by ${this.scorer}, rank ${grouped(this.#rank(column))}`];
     return [
-      element("p", { class: "name" }, mark, element("b", {}, element("bdi", {}, bins.names[column])), feature.title),
+      element("p", { class: "name" }, mark, element("b", {}, element("bdi", {}, bins.names[column])), feature.title !== feature.name && feature.title),
       element("p", {}, bins.sentence(column)),
       means && means[1] && element("p", { class: "quiet" }, means, "."),
       score && element("p", { class: "quiet" }, "Score ", element("b", {}, score[0]), score[1]),
@@ -80,16 +80,16 @@ export class BinCard {
     const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest];
     const x = (value) => (most > least ? (WIDTH * (value - least)) / (most - least) : 0);
     const edge = shown.findIndex(({ apart }) => !apart);
-    const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null, dir: "auto" }, content);
-    const told = share ? percent : (value) => String(Number(value.toPrecision(3)));
+    const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null }, content);
+    const told = share ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
     return element(
       "div",
       { class: "of-bin" },
-      element("ul", { class: "names" }, shown.map((row, place) => item(place, row.mark, shortened(row.name, 40)))),
+      element("ul", { class: "names" }, shown.map((row, place) => item(place, row.mark, element("bdi", {}, row.name)))),
       strips(shown, edge, x),
       element("ul", { class: "medians" }, shown.map((row, place) => item(place, told(row.median)))),
       element("p", { class: "axis" }, [least, (least + most) / 2, most].map((value) => element("span", {}, told(value)))),
-      rows.length > shown.length && element("p", { class: "more" }, `and ${count(rows.length - shown.length, "more class", "more classes")}`),
+      rows.length > shown.length && element("p", { class: "more" }, `and ${grouped(rows.length - shown.length)} more`),
     );
   }
 

@@ -5,7 +5,7 @@ import { BinGestures } from "./bin-gestures.js";
 import { ranked } from "./bin-list.js";
 import { BinPlot } from "./bin-plot.js";
 import { element } from "./dom.js";
-import { count, figure, grouped } from "./words.js";
+import { count, figure, grouped, shortened } from "./words.js";
 
 const QUICK = [5, 10, 30];
 const ORDERS = {
@@ -76,10 +76,12 @@ export class BinChart {
   }
 
   #searchTools() {
+    const { bins } = this;
+    const examples = [shortened(bins.features[0].name, 12), bins.shortName(bins.count - 1, 16)];
     this.field = element("input", {
       type: "search",
       id: "bin-search",
-      placeholder: "Find bins: Agd, FPFH[14]:3",
+      placeholder: `Find bins: ${examples.join(", ")}`,
       title: "Enter goes from match to match",
       "aria-label": "Find bins by name",
       autocomplete: "off",

@@ -4,11 +4,12 @@ import { axisEnd, edges, paintBars, paintRows } from "./bin-bars.js";
 import { BinStrip } from "./bin-strip.js";
 import { calm, element, svg } from "./dom.js";
 import { styleColor } from "./theme.js";
-import { shortened } from "./words.js";
 
 /** Pixels a bar: with few bars, and zoomed in as far as it goes. */
 const WIDEST = 36;
 const CLOSEST = 48;
+/** Letters of a name below a bar. */
+const NAME = 12;
 /** From these widths on, bars have their names below them, and chosen ones a border each. */
 const NAMED = 13;
 const BORDERED = 5;
@@ -359,7 +360,7 @@ export class BinPlot {
     for (const column of visible) {
       context.font = this.chosen.has(column) || this.matched?.has(column) ? `600 ${plain}` : plain;
       context.setTransform(0, -1, 1, 0, (this.position[column] + 0.5 - view.left) * view.step, base + this.#pixels(MARKS));
-      context.fillText(shortened(this.bins.names[column], 12), 0, 0);
+      context.fillText(this.bins.shortName(column, NAME), 0, 0);
     }
     context.resetTransform();
   }

@@ -1,6 +1,7 @@
 // The bins of all features: their names, what they mean, and their value for every shape.
 
 import { currentTheme } from "./theme.js";
+import { shortened } from "./words.js";
 
 const STEPS = 65535;
 
@@ -23,6 +24,13 @@ export class Bins {
   /** The index of the feature that a column belongs to. */
   featureOf(column) {
     return this.#featureOf[column];
+  }
+
+  /** A column's name in few letters: of a long one, the feature is cut, not the bin. */
+  shortName(column, length) {
+    const { name } = this.features[this.#featureOf[column]];
+    const place = this.names[column].slice(name.length);
+    return `${shortened(name, Math.max(length - place.length, 2))}${place}`;
   }
 
   /** The number of a column's bin within its dimension, from 0. */
