@@ -35,7 +35,7 @@ export function* scoreByRelief(table, contest, columns) {
     const next = weights.map((weight, k) => weight + step * move[k]);
     const size = norm(next);
     weights = next.map((weight) => weight / size);
-    settled = Math.max(settled, Math.min(Math.log(moved) / Math.log(SETTLED), 0.95));
+    settled = Math.min(Math.max(Math.log(moved) / Math.log(SETTLED), 0), 0.95);
   }
   return weights;
 }

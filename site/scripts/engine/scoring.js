@@ -35,8 +35,11 @@ export function* score(table, { method, contests, columns, seed }) {
     if (places.length === 0) continue;
     const steps = measure(table, contest, places.map((place) => columns[place]), seed);
     let step = steps.next();
+    let progress = 0;
     while (!step.done) {
-      yield { progress: (number + step.value.progress) / contests.length };
+      // A method may find that there is more to do than it thought; the reader's bar only moves on.
+      progress = Math.max(progress, step.value.progress);
+      yield { progress: (number + progress) / contests.length };
       step = steps.next();
     }
     const found = step.value;
