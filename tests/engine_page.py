@@ -22,16 +22,8 @@ class EnginePage:
         page.evaluate(join(ENTRY))
 
     def start(self, values: np.ndarray, blocks: np.ndarray | None = None, scaling: str = "balanced") -> None:
-        """Start the engine on compared values (n, d); without ``blocks`` they are of one feature."""
-        rows, columns = values.shape
-        table = {
-            "rows": rows,
-            "columns": columns,
-            "values": values.T.astype(np.float32).ravel(),
-            "blocks": np.zeros(columns, np.int32) if blocks is None else blocks.astype(np.int32),
-            "scaling": scaling,
-        }
-        self.page.evaluate("(table) => engine.start(table)", _send(table))
+        """Start the engine on a table as :func:`make_table` makes it."""
+        self.call("start", make_table(values, blocks, scaling))
 
     def run(self, task: str, **parameters: Any) -> Any:
         """The result of a task; arrays of floats and of integers arrive as such."""
@@ -39,11 +31,28 @@ class EnginePage:
 
     def run_with_reports(self, task: str, **parameters: Any) -> tuple[Any, list[Any]]:
         """The result of a task, and what it reported on its way."""
-        answer = self.page.evaluate(
-            "([task, parameters]) => engine.run(task, parameters)", [task, _send(parameters)]
-        )
-        answer = _receive(answer)
+        answer = self.call("run", task, parameters)
         return answer["result"], answer["reports"]
+
+    def call(self, name: str, *arguments: Any) -> Any:
+        """Call a function of browser/engine.js."""
+        return _receive(
+            self.page.evaluate(f"(given) => engine.{name}(...given)", [_send(item) for item in arguments])
+        )
+
+
+def make_table(
+    values: np.ndarray, blocks: np.ndarray | None = None, scaling: str = "balanced"
+) -> dict[str, Any]:
+    """Compared values (n, d) as the engine takes them; without ``blocks`` they are of one feature."""
+    rows, columns = values.shape
+    return {
+        "rows": rows,
+        "columns": columns,
+        "values": values.T.astype(np.float32).ravel(),
+        "blocks": np.zeros(columns, np.int32) if blocks is None else blocks.astype(np.int32),
+        "scaling": scaling,
+    }
 
 
 def _send(value: Any) -> Any:

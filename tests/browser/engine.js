@@ -1,7 +1,10 @@
 // What the tests of the engine need from its page side, on `window.engine`.
 
 import { Cancelled, startEngine } from "../../site/scripts/engine/client.js";
+import { scaledPoints, squaredDistances } from "../../site/scripts/engine/distances.js";
+import { layOut } from "../../site/scripts/engine/layout.js";
 import { TaskLoop } from "../../site/scripts/engine/loop.js";
+import { Quadtree } from "../../site/scripts/engine/quadtree.js";
 
 const KINDS = { float32: Float32Array, float64: Float64Array, int32: Int32Array };
 
@@ -28,6 +31,16 @@ function send(value) {
   return Object.fromEntries(Object.entries(value).map(([name, item]) => [name, send(item)]));
 }
 
+/** Run a task's generator to its end, here and without pause. */
+function exhaust(steps) {
+  const reports = [];
+  for (let step = steps.next(); ; step = steps.next()) {
+    if (step.done) return { result: step.value, reports };
+    // A partial result may change after it was handed over.
+    reports.push(structuredClone(step.value));
+  }
+}
+
 let open = null;
 
 window.engine = {
@@ -45,5 +58,17 @@ window.engine = {
     const reports = [];
     const result = await open.run(name, receive(parameters), (report) => reports.push(report)).done;
     return send({ result, reports });
+  },
+  layOutHere(table, parameters) {
+    return send(exhaust(layOut(receive(table), receive(parameters))));
+  },
+  distances(table, { rows, columns, by }) {
+    return send(exhaust(squaredDistances(scaledPoints(receive(table), receive(rows), receive(columns), by))).result);
+  },
+  pushByTree(xy) {
+    const points = receive(xy);
+    const push = new Float64Array(points.length);
+    const normaliser = new Quadtree(points.length / 2).push(points, push);
+    return send({ normaliser, push });
   },
 };

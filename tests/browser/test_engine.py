@@ -2,8 +2,13 @@
 
 import numpy as np
 import pytest
+from engine_page import make_table
 
 from shapeviz_report import quality
+from shapeviz_report.bins import scale_bins
+from shapeviz_report.features import PRESETS, compared_values, scale
+from shapeviz_report.projections import TSNE_METHOD, UMAP_METHOD, project, squared_distances
+from shapeviz_report.types import FeatureBlock, FeatureTable
 
 
 @pytest.fixture
@@ -168,3 +173,216 @@ def test_no_other_worker_is_trusted(engine_page):
     assert refused
     assert engine_page.page.watch.complaints
     engine_page.page.watch.complaints.clear()
+
+
+def groups_of(random, groups, size, columns, noise):
+    """Rows (groups * size, columns) around a centre for each group, and the group of each."""
+    of_row = np.arange(groups * size) // size
+    return random.normal(size=(groups, columns))[of_row] + noise * random.normal(
+        size=(groups * size, columns)
+    ), of_row
+
+
+def choice(values, **others):
+    """The parameters of a layout of all rows and columns."""
+    rows, columns = np.arange(values.shape[0]), np.arange(values.shape[1])
+    return {"method": "tsne", "rows": rows, "columns": columns, "by": "bins", "seed": 0} | others
+
+
+def moved(one, other):
+    """How far points lie apart on two maps, on average; the maps are 2 wide."""
+    return np.linalg.norm((one - other).reshape(-1, 2), axis=1).mean()
+
+
+@pytest.fixture(scope="module")
+def histograms():
+    """Two features, of fractions and of a user's own numbers, one column the same for all shapes."""
+    random = np.random.default_rng(2)
+    blocks = (FeatureBlock("Gc", 2, 10), FeatureBlock("own", 3, 1))
+    fractions = random.dirichlet(np.ones(10), (40, 2)).reshape(40, 20)
+    fractions[:, 3] = 0.25
+    own = random.normal(size=(40, 3)) * [1, 50, 0.02]
+    values = np.hstack([fractions, own])
+    return FeatureTable(tuple(f"{row:02}" for row in range(40)), blocks, values)
+
+
+@pytest.mark.parametrize("preset", ["default", "paper"])
+@pytest.mark.parametrize("by", ["features", "bins"])
+def test_rows_lie_as_far_apart_as_in_python(engine_page, histograms, preset, by):
+    """Of the rows in use; what scales them are all rows."""
+    preset = PRESETS[preset]
+    rows = np.array([0, 3, 4, 8, 21, 39, 7])
+    columns = np.arange(23) if by == "features" else np.array([0, 3, 5, 19, 22])
+    if by == "features":
+        scaled = scale(histograms, preset)
+    else:
+        scaled = scale_bins(histograms, preset, [histograms.columns[column] for column in columns])
+    table = make_table(
+        compared_values(histograms, preset),
+        np.repeat([0, 1], [20, 3]),
+        "balanced" if preset.balanced else "plain",
+    )
+    found = engine_page.call("distances", table, {"rows": rows, "columns": columns, "by": by})
+    np.testing.assert_allclose(found.reshape(7, 7), squared_distances(scaled[rows]), rtol=1e-5, atol=1e-9)
+
+
+@pytest.mark.parametrize("rows", [320, 321])
+def test_the_tree_pushes_as_all_points_together(engine_page, random, rows):
+    xy = random.normal(0, 8, (rows, 2))
+    xy[10] = xy[11] = xy[12]
+    found = engine_page.call("pushByTree", xy.ravel())
+    away = xy[:, None] - xy[None]
+    kernel = 1 / (1 + (away**2).sum(axis=2))
+    expected = (kernel[:, :, None] ** 2 * away).sum(axis=1)
+    assert found["normaliser"] == pytest.approx(kernel.sum() - rows, rel=0.02)
+    error = np.linalg.norm(found["push"].reshape(-1, 2) - expected)
+    assert error < 0.08 * np.linalg.norm(expected)
+
+
+# 24 groups are more rows than have the affinities of all pairs.
+@pytest.mark.parametrize(("method", "groups"), [(TSNE_METHOD, 10), (UMAP_METHOD, 10), (TSNE_METHOD, 24)])
+def test_maps_are_as_good_as_those_of_python(engine_page, random, method, groups):
+    values, of_row = groups_of(random, groups, 14, 30, 1.1)
+    scaled = values / values.std(axis=0)
+    engine_page.start(values)
+    seeds = range(3)
+    expected = np.mean(
+        [python_hit(project(method, scaled, (), seed).xy.ravel(), of_row, 10).nh_s for seed in seeds]
+    )
+    cold = [
+        engine_page.run("layout", **choice(values, method=method.name, seed=seed))["xy"] for seed in seeds
+    ]
+    start = engine_page.run("layout", **choice(values[:, :20], method=method.name))["xy"]
+    warm = [
+        engine_page.run("layout", **choice(values, method=method.name, seed=seed, start=start))["xy"]
+        for seed in seeds
+    ]
+    assert expected < 0.97  # groups that overlap, or any map would do
+    for maps in (cold, warm):
+        assert np.mean([python_hit(xy, of_row, 10).nh_s for xy in maps]) > expected - 0.03
+
+
+@pytest.mark.parametrize("method", ["tsne", "umap"])
+@pytest.mark.parametrize("groups", [6, 16])
+def test_a_map_depends_on_the_seed_and_not_on_how_the_work_was_cut(engine_page, random, method, groups):
+    values, _ = groups_of(random, groups, 20, 8, 0.7)
+    engine_page.start(values)
+    parameters = choice(values, method=method)
+    table = make_table(values)
+    here = engine_page.call("layOutHere", table, parameters)["result"]["xy"]
+    np.testing.assert_array_equal(engine_page.run("layout", **parameters)["xy"], here)
+    other = engine_page.run("layout", **parameters | {"seed": 1})["xy"]
+    assert not np.array_equal(other, here)
+
+
+@pytest.mark.parametrize("method", ["tsne", "umap"])
+@pytest.mark.parametrize(
+    "values",
+    [
+        np.array([[1.0, 2.0]]),
+        np.array([[1.0], [2.0]]),
+        np.array([[0.0, 1.0], [3.0, 1.0], [4.0, 5.0]]),
+        np.arange(5.0)[:, None],
+        np.ones((6, 2)),
+        np.zeros((7, 0)),
+        np.repeat([[1.0], [2.0]], 20, axis=0),
+        np.repeat([[1.0], [2.0]], 200, axis=0),
+        np.r_[np.zeros(30), 1.0][:, None],
+        np.c_[np.arange(9.0), np.ones(9)],
+    ],
+    ids=[
+        "one row",
+        "two",
+        "three",
+        "five",
+        "all equal",
+        "no columns",
+        "two places",
+        "two places, many",
+        "one apart",
+        "constant column",
+    ],
+)
+def test_odd_tables_give_a_map(engine_page, values, method):
+    engine_page.start(values)
+    xy = engine_page.run("layout", **choice(values, method=method))["xy"]
+    assert xy.shape == (2 * len(values),)
+    assert np.isfinite(xy).all()
+    assert np.abs(xy).max() <= 1 + 1e-6
+    if len(np.unique(values, axis=0)) > 1:
+        assert np.ptp(xy.reshape(-1, 2), axis=0).max() == pytest.approx(2, abs=1e-5)
+    else:
+        assert not xy.any()
+
+
+def test_a_few_rows_keep_their_distances(engine_page):
+    values = np.array([[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]])
+    engine_page.start(values, scaling="plain")
+    xy = engine_page.run("layout", **choice(values))["xy"].reshape(3, 2).astype(float)
+    ratios = np.sqrt(squared_distances(xy) / squared_distances(xy)[1, 2])
+    np.testing.assert_allclose(ratios, np.sqrt(squared_distances(values)) / 5, atol=1e-6)
+
+
+@pytest.mark.parametrize("method", ["tsne", "umap"])
+def test_a_map_follows_the_one_before(engine_page, random, method):
+    """A reader who changes little keeps their bearings, whichever way the last map was turned."""
+    values, _ = groups_of(random, 6, 15, 20, 0.8)
+    engine_page.start(values)
+    first = engine_page.run("layout", **choice(values, method=method))["xy"]
+    angle = 2.0
+    turn = np.array([[np.cos(angle), np.sin(angle)], [np.sin(angle), -np.cos(angle)]])
+    last = (first.reshape(-1, 2) @ turn).astype(np.float32).ravel()
+    parameters = choice(values[:, :18], method=method)
+    anew = engine_page.run("layout", **parameters)["xy"]
+    turned = engine_page.run("layout", **parameters, reference=last)["xy"]
+    followed = engine_page.run("layout", **parameters, start=last)["xy"]
+    assert moved(followed, last) < 0.4
+    assert moved(followed, last) < moved(turned, last) < moved(anew, last)
+
+
+@pytest.mark.parametrize("method", ["tsne", "umap"])
+def test_rows_without_a_place_come_to_their_own(engine_page, random, method):
+    values, of_row = groups_of(random, 5, 16, 20, 0.4)
+    engine_page.start(values)
+    start = engine_page.run("layout", **choice(values, method=method))["xy"].copy().reshape(-1, 2)
+    new = np.arange(80) % 16 < 4
+    start[new] = np.nan
+    xy = engine_page.run("layout", **choice(values, method=method, start=start.ravel()))["xy"].reshape(-1, 2)
+    centres = np.array([start[(of_row == group) & ~new].mean(axis=0) for group in range(5)])
+    nearest = np.linalg.norm(xy[:, None] - centres, axis=2).argmin(axis=1)
+    assert (nearest[new] == of_row[new]).mean() > 0.9
+
+
+@pytest.mark.parametrize("start", [np.nan, 0.5])
+def test_a_start_without_places_is_none(engine_page, random, start):
+    values, _ = groups_of(random, 3, 10, 5, 0.5)
+    engine_page.start(values)
+    useless = np.full(60, start, dtype=np.float32)
+    found = engine_page.run("layout", **choice(values, start=useless))["xy"]
+    assert np.isfinite(found).all()
+    if np.isnan(start):
+        np.testing.assert_array_equal(found, engine_page.run("layout", **choice(values))["xy"])
+
+
+@pytest.mark.parametrize("method", ["tsne", "umap"])
+@pytest.mark.parametrize("warm", [False, True])
+def test_points_are_seen_to_move_and_never_to_flip(engine_page, random, method, warm):
+    values, _ = groups_of(random, 16, 20, 10, 0.8)
+    start = random.uniform(-1, 1, 640).astype(np.float32) if warm else None
+    answer = engine_page.call("layOutHere", make_table(values), choice(values, method=method, start=start))
+    progress = [report["progress"] for report in answer["reports"]]
+    assert progress == sorted(progress)
+    assert progress[0] >= 0
+    assert progress[-1] <= 1
+    maps = [report["partial"]["xy"] for report in answer["reports"] if "partial" in report]
+    maps.append(answer["result"]["xy"])
+    assert len(maps) > 10
+    reference = (start if warm else maps[0]).reshape(-1, 2)
+    reference = reference - reference.mean(axis=0)
+    for xy in maps:
+        assert np.abs(xy).max() == pytest.approx(1, abs=1e-5)
+        points = xy.reshape(-1, 2)
+        # A quarter turn or a mirror image lies no closer to the reference.
+        for x, y in ((points[:, 0], points[:, 1]), (points[:, 1], points[:, 0])):
+            for other in ((x, y), (x, -y), (-x, y), (-x, -y)):
+                assert (np.stack(other, axis=1) * reference).sum() <= (points * reference).sum() + 1e-6

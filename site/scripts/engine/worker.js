@@ -2,6 +2,7 @@
 
 import { serve } from "./loop.js";
 import { measureHit } from "./hit.js";
+import { layOut } from "./layout.js";
 import { score } from "./scoring.js";
 
-serve({ hit: measureHit, score });
+serve({ hit: measureHit, layout: layOut, score });

@@ -1,0 +1,126 @@
+// Rows as points whose Euclidean distances the layouts compare, and those distances.
+
+/** Products between two reports: a few milliseconds of work. */
+const WORK = 4e6;
+
+/** A spread below this is rounding: the column or feature counts as constant. */
+const NO_SPREAD = 1e-12;
+
+/**
+ * The chosen rows and columns, scaled.
+ *
+ * For a choice of features, each is divided by its root mean square norm, as shapeviz_report/features.py does, so that
+ * all contribute equally; for a choice of bins each column is divided by its standard deviation. Both are taken over
+ * all rows of the table, so that leaving out classes does not change what near means. "plain" tables stay as they are.
+ *
+ * @param {object} table as in `startEngine`
+ * @param {Int32Array} rows
+ * @param {Int32Array} columns
+ * @param {"features"|"bins"} by
+ * @returns {{ count: number, width: number, values: Float32Array }} one row after the other
+ */
+export function scaledPoints(table, rows, columns, by) {
+  const width = columns.length;
+  const points = { count: rows.length, width, values: new Float32Array(rows.length * width) };
+  const factors = table.scaling === "plain" ? new Float64Array(width).fill(1) : factorsOf(table, columns, by);
+  for (let place = 0; place < width; place++) {
+    const start = columns[place] * table.rows;
+    for (let row = 0; row < rows.length; row++) {
+      points.values[row * width + place] = table.values[start + rows[row]] * factors[place];
+    }
+  }
+  return points;
+}
+
+function factorsOf(table, columns, by) {
+  const variances = Float64Array.from(columns, (column) => variance(table, column));
+  if (by === "features") {
+    const totals = new Map();
+    columns.forEach((column, place) => {
+      const block = table.blocks[column];
+      totals.set(block, (totals.get(block) ?? 0) + variances[place]);
+    });
+    columns.forEach((column, place) => (variances[place] = totals.get(table.blocks[column])));
+  }
+  return variances.map((value) => (Math.sqrt(value) > NO_SPREAD ? 1 / Math.sqrt(value) : 0));
+}
+
+function variance({ rows, values }, column) {
+  const start = column * rows;
+  let mean = 0, total = 0;
+  for (let row = 0; row < rows; row++) mean += values[start + row] / rows;
+  for (let row = 0; row < rows; row++) total += (values[start + row] - mean) ** 2;
+  return total / rows;
+}
+
+/** Squared distances of all pairs: Float64Array (n n). */
+export function* squaredDistances(points) {
+  const { count } = points;
+  const squared = new Float64Array(count * count);
+  yield* visitPairs(points, (row, other, distance) => {
+    squared[row * count + other] = distance;
+    squared[other * count + row] = distance;
+  });
+  return squared;
+}
+
+/**
+ * The k nearest other rows of every row, nearest first.
+ *
+ * @returns {{ k: number, rows: Int32Array, squared: Float64Array }} k entries for each row
+ */
+export function* nearestRows(points, k) {
+  const rows = new Int32Array(points.count * k).fill(-1);
+  const squared = new Float64Array(points.count * k).fill(Infinity);
+  const offer = (row, other, distance) => {
+    const first = row * k;
+    let place = first + k - 1;
+    if (!(distance < squared[place])) return;
+    for (; place > first && squared[place - 1] > distance; place--) {
+      squared[place] = squared[place - 1];
+      rows[place] = rows[place - 1];
+    }
+    squared[place] = distance;
+    rows[place] = other;
+  };
+  yield* visitPairs(points, (row, other, distance) => {
+    offer(row, other, distance);
+    offer(other, row, distance);
+  });
+  return { k, rows, squared };
+}
+
+/** Hand every pair of rows, `other` before `row`, and their squared distance to `visit`. */
+function* visitPairs({ count, width, values }, visit) {
+  // Two rows against two at a time: every value that is read serves twice, which halves the time.
+  let work = 0;
+  for (let row = 0; row < count; row += 2) {
+    const first = row * width;
+    // The last of an odd number of rows stands for its missing partner.
+    const second = row + 1 < count ? first + width : first;
+    for (let other = 0; other <= row; other += 2) {
+      const third = other * width;
+      const fourth = other + 1 < count ? third + width : third;
+      let ac = 0, ad = 0, bc = 0, bd = 0;
+      for (let place = 0; place < width; place++) {
+        const a = values[first + place], b = values[second + place];
+        const c = values[third + place], d = values[fourth + place];
+        ac += (a - c) * (a - c);
+        ad += (a - d) * (a - d);
+        bc += (b - c) * (b - c);
+        bd += (b - d) * (b - d);
+      }
+      if (other < row) {
+        visit(row, other, ac);
+        visit(row, other + 1, ad);
+        if (row + 1 < count) visit(row + 1, other + 1, bd);
+      }
+      if (row + 1 < count) visit(row + 1, other, bc);
+      work += 4 * width;
+      if (work > WORK) {
+        work = 0;
+        yield { progress: (row / count) ** 2 };
+      }
+    }
+  }
+}
