@@ -8,10 +8,10 @@ from shapeviz_report.scorers.balance import balanced_weights, standardise
 from shapeviz_report.scorers.base import BoolArray, Scorer
 from shapeviz_report.types import FloatArray
 
-PAIRS = 30
+PAIRS = 50
 """Random cuts of the rows into two halves: twice as many runs."""
 
-STRENGTHS = 0.8 ** np.arange(1, 13)
+STRENGTHS = 0.64 ** np.arange(1, 7)
 """Of the penalty, as parts of the least that leaves no coefficient; the last one leaves about 15 of 1870."""
 
 WEAKEST = 0.5

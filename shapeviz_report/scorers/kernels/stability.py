@@ -121,7 +121,7 @@ def follow_path(
     width, count = columns.shape
     # With weights that give either group one half, an intercept of 0 is best while there are no coefficients.
     intercept, coefficient = 0.0, np.zeros(width)
-    linear, move = np.zeros(count), np.empty(count)
+    linear, previous = np.zeros(count), np.empty(width)
     weights, residuals, curvatures = np.empty(count), np.empty(count), np.empty(count)
     for row in range(count):
         weights[row] = 0.5 / hits if row < hits else 0.5 / (count - hits)
@@ -167,47 +167,49 @@ def follow_path(
                 if violation <= allowed:
                     break
                 for place in range(size):
-                    values, total = columns[active[place]], 0.0
-                    for row in range(count):
-                        total += curvatures[row] * values[row] * values[row]
-                    bends[place] = total
-                # Coordinate descent on the second-order approximation; `residuals` become those of it.
-                move[:] = 0.0
-                everyone = True
-                for _ in range(_MOST_SWEEPS):
+                    bends[place] = 0.0
+                    previous[place] = coefficient[active[place]]
+                origin = intercept
+                # Coordinate descent on the second-order approximation; `residuals` become those of it. After the first
+                # sweep only those go on that have a coefficient; the conditions above are checked for everyone.
+                for sweep in range(_MOST_SWEEPS):
                     slope = 0.0
                     for row in range(count):
                         slope += residuals[row]
                     change, largest = slope / bend, abs(slope)
                     intercept += change
                     for row in range(count):
-                        move[row] += change
                         residuals[row] -= curvatures[row] * change
                     for place in range(size):
                         column = active[place]
                         before = coefficient[column]
-                        if before == 0 and not everyone:
+                        if before == 0 and sweep > 0:
                             continue
                         values = columns[column]
-                        pull = _product(values, residuals) + bends[place] * before
+                        pull = _product(values, residuals)
+                        if before == 0 and abs(pull) <= now * penalties[column]:
+                            continue
+                        if bends[place] == 0:
+                            for row in range(count):
+                                bends[place] += curvatures[row] * values[row] * values[row]
+                        pull += bends[place] * before
                         excess = abs(pull) - now * penalties[column]
                         change = (np.sign(pull) * excess / bends[place] if excess > 0 else 0.0) - before
                         if change != 0:
                             coefficient[column] = before + change
                             largest = max(largest, abs(change) * bends[place])
                             for row in range(count):
-                                shift = values[row] * change
-                                move[row] += shift
-                                residuals[row] -= curvatures[row] * shift
-                    # Most sweeps go over the coefficients that are not zero only; one over all ends it.
-                    if largest > 0.1 * violation:
-                        everyone = False
-                    elif everyone:
+                                residuals[row] -= curvatures[row] * (values[row] * change)
+                    if largest <= 0.1 * violation:
                         break
-                    else:
-                        everyone = True
                 for row in range(count):
-                    linear[row] += move[row]
+                    linear[row] += intercept - origin
+                for place in range(size):
+                    change = coefficient[active[place]] - previous[place]
+                    if change != 0:
+                        values = columns[active[place]]
+                        for row in range(count):
+                            linear[row] += values[row] * change
             complete = True
             for column in range(width):
                 gradient[column] = _product(columns[column], residuals)

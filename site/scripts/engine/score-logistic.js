@@ -4,8 +4,8 @@
 import { standardise } from "./balance.js";
 import { Random } from "./random.js";
 
-const PAIRS = 30;
-const STRENGTHS = Array.from({ length: 12 }, (_, step) => 0.8 ** (step + 1));
+const PAIRS = 50;
+const STRENGTHS = Array.from({ length: 6 }, (_, step) => 0.64 ** (step + 1));
 const WEAKEST = 0.5;
 const TOLERANCE = 1e-4;
 const MOST_STEPS = 50;
@@ -65,7 +65,7 @@ class LassoPath {
     this.active = new Int32Array(width);
     this.bends = new Float64Array(width);
     this.linear = new Float64Array(count);
-    this.move = new Float64Array(count);
+    this.previous = new Float64Array(width);
     this.residuals = new Float64Array(count);
     this.curvatures = new Float64Array(count);
     this.weights = Float64Array.from({ length: count }, (_, row) => 0.5 / (row < hits ? hits : misses));
@@ -153,52 +153,56 @@ class LassoPath {
     return violation;
   }
 
-  /** Coordinate descent on the approximation; `residuals` become those of it. */
+  /**
+   * Coordinate descent on the approximation; `residuals` become those of it. After the first sweep only those go on that
+   * have a coefficient; `approximate` checks everyone.
+   */
   descend(now, violation) {
-    const { count, values, curvatures, residuals, move, linear, bends, active, coefficients, penalties } = this;
+    const { count, values, curvatures, residuals, linear, bends, previous, active, coefficients, penalties } = this;
     for (let place = 0; place < this.size; place += 1) {
-      const start = active[place] * count;
-      let total = 0;
-      for (let row = 0; row < count; row += 1) {
-        const value = values[start + row];
-        total += curvatures[row] * value * value;
-      }
-      bends[place] = total;
+      bends[place] = 0;
+      previous[place] = coefficients[active[place]];
     }
-    move.fill(0);
-    let everyone = true;
+    let shift = 0;
     for (let sweep = 0; sweep < MOST_SWEEPS; sweep += 1) {
       let slope = 0;
       for (let row = 0; row < count; row += 1) slope += residuals[row];
       let largest = Math.abs(slope);
       const step = slope / this.bend;
-      for (let row = 0; row < count; row += 1) {
-        move[row] += step;
-        residuals[row] -= curvatures[row] * step;
-      }
+      shift += step;
+      for (let row = 0; row < count; row += 1) residuals[row] -= curvatures[row] * step;
       for (let place = 0; place < this.size; place += 1) {
         const column = active[place];
         const before = coefficients[column];
-        if (before === 0 && !everyone) continue;
-        const pull = this.slope(column) + bends[place] * before;
+        if (before === 0 && sweep > 0) continue;
+        let pull = this.slope(column);
+        if (before === 0 && Math.abs(pull) <= now * penalties[column]) continue;
+        const start = column * count;
+        if (bends[place] === 0) {
+          let bend = 0;
+          for (let row = 0; row < count; row += 1) {
+            const value = values[start + row];
+            bend += curvatures[row] * value * value;
+          }
+          bends[place] = bend;
+        }
+        pull += bends[place] * before;
         const excess = Math.abs(pull) - now * penalties[column];
         const change = (excess > 0 ? (Math.sign(pull) * excess) / bends[place] : 0) - before;
         if (change === 0) continue;
         coefficients[column] = before + change;
         largest = Math.max(largest, Math.abs(change) * bends[place]);
-        const start = column * count;
-        for (let row = 0; row < count; row += 1) {
-          const shift = values[start + row] * change;
-          move[row] += shift;
-          residuals[row] -= curvatures[row] * shift;
-        }
+        for (let row = 0; row < count; row += 1) residuals[row] -= curvatures[row] * (values[start + row] * change);
       }
-      // Most sweeps go over the coefficients that are not zero only; one over all ends it.
-      if (largest > 0.1 * violation) everyone = false;
-      else if (everyone) break;
-      else everyone = true;
+      if (largest <= 0.1 * violation) break;
     }
-    for (let row = 0; row < count; row += 1) linear[row] += move[row];
+    for (let row = 0; row < count; row += 1) linear[row] += shift;
+    for (let place = 0; place < this.size; place += 1) {
+      const change = coefficients[active[place]] - previous[place];
+      if (change === 0) continue;
+      const start = active[place] * count;
+      for (let row = 0; row < count; row += 1) linear[row] += values[start + row] * change;
+    }
   }
 
   /** The product of a column and the residuals, in four sums that do not wait for each other. */

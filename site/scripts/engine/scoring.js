@@ -2,7 +2,9 @@
 
 import { scoreByAnova } from "./score-anova.js";
 import { scoreByChi2 } from "./score-chi2.js";
+import { scoreByLogistic } from "./score-logistic.js";
 import { scoreByRelief } from "./score-relief.js";
+import { scoreByRfe } from "./score-rfe.js";
 import { scoreByTrees } from "./score-trees.js";
 
 /**
@@ -13,7 +15,9 @@ const METHODS = new Map([
   ["chi2", scoreByChi2],
   ["anova", scoreByAnova],
   ["trees", scoreByTrees],
+  ["logistic", scoreByLogistic],
   ["relief", scoreByRelief],
+  ["rfe", scoreByRfe],
 ]);
 
 /**
