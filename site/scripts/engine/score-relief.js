@@ -5,13 +5,13 @@ const ROWS = 400;
 const SETTLED = 3e-3;
 const MOST_ROUNDS = 30;
 
-/** Rows against rows that are taken together in the sums over all pairs. */
+/** Rows against rows that are taken together in the sums over all pairs, so that each value read serves several. */
 const TALL = 2;
 const WIDE = 4;
 
 /** Scores of `columns`, all of which vary over the contest's rows. */
 export function* scoreByRelief(table, contest, columns) {
-  const sample = spreadRows(table, contest, columns);
+  const sample = yield* spreadRows(table, contest, columns);
   const width = columns.length;
   let weights = new Float64Array(width).fill(1 / Math.sqrt(width));
   let before = new Float64Array(width);
@@ -46,26 +46,29 @@ function norm(vector) {
 
 /**
  * The rows that are compared, those of the first group first: at most `ROWS`, spread evenly by the sums of their values.
- * `values` are theirs, each column divided by its range over all rows of the contest, one row after the other.
+ * `values` are theirs, each column divided by its range over all rows of the contest, one row after the other, followed by
+ * empty rows up to a multiple of `WIDE`, the `stride`.
  */
-function spreadRows({ rows, values }, { positive, negative }, columns) {
+function* spreadRows({ rows, values }, { positive, negative }, columns) {
   const width = columns.length;
   const all = [...positive, ...negative];
   const lows = new Float64Array(width);
   const ranges = new Float64Array(width);
   const sums = new Float64Array(all.length);
-  columns.forEach((column, k) => {
+  for (let k = 0; k < width; k += 1) {
+    const start = columns[k] * rows;
     let low = Infinity;
     let high = -Infinity;
     for (const row of all) {
-      const value = values[column * rows + row];
+      const value = values[start + row];
       if (value < low) low = value;
       if (value > high) high = value;
     }
     lows[k] = low;
     ranges[k] = high - low;
-    for (let i = 0; i < all.length; i += 1) sums[i] += (values[column * rows + all[i]] - low) / ranges[k];
-  });
+    for (let i = 0; i < all.length; i += 1) sums[i] += (values[start + all[i]] - low) / ranges[k];
+    if (k % 256 === 255) yield { progress: 0 };
+  }
   const places = Int32Array.from(all.keys());
   const groups = [places.subarray(0, positive.length), places.subarray(positive.length)];
   const most = Math.max(ROWS / 2, ROWS - Math.min(positive.length, negative.length));
@@ -75,36 +78,36 @@ function spreadRows({ rows, values }, { positive, negative }, columns) {
     return Array.from({ length: count }, (_, i) => ordered[Math.floor(((i + 0.5) * group.length) / count)]);
   });
   const count = chosen[0].length + chosen[1].length;
-  const scaled = new Float32Array(count * width);
+  const stride = Math.ceil(count / WIDE) * WIDE;
+  const scaled = new Float32Array(stride * width);
   chosen.flat().forEach((place, i) => {
     for (let k = 0; k < width; k += 1) {
       scaled[i * width + k] = (values[columns[k] * rows + all[place]] - lows[k]) / ranges[k];
     }
   });
-  return { count, positives: chosen[0].length, values: scaled };
+  return { count, stride, positives: chosen[0].length, values: scaled };
 }
 
-/** Sums over the columns of weighted absolute differences between all rows; symmetric. */
-function* pairDistances({ count, values }, weights, report) {
+/** Sums over the columns of weighted absolute differences between all rows; (stride, stride), symmetric. */
+function* pairDistances({ count, stride, values }, weights, report) {
   const used = Int32Array.from(weights.keys()).filter((k) => weights[k] > 0);
   const width = used.length;
-  const full = weights.length;
-  const weighted = new Float32Array(count * width);
+  const weighted = new Float32Array(stride * width);
   for (let i = 0; i < count; i += 1) {
     for (let k = 0; k < width; k += 1) {
-      weighted[i * width + k] = values[i * full + used[k]] * Math.fround(weights[used[k]]);
+      weighted[i * width + k] = values[i * weights.length + used[k]] * Math.fround(weights[used[k]]);
     }
   }
-  const distances = new Float64Array(count * count);
+  const distances = new Float64Array(stride * stride);
   const sums = new Float64Array(TALL * WIDE);
   for (let i = 0; i < count; i += TALL) {
     for (let j = 0; j < i + TALL; j += WIDE) {
-      const block = new Block(count, i, j);
-      addDistances(sums, weighted, width, block);
+      addDistances(sums, weighted, width, i, j);
       for (let place = 0; place < sums.length; place += 1) {
-        const [one, other] = block.pair(place);
-        distances[one * count + other] = sums[place];
-        distances[other * count + one] = sums[place];
+        const one = i + Math.floor(place / WIDE);
+        const other = j + (place % WIDE);
+        distances[one * stride + other] = sums[place];
+        distances[other * stride + one] = sums[place];
       }
     }
     yield report(Math.min((i + TALL) / count, 1) ** 2);
@@ -112,31 +115,9 @@ function* pairDistances({ count, values }, weights, report) {
   return distances;
 }
 
-/** A few rows against a few: each value that is read serves several pairs. Beyond the last row stands the last. */
-class Block {
-  constructor(count, i, j) {
-    this.tall = Array.from({ length: TALL }, (_, offset) => Math.min(i + offset, count - 1));
-    this.wide = Array.from({ length: WIDE }, (_, offset) => Math.min(j + offset, count - 1));
-    this.beyond = (offset, place) => i + offset >= count || j + place >= i + offset;
-  }
-
-  /** The rows of one of the block's pairs. */
-  pair(place) {
-    return [this.tall[Math.floor(place / WIDE)], this.wide[place % WIDE]];
-  }
-
-  /** The shares of all pairs, without those that are of other blocks too. */
-  shares(all, count) {
-    return Float64Array.from({ length: TALL * WIDE }, (_, place) => {
-      const [one, other] = this.pair(place);
-      return this.beyond(Math.floor(place / WIDE), place % WIDE) ? 0 : all[one * count + other];
-    });
-  }
-}
-
-function addDistances(sums, values, width, { tall, wide }) {
-  const [i, j] = tall.map((row) => row * width);
-  const [a, b, c, d] = wide.map((row) => row * width);
+function addDistances(sums, values, width, row, column) {
+  const [i, j] = [row * width, (row + 1) * width];
+  const [a, b, c, d] = [column * width, (column + 1) * width, (column + 2) * width, (column + 3) * width];
   let ia = 0;
   let ib = 0;
   let ic = 0;
@@ -161,64 +142,69 @@ function addDistances(sums, values, width, { tall, wide }) {
     id += Math.abs(first - other);
     jd += Math.abs(second - other);
   }
-  sums.set([ia, ib, ic, id, ja, jb, jc, jd]);
+  [sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7]] = [ia, ib, ic, id, ja, jb, jc, jd];
 }
 
-/** What each pair counts, negative for rows of one group; what stands at [i, j] with j < i is that of both directions. */
-function pairShares(distances, { count, positives }) {
-  const shares = new Float64Array(count * count);
-  const mean = distances.reduce((sum, distance) => sum + distance, 0) / (count * (count - 1));
+/** What each pair counts, negative for rows of one group; both directions together at [i, j] with j < i. */
+function pairShares(distances, { count, stride, positives }) {
+  const shares = new Float64Array(stride * stride);
+  let mean = 0;
+  for (let i = 0; i < count; i += 1) {
+    for (let j = 0; j < count; j += 1) mean += distances[i * stride + j] / (count * (count - 1));
+  }
   if (mean === 0) return shares;
   const kernel = KERNEL * mean;
   for (let i = 0; i < count; i += 1) {
     const own = i < positives ? [0, positives] : [positives, count];
     const other = i < positives ? [positives, count] : [0, positives];
-    const hits = nearness(distances, i, count, own, kernel);
-    const misses = nearness(distances, i, count, other, kernel);
+    const hits = nearness(distances, i, stride, own, kernel);
+    const misses = nearness(distances, i, stride, other, kernel);
     // The probability that the nearest row of all is of the same group, as if both groups were of the same size.
     const advantage = Math.log(hits.total / (own[1] - own[0] - 1) / (misses.total / (other[1] - other[0]))) + (misses.nearest - hits.nearest) / kernel;
     const noOutlier = hits.total === 0 ? 1 : 1 / (1 + Math.exp(-advantage));
     const counts = (0.5 / (own[1] - own[0])) * noOutlier;
-    for (let j = own[0]; j < own[1]; j += 1) if (j !== i) shares[i * count + j] = (-counts * hits.likely[j - own[0]]) / hits.total;
-    for (let j = other[0]; j < other[1]; j += 1) shares[i * count + j] = (counts * misses.likely[j - other[0]]) / misses.total;
+    for (let j = own[0]; j < own[1]; j += 1) if (j !== i) shares[i * stride + j] = (-counts * hits.likely[j - own[0]]) / hits.total;
+    for (let j = other[0]; j < other[1]; j += 1) shares[i * stride + j] = (counts * misses.likely[j - other[0]]) / misses.total;
   }
   for (let i = 0; i < count; i += 1) {
-    for (let j = 0; j < i; j += 1) shares[i * count + j] += shares[j * count + i];
+    for (let j = 0; j < i; j += 1) {
+      shares[i * stride + j] += shares[j * stride + i];
+      shares[j * stride + i] = 0;
+    }
   }
   return shares;
 }
 
 /** How likely each row of a group is the nearest to row i, up to the factor `total`. */
-function nearness(distances, i, count, [begin, end], kernel) {
+function nearness(distances, i, stride, [begin, end], kernel) {
   let nearest = Infinity;
-  for (let j = begin; j < end; j += 1) if (j !== i) nearest = Math.min(nearest, distances[i * count + j]);
+  for (let j = begin; j < end; j += 1) if (j !== i) nearest = Math.min(nearest, distances[i * stride + j]);
   const likely = new Float64Array(end - begin);
   let total = 0;
   for (let j = begin; j < end; j += 1) {
     if (j === i) continue;
-    likely[j - begin] = Math.exp((nearest - distances[i * count + j]) / kernel);
+    likely[j - begin] = Math.exp((nearest - distances[i * stride + j]) / kernel);
     total += likely[j - begin];
   }
   return { nearest, likely, total };
 }
 
 /** Sums over all pairs of rows of their absolute differences in each column, each pair with its share. */
-function* pairDifferences({ count, values }, width, shares, report) {
+function* pairDifferences({ count, stride, values }, width, shares, report) {
   const total = new Float64Array(width);
   for (let i = 0; i < count; i += TALL) {
-    for (let j = 0; j < i + TALL; j += WIDE) {
-      const block = new Block(count, i, j);
-      addDifferences(total, values, block, block.shares(shares, count));
-    }
+    for (let j = 0; j < i + TALL; j += WIDE) addDifferences(total, values, shares, stride, i, j);
     yield report(Math.min((i + TALL) / count, 1) ** 2);
   }
   return total;
 }
 
-function addDifferences(total, values, { tall, wide }, [ia, ib, ic, id, ja, jb, jc, jd]) {
+function addDifferences(total, values, shares, stride, row, column) {
   const width = total.length;
-  const [i, j] = tall.map((row) => row * width);
-  const [a, b, c, d] = wide.map((row) => row * width);
+  const [i, j] = [row * width, (row + 1) * width];
+  const [a, b, c, d] = [column * width, (column + 1) * width, (column + 2) * width, (column + 3) * width];
+  const [ia, ib, ic, id] = shares.subarray(row * stride + column, row * stride + column + WIDE);
+  const [ja, jb, jc, jd] = shares.subarray((row + 1) * stride + column, (row + 1) * stride + column + WIDE);
   for (let k = 0; k < width; k += 1) {
     const first = values[i + k];
     const second = values[j + k];

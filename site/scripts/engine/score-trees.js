@@ -5,15 +5,12 @@ import { Random } from "./random.js";
 
 const TREES = 1000;
 
-/** Trees between two looks at whether the reader still wants them. */
-const BATCH = 4;
-
 /** Scores of `columns`, all of which vary over the contest's rows. */
 export function* scoreByTrees(table, contest, columns, seed) {
   const forest = new Forest(table, contest, columns, seed);
   for (let tree = 1; tree <= TREES; tree += 1) {
     forest.grow();
-    if (tree % BATCH === 0) yield { progress: tree / TREES };
+    yield { progress: tree / TREES };
   }
   return forest.total;
 }
@@ -56,7 +53,7 @@ class Forest {
 
   /** Cut a node in two; returns the place in `rows` where the second part begins, 0 if there is nothing to cut. */
   cut(begin, end) {
-    const { rows, order, random, isHit, inside, width, candidates } = this;
+    const { values, rows, order, random, isHit, inside, count, width, candidates } = this;
     const size = end - begin;
     let hits = 0;
     for (let i = 0; i < size; i += 1) {
@@ -74,11 +71,12 @@ class Forest {
       const column = order[pick];
       order[pick] = order[drawn];
       order[drawn] = column;
-      this.gather(column, begin, size);
-      let low = inside[0];
-      let high = inside[0];
-      for (let i = 1; i < size; i += 1) {
-        const value = inside[i];
+      const start = column * count;
+      let low = Infinity;
+      let high = -Infinity;
+      for (let i = 0; i < size; i += 1) {
+        const value = values[start + rows[begin + i]];
+        inside[i] = value;
         if (value < low) low = value;
         if (value > high) high = value;
       }
@@ -106,22 +104,16 @@ class Forest {
     }
     if (bestColumn < 0) return 0;
     this.gains[bestColumn] += bestGain;
-    const start = bestColumn * this.count;
+    const start = bestColumn * count;
     let middle = begin;
     for (let place = begin; place < end; place += 1) {
       const row = rows[place];
-      if (this.values[start + row] <= bestThreshold) {
+      if (values[start + row] <= bestThreshold) {
         rows[place] = rows[middle];
         rows[middle] = row;
         middle += 1;
       }
     }
     return middle;
-  }
-
-  gather(column, begin, size) {
-    const { values, rows, inside } = this;
-    const start = column * this.count;
-    for (let i = 0; i < size; i += 1) inside[i] = values[start + rows[begin + i]];
   }
 }
