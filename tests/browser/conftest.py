@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from engine_page import EnginePage
 from playwright.sync_api import Browser, Page, sync_playwright
-from reports import NASTY_LABELS, make_report, with_bins, with_search
+from reports import NASTY_LABELS, make_report, with_bins, with_scores, with_search
 
 from shapeviz_report.site import write_site
 
@@ -42,6 +42,10 @@ SITES = {
         with_search(make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)),
         ("Gc:3", "PFH:10"),
     ),
+    "workbench": lambda: with_scores(
+        with_search(make_report([f"kind {letter}" for letter in "abcde"], 16, features=FEATURES[:3]))
+    ),
+    "nasty workbench": lambda: with_scores(make_report([*NASTY_LABELS, None], 4, features=NASTY_FEATURES)),
     "large": lambda: make_report([f"class {number}" for number in range(8)], 250, methods=("tsne", "pca")),
 }
 

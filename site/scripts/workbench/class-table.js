@@ -112,9 +112,12 @@ export class ClassTable {
   }
 }
 
+/** A change of NH that fills its bar. */
+const LARGE = 0.5;
+
 /** A change as a bar from the middle and a number. */
 function change(value) {
   const bar = element("i", { class: value < 0 ? "worse" : "better" });
-  bar.style.setProperty("--length", String(Math.min(Math.abs(value), 1)));
+  bar.style.setProperty("--length", String(Math.min(Math.abs(value) / LARGE, 1)));
   return [element("span", { class: "scale", "aria-hidden": "true" }, bar), difference(value)];
 }

@@ -3,7 +3,7 @@
 import { element } from "../dom.js";
 
 export class FeatureList {
-  /** `change(features)` takes others into use; `pick(feature)` is called when one is to be the only one. */
+  /** `change(features)` takes others into use. */
   constructor(bins, state, marks, change) {
     this.bins = bins;
     this.state = state;
@@ -20,7 +20,7 @@ export class FeatureList {
 
   render() {
     const focused = document.activeElement?.dataset?.key;
-    this.list.replaceChildren(...this.bins.features.map((feature, index) => element("li", {}, this.#button(feature, index))));
+    this.list.replaceChildren(...this.bins.features.map((feature, index) => element("li", {}, this.#button(feature, index), this.#only(feature, index))));
     if (focused !== undefined) this.list.querySelector(`[data-key="${focused}"]`)?.focus({ preventScroll: true });
   }
 
@@ -39,14 +39,19 @@ export class FeatureList {
         "data-key": `feature ${index}`,
         "aria-pressed": String(used.has(index)),
         "aria-disabled": last ? "true" : null,
-        title: last ? `${title}\nA map needs at least one feature.` : `${title}\nClick takes it into use or out of it. Double-click, or click with Alt: only this.`,
+        title: last ? `${title}\nA map needs at least one feature.` : `${title}\nClick takes it into use or out of it.`,
         onclick: (event) => (event.altKey ? this.change(new Set([index])) : this.#toggle(index, last)),
-        ondblclick: () => this.change(new Set([index])),
       },
       mark,
       element("span", { class: "name", dir: "auto" }, name),
       element("span", { class: "size" }, chosen > 0 ? element("b", { title: "bins chosen" }, String(chosen)) : "", chosen > 0 && " of ", String(width)),
     );
+  }
+
+  #only({ name }, index) {
+    const used = this.state.get("features");
+    const attributes = { "data-key": `only feature ${index}`, "aria-label": `Only ${name}`, title: "Only this feature", disabled: used.size === 1 && used.has(index) };
+    return element("button", { type: "button", class: "only", ...attributes, onclick: () => this.change(new Set([index])) }, "only");
   }
 
   #toggle(index, last) {

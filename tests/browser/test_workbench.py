@@ -1,0 +1,338 @@
+"""The Workbench as a reader uses it: from file://, with the real engine."""
+
+import re
+
+import numpy as np
+import pytest
+from reports import make_report
+from waiting import drawn_again, eventually
+
+from shapeviz_report.bins import read_bins
+from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
+
+FEATURES = ("Gc", "Sc", "PFH")
+KINDS = [f"kind {letter}" for letter in "abcde"]
+
+
+@pytest.fixture
+def bench(open_page):
+    """Open the Workbench of a site and wait for its first answers."""
+
+    def open_(name="workbench", hash_="", **options):
+        page = open_page(name, f"workbench.html{hash_}", **options)
+        answered(page)
+        return page
+
+    return open_
+
+
+def answered(page) -> None:
+    """Wait until everything that was asked for is there."""
+    eventually(page, lambda: page.locator("main[aria-busy=true]").count() == 0)
+    drawn_again(page)
+
+
+def nh(page, which) -> float | None:
+    value = page.locator(f"figure[data-map={which}] .value")
+    return float(value.inner_text()) if value.count() else None
+
+
+def address(page) -> str:
+    return page.evaluate("location.hash")
+
+
+def use_only(page, *names) -> None:
+    page.click("#classes-none")
+    for name in names:
+        page.locator(".use", has=page.get_by_text(name, exact=True)).click()
+    answered(page)
+
+
+def choose_best(page, count) -> None:
+    page.fill("#bin-number", str(count))
+    page.click("#bin-add")
+    answered(page)
+
+
+def chosen(page) -> int:
+    return sum(int(text) for text in page.locator("#feature-list .size b").all_inner_texts())
+
+
+def steps(page) -> list[str]:
+    return [
+        re.sub(r"\s+", " ", text).strip() for text in page.locator(".step-of-work .told").all_inner_texts()
+    ]
+
+
+def test_the_first_look_is_useful(bench, site):
+    page = bench(color_scheme="light")
+    assert nh(page, "original") is not None
+    assert nh(page, "refined") is None
+    assert "No bins are chosen yet" in page.locator("figure[data-map=refined] .empty").inner_text()
+    assert page.locator("#separation-words").inner_text() == "all 5 classes, each from the rest"
+    assert page.locator("#class-table tbody tr").count() == 5
+    assert page.locator("#feature-list .use[aria-pressed=true]").count() == 3
+    options = page.locator("#scorer option")
+    assert options.count() == len(SCORERS)
+    for scorer in SCORERS:
+        page.select_option("#scorer", scorer.name)
+        answered(page)
+        assert page.locator("#scorer-words").inner_text() == scorer.explanation
+    assert page.evaluate("[document.documentElement.scrollWidth, document.documentElement.scrollHeight]") == [
+        1440,
+        900,
+    ]
+
+
+def test_the_best_bins_separate_two_classes_and_a_reload_gives_the_same(bench):
+    page = bench()
+    start = nh(page, "original")
+    use_only(page, "kind a", "kind e")
+    assert page.locator("#separation-words").inner_text() == "kind a from kind e"
+    page.select_option("#scorer", "anova")
+    answered(page)
+    before = nh(page, "original")
+    choose_best(page, 6)
+    after = nh(page, "refined")
+    assert after > before
+    assert f"NH of the refined map {after:.3f}, up {after - before:.3f}"[:-1] in page.inner_text("#live")
+    assert chosen(page) == 6
+    # Every class says what it gained.
+    changes = page.locator("#class-table tr:not(.unused) .change").all_inner_texts()
+    assert len([text for text in changes if text.startswith(("+", "±", "−"))]) == 2
+
+    again = bench(hash_=address(page))
+    assert (nh(again, "original"), nh(again, "refined")) == (before, after)
+    assert chosen(again) == 6
+    assert again.locator("#scorer").input_value() == "anova"
+
+    # What was asked last is undone last; the maps are those of before.
+    page.keyboard.press("Control+z")
+    answered(page)
+    assert (nh(page, "original"), nh(page, "refined"), chosen(page)) == (before, None, 0)
+    for _ in range(3):
+        page.click("#undo")
+        answered(page)
+    assert nh(page, "original") == start
+    assert page.locator("#undo").is_disabled()
+    page.locator(".step-of-work").last.click()
+    answered(page)
+    assert (nh(page, "refined"), chosen(page)) == (after, 6)
+    page.go_back()
+    eventually(page, lambda: nh(page, "original") == start)
+    page.go_forward()
+    eventually(page, lambda: nh(page, "refined") == after)
+
+
+def test_a_separation_of_groups_is_scored_as_python_scores_it(bench):
+    page = bench()
+    page.select_option("#scorer", "chi2")
+    page.click("#separate-all")
+    assert page.locator("#separation-words").inner_text() == "…"
+    for name in ("kind a", "kind c"):
+        page.get_by_label(f"Separate {name}", exact=True).check()
+    page.get_by_text("together", exact=True).click()
+    answered(page)
+    assert page.locator("#separation-words").inner_text() == "kind a and kind c, together, from the rest"
+    page.click("#open-tables")
+    table = page.locator("#tables table", has_text="All bins").or_(
+        page.locator("#tables table", has_text="The best")
+    )
+    rows = [text.split("\t") for text in table.locator("tbody tr").all_inner_texts()]
+    shown = {row[0]: float(row[2]) for row in rows}
+    report = make_report(KINDS, 16, features=FEATURES)
+    values = compared_values(report.features, PRESETS["default"])
+    scorer = next(scorer for scorer in SCORERS if scorer.name == "chi2")
+    expected = score_separation(scorer, values, as_one_group(report.labels, ["kind a", "kind c"]))
+    python = dict(zip(report.features.columns, expected, strict=True))
+    assert len(shown) == len(python)
+    np.testing.assert_allclose(list(shown.values()), [python[name] for name in shown], atol=0.001)
+
+
+def test_features_out_of_use_take_their_bins_along(bench):
+    page = bench(hash_="#bins=Gc:1-3+PFH")
+    assert chosen(page) == 13
+    page.locator("#feature-list .use").first.click()
+    answered(page)
+    assert chosen(page) == 10
+    assert "features=Sc+PFH&bins=PFH" in address(page)
+    assert steps(page)[-1].endswith("−1 feature −3 bins")
+    everything = nh(page, "original")
+    # The last feature stays.
+    for name in ("Sc", "PFH"):
+        # The last one is marked as not to be switched off; a click on it does nothing.
+        page.locator("#feature-list .use", has=page.get_by_text(name, exact=True)).click(force=True)
+    answered(page)
+    assert page.locator("#feature-list .use[aria-pressed=true]").count() == 1
+    assert nh(page, "original") is not None
+    page.click("#features-all")
+    page.click("#undo")
+    page.click("#undo")
+    answered(page)
+    assert nh(page, "original") == everything
+
+
+def test_pointing_marks_a_shape_on_both_maps(bench):
+    page = bench(hash_="#bins=PFH")
+    page.focus("figure[data-map=refined] .surface")
+    page.keyboard.press("ArrowRight")
+    name = page.inner_text("#live").split(",")[0]
+    assert page.locator("#card").is_visible()
+    assert name in page.inner_text("#card")
+    drawn_again(page)
+    assert page.locator(".ring.pointed.shown").count() == 2
+    page.keyboard.press(" ")
+    assert page.inner_text("#picked").startswith("1 shape selected")
+    page.keyboard.press("Escape")
+    assert page.inner_text("#picked") == ""
+
+
+def test_it_works_by_keyboard_alone(bench):
+    page = bench()
+    page.focus("#class-table .use")
+    page.keyboard.press("Space")
+    answered(page)
+    assert page.locator("#class-table .use").first.get_attribute("aria-pressed") == "false"
+    assert page.evaluate("document.activeElement.className") == "use"
+    page.focus("#bin-chart .surface")
+    for key in ("ArrowRight", "Enter", "ArrowRight", "ArrowRight", "Enter"):
+        page.keyboard.press(key)
+    answered(page)
+    assert chosen(page) == 2
+    assert nh(page, "refined") is not None
+    page.focus("#steps [aria-current]")
+    page.keyboard.press("Home")
+    page.keyboard.press("Enter")
+    answered(page)
+    assert chosen(page) == 0
+    assert page.locator("#class-table .use[aria-pressed=true]").count() == 5
+    page.keyboard.press("Control+Shift+z")
+    answered(page)
+    assert page.locator("#class-table .use[aria-pressed=true]").count() == 4
+
+
+def test_the_example_runs_to_its_end(bench):
+    page = bench()
+    for step in range(1, 6):
+        assert f"step {step} of 5" in page.inner_text("#guide")
+        page.click("#do-it")
+        answered(page)
+        words, after, before = page.inner_text("#guide"), nh(page, "refined"), nh(page, "original")
+        if step >= 3:
+            assert f"NH is {after:.3f}" in words
+        if step == 3:
+            assert page.locator("#class-table .use[aria-pressed=true]").count() == 2
+            assert ("keep them apart better" in words) == (after > before)
+    assert page.locator("#class-table .use[aria-pressed=true]").count() == 5
+    assert chosen(page) == 40
+    page.click("#do-it")
+    assert page.locator("#guide").is_hidden()
+    assert page.evaluate("document.activeElement.id") == "open-guide"
+
+
+def test_saved_bins_are_those_that_a_build_reads(bench, tmp_path):
+    page = bench(hash_="#bins=Gc:2+Sc[1]:3-5")
+    page.click("#open-export")
+    assert "shapeviz-report build DATABASE -o OUT --bins bins.txt" in page.inner_text("#export")
+    for name in ("bins.txt", "scores.csv", "workbench.json"):
+        with page.expect_download() as download:
+            page.click(f"[data-file='{name}']")
+        download.value.save_as(tmp_path / name)
+        blocks = make_report(features=FEATURES).features.blocks
+        assert read_bins(tmp_path / name, blocks) == ("Gc:2", "Sc[1]:3", "Sc[1]:4", "Sc[1]:5")
+    with page.expect_download() as download:
+        page.click("[data-file='maps.csv']")
+    download.value.save_as(tmp_path / "maps.csv")
+    assert len((tmp_path / "maps.csv").read_text().splitlines()) == 81
+
+
+class TestUnusualDatabases:
+    def test_without_labels_bins_still_make_maps(self, bench):
+        page = bench("no labels")
+        assert "no labels" in page.inner_text(".scorer")
+        page.click("#first-best")
+        answered(page)
+        assert chosen(page) == 10
+        assert page.locator("figure[data-map=refined] .empty").is_hidden()
+        assert nh(page, "refined") is None
+        assert page.inner_text("#live") == "The refined map is ready."
+
+    @pytest.mark.parametrize(
+        ("name", "words"),
+        [
+            ("one shape", "This database has 1 shape"),
+            ("one class", "with one class there is nothing to tell apart"),
+        ],
+    )
+    def test_what_is_too_little_is_said(self, bench, name, words):
+        page = bench(name)
+        assert words in page.inner_text("main")
+
+    def test_no_class_in_use_says_what_to_do(self, bench):
+        page = bench()
+        page.click("#classes-none")
+        answered(page)
+        assert "take more classes into use" in page.locator("figure[data-map=original] .empty").inner_text()
+        page.click("#classes-all")
+        answered(page)
+        assert nh(page, "original") is not None
+
+    def test_nasty_names_are_text_and_survive_the_address(self, bench):
+        page = bench("nasty workbench")
+        page.click("#class-table .use >> nth=1")
+        choose_best(page, 10)
+        first = (nh(page, "original"), nh(page, "refined"), chosen(page))
+        page.click("#open-tables")
+        assert "</script><img src=x onerror=alert(1)>" in page.inner_text("#tables")
+        again = bench("nasty workbench", hash_=address(page))
+        assert (nh(again, "original"), nh(again, "refined"), chosen(again)) == first
+        assert again.locator("#class-table .use[aria-pressed=false]").count() == 1
+
+    def test_a_site_of_chosen_bins_opens_with_them(self, bench):
+        page = bench("chosen bins")
+        assert chosen(page) == 2
+        assert page.locator("figure[data-map=refined] .value").count() == 1
+
+
+class TestWorkThatTakesLong:
+    def test_escape_stops_it_and_it_can_go_on(self, bench):
+        page = bench()
+        # An engine that does not come.
+        page.evaluate("""() => {
+            window.start = shapeviz.startWorker;
+            shapeviz.startWorker = () => new Promise((answer) => (window.late = answer));
+        }""")
+        page.click("#first-best")
+        status = page.locator("figure[data-map=refined] .status")
+        eventually(page, lambda: status.locator("progress").is_visible())
+        page.keyboard.press("Escape")
+        assert status.inner_text().startswith("Stopped.")
+        assert page.locator("main").get_attribute("aria-busy") == "false"
+        page.evaluate("() => start().then(late)")
+        status.locator("button").click()
+        answered(page)
+        assert nh(page, "refined") is not None
+        assert status.is_hidden()
+
+    def test_an_engine_that_fails_is_said_and_asked_again(self, bench):
+        page = bench()
+        page.evaluate("""() => {
+            window.start = shapeviz.startWorker;
+            shapeviz.startWorker = () => Promise.reject(new Error("no workers here"));
+        }""")
+        page.click("#first-best")
+        status = page.locator("figure[data-map=refined] .status")
+        eventually(page, lambda: "no workers here" in status.inner_text())
+        page.evaluate("() => void (shapeviz.startWorker = start)")
+        status.locator("button").click()
+        answered(page)
+        assert nh(page, "refined") is not None
+
+
+@pytest.mark.parametrize(("width", "height"), [(1280, 720), (390, 844)])
+def test_it_fits_the_window(bench, width, height):
+    page = bench("nasty workbench", "#bins=Gc", viewport={"width": width, "height": height})
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    if width > 1000:
+        assert page.evaluate("document.documentElement.scrollHeight") <= height
