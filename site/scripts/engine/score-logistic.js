@@ -27,10 +27,12 @@ export function* scoreByLogistic(table, contest, columns, seed) {
     shuffle(first, random);
     shuffle(second, random);
     for (let half = 0; half < 2; half += 1) {
-      run.sample(values, count, half ? first.subarray(hits - taken) : first, half ? second.subarray(second.length - others) : second, random);
+      // Where a group has an odd number of rows, both halves have the one in the middle.
+      const [one, other] = half ? [first.subarray(hits - taken), second.subarray(second.length - others)] : [first, second];
+      run.sample(values, count, one, other, random);
       for (let step = 0; step < STRENGTHS.length; step += 1) {
-        yield { progress: (2 * pair + half + step / STRENGTHS.length) / (2 * PAIRS) };
         run.fit(STRENGTHS[step]);
+        yield { progress: (2 * pair + half + (step + 1) / STRENGTHS.length) / (2 * PAIRS) };
         for (let place = 0; place < run.size; place += 1) {
           const column = run.active[place];
           if (run.coefficients[column] !== 0) selected[column] += 1;

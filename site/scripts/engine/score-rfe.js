@@ -20,7 +20,7 @@ export function* scoreByRfe(table, contest, columns) {
   const places = new Float64Array(total);
   let left = Int32Array.from(columns, (_, place) => place);
   while (left.length) {
-    yield* classifier.fit(left, 1 - left.length / total);
+    yield* classifier.fit(left, 1 - left.length / (total + 1));
     const size = (index) => Math.abs(classifier.coefficients[left[index]]);
     const order = Int32Array.from(left.keys()).sort((one, other) => size(one) - size(other));
     const tie = TIE * size(order[order.length - 1]);
