@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from reports import make_report, with_scores
+from reports import make_report
 from waiting import drawn_again, eventually
 
+from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.site import write_site
 from shapeviz_report.site.joiner import join
 
@@ -22,7 +24,7 @@ CLASSES = ("ant", "bird", "cup", "dog")
 
 @pytest.fixture(scope="module")
 def report():
-    return with_scores(make_report(CLASSES, 10, features=FEATURES))
+    return make_report(CLASSES, 10, features=FEATURES)
 
 
 @pytest.fixture(scope="module")
@@ -32,28 +34,56 @@ def address(report, tmp_path_factory):
     return f"{folder.as_uri()}/workbench.html#scorer=anova"
 
 
+@pytest.fixture(scope="module")
+def ranking(report):
+    """The bins from best to worst, where every class is to be set apart from the rest by ANOVA's F."""
+    anova = next(scorer for scorer in SCORERS if scorer.name == "anova")
+    compared = compared_values(report.features, PRESETS["default"])
+    contests = [contest for name in CLASSES for contest in as_one_group(report.labels, [name])]
+    scores = score_separation(anova, compared, contests)
+    order = np.argsort(-scores, kind="stable")
+    return [report.features.columns[column] for column in order], scores[order]
+
+
+@pytest.fixture(scope="module")
+def shared(browser, address):
+    """One page for all tests that leave it as they found it, or nearly so."""
+    page = browser.new_page(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+    complaints = []
+    page.on("console", lambda message: complaints.append(message.text))
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.goto(address)
+    yield ready(page)
+    page.close()
+    assert complaints == []
+
+
 @pytest.fixture
-def page(open_page, address):
-    return opened(open_page, address)
+def page(shared):
+    """The page with nothing chosen, nothing pointed at and all bars in view."""
+    shared.fill("#bin-search", "")
+    shared.click("#bin-order >> text=By score")
+    shared.locator("#bin-clear").evaluate("button => button.click()")
+    shared.click(".bin-zoom >> text=All")
+    shared.mouse.move(5, 5)
+    assert reading(shared) == "0 of 50 bins chosen"
+    heard(shared)
+    return shared
 
 
 def opened(open_page, address, **options):
-    page = open_page("", "workbench.html", address=address, **options)
-    eventually(page, lambda: "of 50 bins" in reading(page))
+    """A page of its own, for readers of another kind."""
+    return ready(open_page("", "workbench.html", address=address, **options))
+
+
+def ready(page):
+    eventually(page, lambda: page.locator("#bin-add").is_enabled())
     page.evaluate("""() => {
         window.heard = [];
         const live = document.getElementById("live");
         new MutationObserver(() => heard.push(live.textContent)).observe(live, { childList: true });
     }""")
     return page
-
-
-@pytest.fixture(scope="module")
-def ranking(report):
-    """The bins from best to worst, where every class is to be set apart from the rest by ANOVA's F."""
-    scores = report.scores.values[report.scores.methods.index("anova")].mean(axis=0)
-    order = np.argsort(-scores, kind="stable")
-    return [report.features.columns[column] for column in order], scores[order]
 
 
 def reading(page) -> str:
@@ -154,6 +184,7 @@ class TestReading:
         assert chosen.locator("tbody th").all_inner_texts() == [ranking[0][4]]
         best = tables.filter(has=page.locator("caption", has_text="All bins"))
         assert best.locator("tbody th").all_inner_texts() == ranking[0]
+        page.click("#tables >> text=Close")
 
 
 class TestChoosing:
@@ -347,14 +378,14 @@ class TestReaders:
         page.wait_for_timeout(200)
         assert (drawn(page, SURFACE) == first).all()
 
-    def test_bars_that_move_end_in_their_places(self, open_page, address):
-        page = opened(open_page, address, reduced_motion="no-preference")
-        still = opened(open_page, address)
-        for reader in (page, still):
+    def test_bars_that_move_end_in_their_places(self, open_page, address, page):
+        moving = opened(open_page, address, reduced_motion="no-preference")
+        for reader in (page, moving):
             reader.mouse.click(*point_on(reader, 30))
             reader.mouse.move(5, 5)
-        drawn_again(still)
-        eventually(page, lambda: (drawn(page, SURFACE) == drawn(still, SURFACE)).all())
+        drawn_again(page)
+        still = drawn(page, SURFACE)
+        eventually(page, lambda: (drawn(moving, SURFACE) == still).all())
 
 
 @pytest.fixture(scope="module")
