@@ -97,8 +97,7 @@ def follow_path(
 
     with weights s that give either group one half, t of +1 and -1, and the strength times the least lambda at
     which all coefficients are zero. Newton steps, each by coordinate descent (Friedman, Hastie and Tibshirani 2010) on
-    the columns that the strong rules expect to have a coefficient (Tibshirani et al. 2012); those they missed join
-    until no column is left that wants in.
+    the columns that have wanted a coefficient so far; others join until none is left that wants one.
 
     Parameters
     ----------
@@ -136,17 +135,10 @@ def follow_path(
         return found, intercepts
     within, active, size = np.zeros(width, np.bool_), np.empty(width, np.int64), 0
     allowed = tolerance * highest
-    last = highest
     for step, strength in enumerate(strengths):
         now = strength * highest
-        for column in range(width):
-            if not within[column] and abs(gradient[column]) >= penalties[column] * (2 * now - last):
-                within[column] = True
-                active[size] = column
-                size += 1
-        last = now
-        complete = False
-        while not complete:
+        size = _join(gradient, now * penalties + allowed, within, active, size)
+        while True:
             for _ in range(_MOST_STEPS):
                 slope, bend = 0.0, 0.0
                 for row in range(count):
@@ -182,21 +174,21 @@ def follow_path(
                         residuals[row] -= curvatures[row] * change
                     for place in range(size):
                         column = active[place]
-                        before = coefficient[column]
-                        if before == 0 and sweep > 0:
+                        old = coefficient[column]
+                        if old == 0 and sweep > 0:
                             continue
                         values = columns[column]
                         pull = _product(values, residuals)
-                        if before == 0 and abs(pull) <= now * penalties[column]:
+                        if old == 0 and abs(pull) <= now * penalties[column]:
                             continue
                         if bends[place] == 0:
                             for row in range(count):
                                 bends[place] += curvatures[row] * values[row] * values[row]
-                        pull += bends[place] * before
+                        pull += bends[place] * old
                         excess = abs(pull) - now * penalties[column]
-                        change = (np.sign(pull) * excess / bends[place] if excess > 0 else 0.0) - before
+                        change = (np.sign(pull) * excess / bends[place] if excess > 0 else 0.0) - old
                         if change != 0:
-                            coefficient[column] = before + change
+                            coefficient[column] = old + change
                             largest = max(largest, abs(change) * bends[place])
                             for row in range(count):
                                 residuals[row] -= curvatures[row] * (values[row] * change)
@@ -210,17 +202,32 @@ def follow_path(
                         values = columns[active[place]]
                         for row in range(count):
                             linear[row] += values[row] * change
-            complete = True
             for column in range(width):
                 gradient[column] = _product(columns[column], residuals)
-                if not within[column] and abs(gradient[column]) > now * penalties[column] + allowed:
-                    within[column] = True
-                    active[size] = column
-                    size += 1
-                    complete = False
+            before = size
+            size = _join(gradient, now * penalties + allowed, within, active, size)
+            if size == before:
+                break
         found[step] = coefficient
         intercepts[step] = intercept
     return found, intercepts
+
+
+@njit(cache=True)
+def _join(
+    gradient: FloatArray,
+    limits: FloatArray,
+    within: npt.NDArray[np.bool_],
+    active: npt.NDArray[np.int64],
+    size: int,
+) -> int:
+    """Add columns to the ``size`` active ones whose slope is above their limit; returns how many there are then."""
+    for column in range(len(gradient)):
+        if not within[column] and abs(gradient[column]) > limits[column]:
+            within[column] = True
+            active[size] = column
+            size += 1
+    return size
 
 
 @njit(cache=True, error_model="numpy", fastmath=_SUMS, inline="always")

@@ -94,41 +94,35 @@ class LassoPath {
       this.gradient[column] = this.slope(column);
       this.highest = Math.max(this.highest, Math.abs(this.gradient[column]) / penalties[column]);
     }
-    this.last = this.highest;
   }
 
   /** Lower the penalty to a part of the least one at which all coefficients are zero. */
   fit(strength) {
-    const { width, within, gradient, penalties } = this;
     if (this.highest < 1e-12) return;
     const now = strength * this.highest;
     const allowed = TOLERANCE * this.highest;
-    // The strong rules expect these to get a coefficient; those they missed join until none is left that wants in.
-    for (let column = 0; column < width; column += 1) {
-      if (!within[column] && Math.abs(gradient[column]) >= penalties[column] * (2 * now - this.last)) this.join(column);
-    }
-    this.last = now;
-    for (let complete = false; !complete; ) {
+    // Others join those that have wanted a coefficient so far, until none is left that wants one.
+    this.join(now, allowed);
+    do {
       for (let step = 0; step < MOST_STEPS; step += 1) {
         const violation = this.approximate(now);
         if (violation <= allowed) break;
         this.descend(now, violation);
       }
-      complete = true;
-      for (let column = 0; column < width; column += 1) {
-        gradient[column] = this.slope(column);
-        if (!within[column] && Math.abs(gradient[column]) > now * penalties[column] + allowed) {
-          this.join(column);
-          complete = false;
-        }
-      }
-    }
+      for (let column = 0; column < this.width; column += 1) this.gradient[column] = this.slope(column);
+    } while (this.join(now, allowed) > 0);
   }
 
-  join(column) {
-    this.within[column] = 1;
-    this.active[this.size] = column;
-    this.size += 1;
+  /** Let columns have a coefficient whose slope is above their penalty; returns how many. */
+  join(now, allowed) {
+    const before = this.size;
+    for (let column = 0; column < this.width; column += 1) {
+      if (this.within[column] || Math.abs(this.gradient[column]) <= now * this.penalties[column] + allowed) continue;
+      this.within[column] = 1;
+      this.active[this.size] = column;
+      this.size += 1;
+    }
+    return this.size - before;
   }
 
   /** The second-order approximation at the current place; returns by how much the optimum's conditions are violated. */
