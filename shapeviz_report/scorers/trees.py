@@ -10,7 +10,8 @@ from shapeviz_report.scorers.base import BoolArray, Scorer
 from shapeviz_report.types import FloatArray
 
 COUNT = 1000
-"""So many that another seed changes few of the best columns (docs/scorers.md), and a second is enough in a browser."""
+"""A second in a browser, for a class of 280 shapes against the rest; another seed shares three quarters of the best 30
+columns (docs/scorers.md). The error falls with the root of the number."""
 
 
 def measure(values: FloatArray, positive: BoolArray, seed: int) -> FloatArray:
