@@ -13,7 +13,7 @@ from shapeviz_report.types import MinimalBins, MinimalSet
 LARGEST = 3
 """Most bins of a minimal set, as in the paper's Fig. 6."""
 
-BEAM = 20
+BEAM = 10
 """Best sets of a size to which every other bin is added."""
 
 FINALISTS = 4
