@@ -40,6 +40,7 @@ STAGES = {
     "project": "Projecting",
     "search": "Searching features",
     "bins": "Scoring bins",
+    "select": "Searching bins",
     "score": "Scoring maps",
     "write": "Writing the site",
 }

@@ -32,14 +32,17 @@ from shapeviz_report.features import (
     scale,
 )
 from shapeviz_report.mesh import collect_files, content_hash
-from shapeviz_report.projections import PROJECTIONS, align
+from shapeviz_report.projections import PROJECTIONS, align, squared_distances
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, make_space, planned_runs, search_features
+from shapeviz_report.search.bins import encode, make_bin_space, shuffle_labels
+from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import (
     BinScores,
+    BinSearch,
     Database,
     Failure,
     FeatureBlock,
@@ -224,6 +227,7 @@ def build_report(
         projections = _project(run, space, features, bins, mapped, config.seed)
         search = _search(run, space, labels, config)
         scores = _score_bins(run, compared_values(features, preset), labels, config.seed)
+        found = _search_bins(run, features, scaled, labels, config)
     with clock.stage("score"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
@@ -247,6 +251,7 @@ def build_report(
         cpu_seconds=clock.cpu_seconds,
         search=search,
         scores=scores,
+        bins=found,
     )
     with clock.stage("write"):
         write_site(report, destination)
@@ -559,6 +564,61 @@ def _score_bins(
         run.find(stages.SCORE, classes, plan, take, drop)
     values = np.stack([found[name] for name in classes], axis=1)
     return BinScores(tuple(scorer.name for scorer in SCORERS), tuple(classes), values)
+
+
+def _search_bins(
+    run: _Runner, features: FeatureTable, scaled: FloatArray, labels: Sequence[str | None], config: Config
+) -> BinSearch | None:
+    """The bins that separate each class, those that separate all, and what these are worth."""
+    if config.search == "none":
+        return None
+    space = make_bin_space(features, PRESETS[config.preset], labels, seed=config.seed)
+    classes, codes = encode(space, labels)
+    sizes = np.bincount(codes[codes >= 0], minlength=len(classes))
+    if (sizes > 1).sum() < 2:
+        return None
+    everything = squared_distances(scaled[space.rows])
+    shared = {"k": config.neighbours, "seed": config.seed}
+    questions: list[tuple[str, Sequence[str | None], dict[str, Any]]] = [("select", labels, shared)]
+    folds = deal_folds(codes, config.seed)
+    for fold in folds:
+        questions.append(("hold out", labels, shared | {"fold": fold, "everything": everything}))
+    # Each part of the shapes meets labels of its own, which tells more of chance than one labeling for all.
+    for number in range(len(folds)):
+        shuffled = shuffle_labels(space, labels, config.seed + number)
+        fold = deal_folds(encode(space, shuffled)[1], config.seed)[number]
+        questions.append(("hold out", shuffled, shared | {"fold": fold, "everything": everything}))
+    for label in (label for label, size in zip(classes, sizes) if size > 1):
+        questions.append(("separate", labels, shared | {"label": label}))
+
+    content = sha256(space.columns.tobytes() + everything.tobytes()).hexdigest()
+    answers: dict[int, bytes] = {}
+    with run.clock.stage("select", len(questions)) as step:
+
+        def plan(number: int) -> _Task:
+            task, names, options = questions[number]
+            told = options | {"everything": None, "fold": list(options.get("fold", ()))}
+            key = stages.SELECT.key(content, space.names, space.rows.tolist(), task, tuple(names), told)
+            return _Task(key, lambda: (task, space, names, options))
+
+        def take(number: int, _: str, answer: bytes, cpu_seconds: float) -> None:
+            answers[number] = answer
+            step(cpu_seconds)
+
+        def drop(_: int, reason: str, __: float) -> None:
+            raise DatabaseError(
+                f"The search for bins failed: {reason}. A larger time_limit may help; --search none leaves it out."
+            )
+
+        run.find(stages.SELECT, range(len(questions)), plan, take, drop)
+    held_out = [stages.read_held_out(answers[i + 1]) for i in range(2 * len(folds))]
+    return BinSearch(
+        automatic=stages.read_selection(answers[0]),
+        held_out=tuple(held_out[: len(folds)]),
+        shuffled=tuple(held_out[len(folds) :]),
+        chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
+        minimal=tuple(stages.read_minimal(answers[i]) for i in range(1 + 2 * len(folds), len(questions))),
+    )
 
 
 def _load_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:

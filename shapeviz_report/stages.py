@@ -12,8 +12,10 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
 from shapeviz_report import demo
@@ -25,7 +27,17 @@ from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import UpAxis, render_thumbnail
 from shapeviz_report.scorers import SCORERS, Contest, score_separation
 from shapeviz_report.search import SubsetMaps, map_subsets
-from shapeviz_report.types import FloatArray, Mesh, ShapeFacts
+from shapeviz_report.search.bins import BinSpace, find_minimal_bins, hold_out, select_bins
+from shapeviz_report.types import (
+    BinSelection,
+    BinStep,
+    FloatArray,
+    HeldOutBins,
+    Mesh,
+    MinimalBins,
+    MinimalSet,
+    ShapeFacts,
+)
 
 
 def examine_shape(files: Mapping[str, bytes]) -> bytes:
@@ -127,6 +139,47 @@ def score_bins(values: FloatArray, members: Sequence[int], others: Sequence[int]
     return _pack_array(np.array(scores, dtype=np.float32))
 
 
+def search_bins(
+    task: str, space: BinSpace, labels: Sequence[str | None], options: Mapping[str, Any]
+) -> bytes:
+    """A part of the search for bins, for the function of its name below.
+
+    Parameters
+    ----------
+    task : str
+        ``select``, ``hold out`` or ``separate``: a function of :mod:`shapeviz_report.search.bins`.
+    space, labels
+        Its first arguments.
+    options : mapping of str to object
+        Its other arguments.
+    """
+    functions: dict[str, Callable[..., BinSelection | HeldOutBins | MinimalBins]] = {
+        "select": select_bins,
+        "hold out": hold_out,
+        "separate": find_minimal_bins,
+    }
+    with threadpool_limits(limits=1):
+        found = functions[task](space, labels, **options)
+    return json.dumps(asdict(found), default=_array_to_json).encode()
+
+
+def read_selection(content: bytes) -> BinSelection:
+    """What ``select`` found."""
+    fields = json.loads(content, object_hook=_from_json)
+    return BinSelection(**fields | {"path": tuple(BinStep(**step) for step in fields["path"])})
+
+
+def read_held_out(content: bytes) -> HeldOutBins:
+    """What ``hold out`` found."""
+    return HeldOutBins(**json.loads(content, object_hook=_from_json))
+
+
+def read_minimal(content: bytes) -> MinimalBins:
+    """What ``separate`` found."""
+    fields = json.loads(content, object_hook=_from_json)
+    return MinimalBins(**fields | {"sets": tuple(MinimalSet(**found) for found in fields["sets"])})
+
+
 @dataclass(frozen=True)
 class Stage:
     """A function of this module whose results are kept.
@@ -169,14 +222,15 @@ RENDER = Stage(
 )
 _PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
 PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
-SEARCH = Stage("searched", map_features, ("search", "projections"), _PROJECTORS)
+SEARCH = Stage("searched", map_features, ("search.space", "projections"), _PROJECTORS)
+SELECT = Stage("selected", search_bins, ("search.bins", "projections", "quality", "types"), _PROJECTORS)
 SCORE = Stage("scored", score_bins, ("scorers",), ("numba", "numpy", "scipy", "scikit-learn"))
 GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "scipy"))
 
 
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
-    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PROJECT, SEARCH, SCORE, GENERATE)
+    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PROJECT, SEARCH, SCORE, SELECT, GENERATE)
     libraries = {library for stage in stages for library in stage.libraries}
     return code_version(("shapeviz_report",), tuple(sorted(libraries)))
 
@@ -205,3 +259,14 @@ def _pack_array(values: FloatArray) -> bytes:
     buffer = io.BytesIO()
     np.save(buffer, values)
     return buffer.getvalue()
+
+
+def _array_to_json(values: npt.NDArray[Any]) -> dict[str, object]:
+    return {"array": values.tolist(), "dtype": str(values.dtype)}
+
+
+def _from_json(fields: dict[str, Any]) -> Any:
+    """An array where :func:`_array_to_json` made the object; else its fields, lists as tuples."""
+    if fields.keys() == {"array", "dtype"}:
+        return np.array(fields["array"], fields["dtype"])
+    return {name: tuple(value) if isinstance(value, list) else value for name, value in fields.items()}

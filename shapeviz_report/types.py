@@ -602,6 +602,52 @@ class MinimalBins:
 
 
 @dataclass(frozen=True)
+class BinSearch:
+    """The search for bins (paper, 4.4), and what its result is worth.
+
+    Attributes
+    ----------
+    automatic : BinSelection
+    held_out : tuple of HeldOutBins
+        The automatic selection repeated without each part of the shapes in turn.
+    shuffled : tuple of HeldOutBins
+        The same for labels dealt out at random, anew for each part.
+    chance : float
+        NH_s that labels without meaning reach on average.
+    minimal : tuple of MinimalBins
+        Of every class of at least two shapes, by name.
+    """
+
+    automatic: BinSelection
+    held_out: tuple[HeldOutBins, ...]
+    shuffled: tuple[HeldOutBins, ...]
+    chance: float
+    minimal: tuple[MinimalBins, ...]
+
+
+@dataclass(frozen=True)
+class Painting:
+    """A bin painted on a shape (paper, Fig. 8). Square WebP images with transparent background.
+
+    Attributes
+    ----------
+    column : str
+        The bin.
+    shape : int
+        Row of the feature table.
+    value : bytes
+        The descriptor's value at every vertex, by its place among the ten bins.
+    inside : bytes
+        The vertices whose value falls into the bin, against the others.
+    """
+
+    column: str
+    shape: int
+    value: bytes
+    inside: bytes
+
+
+@dataclass(frozen=True)
 class ShapeFacts:
     """What was measured of one prepared shape.
 
@@ -665,6 +711,13 @@ class Report:
         None if it was left out.
     scores : BinScores or None
         None where fewer than two classes have a shape.
+    bins : BinSearch or None
+        None if the search was left out, or where fewer than two classes have two shapes.
+    paintings : tuple of Painting
+        Of the bins that ``bins`` found, on shapes that show the contrast; those of external features have none.
+    models : tuple of bytes, or None
+        The 3D model of each shape as :func:`shapeviz_report.models.pack_model` packs it, gzipped. None if they were
+        left out.
     """
 
     database: Database
@@ -683,3 +736,6 @@ class Report:
     cpu_seconds: Mapping[str, float]
     search: FeatureSearch | None = None
     scores: BinScores | None = None
+    bins: BinSearch | None = None
+    paintings: tuple[Painting, ...] = ()
+    models: tuple[bytes, ...] | None = None

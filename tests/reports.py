@@ -13,11 +13,22 @@ from PIL import Image, ImageDraw
 
 from shapeviz_report import quality
 from shapeviz_report.bins import features_of
-from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.features import PRESETS, compared_values, scale
+from shapeviz_report.projections import squared_distances
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import make_space, search_features
+from shapeviz_report.search.bins import (
+    encode,
+    find_minimal_bins,
+    hold_out,
+    make_bin_space,
+    select_bins,
+    shuffle_labels,
+)
+from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.types import (
     BinScores,
+    BinSearch,
     Database,
     Failure,
     FeatureBlock,
@@ -131,6 +142,33 @@ def with_scores(report: Report) -> Report:
     ]
     names = tuple(scorer.name for scorer in SCORERS)
     return replace(report, scores=BinScores(names, classes, np.array(scores, dtype=np.float32)))
+
+
+def with_bin_search(report: Report) -> Report:
+    """The report with a real search for bins; without where there are not two classes of two shapes."""
+    preset = PRESETS["default"]
+    space = make_bin_space(report.features, preset, report.labels)
+    classes, codes = encode(space, report.labels)
+    sizes = np.bincount(codes[codes >= 0], minlength=len(classes))
+    if (sizes > 1).sum() < 2:
+        return report
+    everything = squared_distances(scale(report.features, preset)[space.rows])
+    folds = deal_folds(codes, 0)[:2]
+    shuffled = shuffle_labels(space, report.labels, 0)
+    found = BinSearch(
+        automatic=select_bins(space, report.labels, limit=6),
+        held_out=tuple(hold_out(space, report.labels, fold, everything, limit=2) for fold in folds),
+        shuffled=(
+            hold_out(space, shuffled, deal_folds(encode(space, shuffled)[1], 0)[0], everything, limit=2),
+        ),
+        chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
+        minimal=tuple(
+            find_minimal_bins(space, report.labels, label, largest=2)
+            for label, size in zip(classes, sizes)
+            if size > 1
+        ),
+    )
+    return replace(report, bins=found)
 
 
 def with_bins(report: Report, bins: tuple[str, ...]) -> Report:

@@ -7,10 +7,14 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report import charts
 from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.types import FloatArray, Projection, Report
+
+#: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
+COORDINATE_STEPS = 32767
 
 #: The projections by name.
 METHODS = {method.name: method for method in PROJECTIONS}
@@ -71,6 +75,11 @@ def bins_note(projection: Projection) -> str:
 def feature_marks() -> dict[str, object]:
     """The colours of features and of bars for each theme."""
     return {theme.name: {"features": list(theme.features), "bar": theme.bar} for theme in charts.THEMES}
+
+
+def coordinate_steps(xy: npt.NDArray[np.floating]) -> npt.NDArray[np.int_]:
+    """Coordinates in [-1, 1] for a chunk, as whole numbers of ``COORDINATE_STEPS``."""
+    return np.round(xy * COORDINATE_STEPS).astype(int)
 
 
 def rounded(values: FloatArray, decimals: int) -> list[float | None]:

@@ -7,11 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapeviz_report import charts, quality
-from shapeviz_report.pages.base import METHODS, PageContent, class_names, feature_marks, rounded
+from shapeviz_report.pages.base import (
+    COORDINATE_STEPS,
+    METHODS,
+    PageContent,
+    class_names,
+    coordinate_steps,
+    feature_marks,
+    rounded,
+)
 from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, Report, SeedSpread
-
-#: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
-COORDINATE_STEPS = 32767
 
 #: NH is stored in thousandths, as it is shown; with ten neighbours, all but ties are exact.
 HIT_STEPS = 1000
@@ -131,7 +136,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[str
 def _maps(search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
     """The maps and the hits on them in whole numbers: the largest part of the site, loaded when one is wanted."""
     rows = list(ranking.order)
-    steps = np.round(search.subsets.xy[rows] * COORDINATE_STEPS).astype(int)
+    steps = coordinate_steps(search.subsets.xy[rows])
     hits = np.round(np.nan_to_num(search.subsets.nh[rows] * HIT_STEPS, nan=-1)).astype(int)
     return {
         "steps": COORDINATE_STEPS,

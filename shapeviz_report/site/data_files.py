@@ -10,11 +10,12 @@ import csv
 import io
 import json
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
-from shapeviz_report.types import FeatureSearch, Report
+from shapeviz_report.types import BinSearch, BinSelection, FeatureSearch, HeldOutBins, Report
 
 #: Tells a folder that this package wrote from one that it must not replace.
 GENERATOR = "shapeviz-report"
@@ -22,7 +23,8 @@ GENERATOR = "shapeviz-report"
 
 def data_files(report: Report, version: str) -> dict[str, bytes]:
     """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
-    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, and the scores of bins in ``scores.npz``, by name.
+    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, the scores of bins in ``scores.npz``, and the bins that
+    separate all classes in ``selected-bins.txt``, by name.
 
     Parameters
     ----------
@@ -56,6 +58,8 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
             classes=np.array(report.scores.classes, dtype=np.str_),
             columns=np.array(report.features.columns, dtype=np.str_),
         )
+    if report.bins is not None:
+        files["selected-bins.txt"] = _bin_list(report.bins.automatic).encode()
     return files
 
 
@@ -95,6 +99,7 @@ def summary(report: Report, version: str) -> dict[str, object]:
             for method, (projection, quality) in report.projections.items()
         },
         "search": None if report.search is None else _search(report.search),
+        "bins": None if report.bins is None else _bins(report.bins),
         "seconds": dict(report.seconds),
         "cpu_seconds": dict(report.cpu_seconds),
         "parameters": dict(report.parameters),
@@ -245,6 +250,61 @@ def _shape_rows(report: Report) -> list[list[str]]:
 def _by_score(search: FeatureSearch) -> list[int]:
     """The evaluated subsets from best to worst, in the order of the search where there are no labels."""
     return np.argsort(-search.subsets.nh_s, kind="stable").tolist()
+
+
+def _bins(found: BinSearch) -> dict[str, object]:
+    automatic = found.automatic
+    return {
+        "automatic": {
+            "bins": list(automatic.bins),
+            "nh_s": automatic.nh_s,
+            "seconds": automatic.cpu_seconds,
+            "seed": automatic.seed,
+            "k": automatic.k,
+            "shapes": len(automatic.rows),
+            "nh_s_other_seeds": automatic.nh_s_other_seeds.tolist(),
+            "path": [
+                {
+                    "bins": list(step.bins),
+                    "added": list(step.added),
+                    "removed": list(step.removed),
+                    "nh_space": step.nh_space,
+                    "nh_s": step.nh_s,
+                }
+                for step in automatic.path
+            ],
+            "held_out": _folds(found.held_out),
+            "permuted": _folds(found.shuffled) | {"chance": found.chance},
+        },
+        "minimal": {
+            separated.label: [
+                {"bins": list(chosen.bins), "nh_c": chosen.nh_c, "nh_c_space": chosen.nh_c_space}
+                for chosen in separated.sets
+            ]
+            for separated in found.minimal
+        },
+    }
+
+
+def _folds(folds: Sequence[HeldOutBins]) -> dict[str, object]:
+    """The folds, and their means with each shape counted once."""
+    names = ("nh_s_seen", "nh_space", "nh_s", "nh_s_all", "knn_accuracy", "knn_accuracy_all")
+    shapes = [fold.shapes for fold in folds]
+    return {
+        **{
+            name: float(np.average([getattr(fold, name) for fold in folds], weights=shapes)) for name in names
+        },
+        "folds": [
+            {"bins": list(fold.bins), "shapes": fold.shapes, **{name: getattr(fold, name) for name in names}}
+            for fold in folds
+        ],
+    }
+
+
+def _bin_list(selection: BinSelection) -> str:
+    """What ``build --bins`` reads."""
+    head = f"# {len(selection.bins)} bins that separate all classes: NH_s {selection.nh_s:.3f} on their t-SNE map\n"
+    return head + "".join(f"{name}\n" for name in selection.bins)
 
 
 def _members(search: FeatureSearch, row: int) -> list[str]:

@@ -4,7 +4,7 @@ import json
 
 import jinja2
 import pytest
-from reports import make_report, with_scores, with_search
+from reports import make_report, with_bin_search, with_scores, with_search
 
 from shapeviz_report.pages import PAGES
 from shapeviz_report.site.data_files import json_text
@@ -30,9 +30,10 @@ class TestPage:
 
     @pytest.mark.parametrize("classes", [("ant", "bird"), (None,), ("ant", None)])
     def test_its_chunks_are_json_or_bytes(self, page, classes):
-        for chunk in page.content(with_scores(with_search(make_report(classes, 3)))).chunks.values():
+        report = with_bin_search(with_scores(with_search(make_report(classes, 3))))
+        for chunk in page.content(report).chunks.values():
             assert isinstance(chunk, bytes) or json.loads(json_text(chunk)) == chunk
 
     def test_its_content_is_the_same_every_time(self, page):
-        report = with_scores(with_search(make_report()))
+        report = with_bin_search(with_scores(with_search(make_report())))
         assert page.content(report) == page.content(report)

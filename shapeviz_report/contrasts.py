@@ -1,0 +1,99 @@
+"""Which shapes and classes show best what a bin tells apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from scipy.spatial.distance import cdist
+
+from shapeviz_report.quality import neighbour_weights
+from shapeviz_report.types import BinSearch, FeatureTable, FloatArray
+
+
+def find_centres(scaled: FloatArray, labels: Sequence[str | None]) -> dict[str, int]:
+    """The most central shape of every class: the one nearest to the mean of the class, as a row.
+
+    Parameters
+    ----------
+    scaled : (n, w) float array
+        Features as projections compare them.
+    labels : n labels
+    """
+    centres = {}
+    for label in sorted({label for label in labels if label is not None}):
+        rows = np.flatnonzero([other == label for other in labels])
+        offsets = scaled[rows] - scaled[rows].mean(axis=0)
+        centres[label] = int(rows[np.square(offsets).sum(axis=1).argmin()])
+    return centres
+
+
+def find_rivals(xy: FloatArray, labels: Sequence[str | None], k: int) -> dict[str, str]:
+    """The class that every class is most confused with on a map.
+
+    It is the one to which most of its shapes' k nearest neighbours of other classes belong; for a class whose
+    neighbours are all its own, the one that lies nearest, by the mean distance of the shapes.
+
+    Parameters
+    ----------
+    xy : (n, 2) float array
+    labels : n labels
+        Of at least two classes.
+    k : int
+        From 1 to n - 1.
+    """
+    classes = sorted({label for label in labels if label is not None})
+    members = np.array([[label == name for label in labels] for name in classes], dtype=float)
+    shares = members @ neighbour_weights(xy, k) @ members.T
+    means = members / members.sum(axis=1, keepdims=True)
+    distances = means @ cdist(xy, xy) @ means.T
+    np.fill_diagonal(shares, -1)
+    np.fill_diagonal(distances, np.inf)
+    rivals = {}
+    for number, name in enumerate(classes):
+        nearest = shares[number].argmax() if shares[number].max() > 0 else distances[number].argmin()
+        rivals[name] = classes[int(nearest)]
+    return rivals
+
+
+def choose_contrasts(
+    found: BinSearch,
+    table: FeatureTable,
+    labels: Sequence[str | None],
+    centres: Mapping[str, int],
+    rivals: Mapping[str, str],
+) -> dict[str, tuple[int, ...]]:
+    """The shapes on which every bin that a search found is to be seen, as rows of the table.
+
+    A bin that separates a class is seen on the centre of this class and on that of its rival; one of the automatic
+    selection on the centres of the class with most and of the class with least of it, by the mean.
+
+    Parameters
+    ----------
+    found : BinSearch
+    table : FeatureTable
+    labels : n labels
+    centres, rivals : mapping
+        As :func:`find_centres` and :func:`find_rivals` find them.
+
+    Returns
+    -------
+    dict of str to tuple of int
+        By bin, in the order of the columns. Without external features, of which no surface is known.
+    """
+    pairs: dict[str, list[str]] = {}
+    for separated in found.minimal:
+        for column in (column for chosen in separated.sets for column in chosen.bins):
+            pairs.setdefault(column, []).extend((separated.label, rivals[separated.label]))
+    columns = {column: place for place, column in enumerate(table.columns)}
+    means = {
+        label: table.values[[other == label for other in labels]].mean(axis=0) for label in sorted(centres)
+    }
+    for column in found.automatic.bins:
+        amounts = {label: values[columns[column]] for label, values in means.items()}
+        pairs.setdefault(column, []).extend((max(amounts, key=amounts.get), min(amounts, key=amounts.get)))
+    histograms = {column for block in table.blocks if block.bins > 1 for column in block.columns}
+    return {
+        column: tuple(sorted({centres[label] for label in pairs[column]}))
+        for column in sorted(pairs.keys() & histograms, key=columns.__getitem__)
+    }

@@ -1,0 +1,185 @@
+"""The Bins page: the few bins that separate a class, those that separate all, and how they look on the shapes
+(paper, 4.4; Fig. 6, 7 and 8)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from hashlib import sha256
+
+import numpy as np
+
+from shapeviz_report.contrasts import find_rivals
+from shapeviz_report.features import BINS
+from shapeviz_report.pages.base import (
+    COORDINATE_STEPS,
+    PageContent,
+    class_names,
+    coordinate_steps,
+    rounded,
+)
+from shapeviz_report.render import CLAY, MARKED, ramp_codes
+from shapeviz_report.types import BinSearch, BinStep, FloatArray, HeldOutBins, MinimalSet, Report
+
+#: Decimals of NH.
+SCORE_DECIMALS = 6
+
+
+class BinsPage:
+    """Small multiples of the classes with their fewest bins, the path of the selection, and bins on surfaces."""
+
+    name = "bins"
+    title = "Bins"
+    file = "bins.html"
+
+    def content(self, report: Report) -> PageContent:
+        return PageContent(
+            context={
+                "classes": len(class_names(report)),
+                "searched": report.parameters.get("search") != "none",
+                "selection": None if report.bins is None else _headline(report, report.bins),
+                "models": report.models is not None,
+            },
+            chunks={"selection": _selection(report)},
+        )
+
+
+def painting_name(picture: bytes) -> str:
+    """File name of a picture below ``paintings/``, made of its content."""
+    return sha256(picture).hexdigest()[:20] + ".webp"
+
+
+def model_name(model: bytes) -> str:
+    """Name of a shape's model: its script is ``models/NAME.js``, and its chunk ``model-NAME``."""
+    return sha256(model).hexdigest()[:20]
+
+
+def _selection(report: Report) -> dict[str, object]:
+    """What the search for bins found, as far as there is one, and what the views of shapes need. No times: they differ
+    from build to build."""
+    place = {column: index for index, column in enumerate(report.features.columns)}
+    return {
+        **({"minimal": [], "path": []} if report.bins is None else _found(report, report.bins, place)),
+        "coordinateSteps": COORDINATE_STEPS,
+        "paintings": [
+            {
+                "column": place[painting.column],
+                "shape": painting.shape,
+                "value": f"paintings/{painting_name(painting.value)}",
+                "inside": f"paintings/{painting_name(painting.inside)}",
+            }
+            for painting in report.paintings
+        ],
+        "models": None if report.models is None else [model_name(model) for model in report.models],
+        "ramp": ramp_codes(BINS),
+        "clay": list(CLAY),
+        "marked": list(MARKED),
+    }
+
+
+def _found(report: Report, found: BinSearch, place: dict[str, int]) -> dict[str, object]:
+    automatic = found.automatic
+    number = {name: index for index, name in enumerate(class_names(report))}
+    projection, hits = next(iter(report.projections.values()))
+    rivals = find_rivals(projection.xy, report.labels, hits.k)
+    return {
+        "minimal": [
+            {
+                "group": number[separated.label],
+                "other": number[rivals[separated.label]],
+                "sets": [_set(chosen, place) for chosen in separated.sets],
+            }
+            for separated in found.minimal
+        ],
+        "path": [_step(step, place) for step in automatic.path],
+        "rows": automatic.rows.tolist() if len(automatic.rows) < automatic.shape_count else None,
+        "neighbours": automatic.k,
+        "seed": automatic.seed,
+        "otherSeeds": rounded(automatic.nh_s_other_seeds, SCORE_DECIMALS),
+        "heldOut": [_fold(fold, place) for fold in found.held_out],
+        "shuffled": [_fold(fold, place) for fold in found.shuffled],
+        "chance": round(found.chance, SCORE_DECIMALS),
+        "allFeatures": round(_all_features(report, found), SCORE_DECIMALS),
+    }
+
+
+def _set(chosen: MinimalSet, place: dict[str, int]) -> dict[str, object]:
+    return {
+        "bins": [place[name] for name in chosen.bins],
+        "nhSpace": round(chosen.nh_c_space, SCORE_DECIMALS),
+        "nh": round(chosen.nh_c, SCORE_DECIMALS),
+        **_points(chosen.xy),
+    }
+
+
+def _step(step: BinStep, place: dict[str, int]) -> dict[str, object]:
+    return {
+        "bins": [place[name] for name in step.bins],
+        "added": [place[name] for name in step.added],
+        "removed": [place[name] for name in step.removed],
+        "nhSpace": round(step.nh_space, SCORE_DECIMALS),
+        "nh": round(step.nh_s, SCORE_DECIMALS),
+        **_points(step.xy),
+    }
+
+
+def _fold(fold: HeldOutBins, place: dict[str, int]) -> dict[str, object]:
+    return {
+        "bins": [place[name] for name in fold.bins],
+        "shapes": fold.shapes,
+        "seen": round(fold.nh_s_seen, SCORE_DECIMALS),
+        "nhSpace": round(fold.nh_space, SCORE_DECIMALS),
+        "nh": round(fold.nh_s, SCORE_DECIMALS),
+        "nhAll": round(fold.nh_s_all, SCORE_DECIMALS),
+        "recognised": round(fold.knn_accuracy, SCORE_DECIMALS),
+        "recognisedAll": round(fold.knn_accuracy_all, SCORE_DECIMALS),
+    }
+
+
+def _points(xy: np.ndarray) -> dict[str, object]:
+    x, y = coordinate_steps(xy).T.tolist()
+    return {"x": x, "y": y}
+
+
+def _all_features(report: Report, found: BinSearch) -> float:
+    """NH_s of the t-SNE map of all features: the one that the site shows, if it shows all shapes on one."""
+    whole = len(found.automatic.rows) == found.automatic.shape_count
+    shown = report.projections.get("tsne")
+    if whole and shown is not None and shown[0].bins is None and shown[1].nh_s is not None:
+        return shown[1].nh_s
+    return mean_over_folds(found.held_out, "nh_s_all")
+
+
+def mean_over_folds(folds: Sequence[HeldOutBins], name: str) -> float:
+    """The mean of a field over folds, in which each shape counts once."""
+    values: FloatArray = np.array([getattr(fold, name) for fold in folds])
+    return float(np.average(values, weights=[fold.shapes for fold in folds]))
+
+
+def _headline(report: Report, found: BinSearch) -> dict[str, object]:
+    """What the template says in words."""
+    automatic = found.automatic
+    return {
+        "bins": len(automatic.bins),
+        "of": len(report.features.columns),
+        "nh_s": automatic.nh_s,
+        "other_seeds": float(automatic.nh_s_other_seeds.mean()),
+        "all_features": _all_features(report, found),
+        "chance": found.chance,
+        "shapes": len(automatic.rows),
+        "shape_count": automatic.shape_count,
+        "neighbours": automatic.k,
+        "folds": len(found.held_out),
+        "held_out": _means(found.held_out),
+        "shuffled": _means(found.shuffled),
+        "separated": len(found.minimal),
+    }
+
+
+def _means(folds: Sequence[HeldOutBins]) -> dict[str, float]:
+    return {
+        "seen": mean_over_folds(folds, "nh_s_seen"),
+        "nh_s": mean_over_folds(folds, "nh_s"),
+        "all": mean_over_folds(folds, "nh_s_all"),
+        "recognised": mean_over_folds(folds, "knn_accuracy"),
+        "recognised_all": mean_over_folds(folds, "knn_accuracy_all"),
+    }

@@ -1,0 +1,5 @@
+// The Bins page.
+
+import { watchTheme } from "../theme.js";
+
+watchTheme(() => {});
