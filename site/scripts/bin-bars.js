@@ -6,24 +6,28 @@ const SHARED = 2;
 /**
  * How much of every pixel column belongs to each feature, and the highest bar that touches it.
  *
- * `bars` are `{ columns, position, level, feature }`: the columns to paint, and by column its place, its height in
- * [0, 1] and its feature. `view` is `{ left, step }`: the place at the left edge, and pixels a place.
+ * `bars` are `{ columns, from, to, level, feature }`: the columns to paint, and by column where its bar begins and ends
+ * in pixels of the screen, its height in [0, 1] and its feature.
  */
-export function crowd({ columns, position, level, feature }, { left, step }, width, features) {
+function crowd({ columns, from, to, level, feature }, width, features) {
   const shares = new Float32Array(width * features);
   const totals = new Float32Array(width);
   const peaks = new Float32Array(width);
   for (const column of columns) {
-    const start = (position[column] - left) * step;
-    const end = start + step;
-    for (let pixel = Math.max(Math.floor(start), 0); pixel < Math.min(end, width); pixel += 1) {
-      const share = Math.min(end, pixel + 1) - Math.max(start, pixel);
+    for (let pixel = Math.max(Math.floor(from[column]), 0); pixel < Math.min(to[column], width); pixel += 1) {
+      const share = Math.min(to[column], pixel + 1) - Math.max(from[column], pixel);
       shares[pixel * features + feature[column]] += share;
       totals[pixel] += share;
       if (level[column] > peaks[pixel]) peaks[pixel] = level[column];
     }
   }
   return { shares, totals, peaks };
+}
+
+/** Bars with pixels of their own, and those that share them. */
+function sorted(bars) {
+  const alone = (column) => bars.to[column] - bars.from[column] >= SHARED;
+  return { wide: bars.columns.filter(alone), crowded: { ...bars, columns: bars.columns.filter((column) => !alone(column)) } };
 }
 
 /** The next value above one that an axis may well end at, and be halved. */
@@ -44,17 +48,16 @@ function heightOf(level, room) {
  * Where bars share a pixel column, it is as high as the highest of them, and each feature has its share of its length:
  * the colours of a place say which features are found there.
  */
-export function paintBars(context, bars, view, { width, base, room, colors }) {
-  if (view.step >= SHARED) {
-    for (const column of bars.columns) {
-      const [start, end] = edges(bars.position[column], view);
-      const height = heightOf(bars.level[column], room);
-      context.fillStyle = colors[bars.feature[column]];
-      context.fillRect(start, base - height, end - start, height);
-    }
-    return;
+export function paintBars(context, bars, { width, base, room, colors }) {
+  const { wide, crowded } = sorted(bars);
+  for (const column of wide) {
+    const [start, end] = edges(bars, column);
+    const height = heightOf(bars.level[column], room);
+    context.fillStyle = colors[bars.feature[column]];
+    context.fillRect(start, base - height, end - start, height);
   }
-  const { shares, totals, peaks } = crowd(bars, view, width, colors.length);
+  if (crowded.columns.length === 0) return;
+  const { shares, totals, peaks } = crowd(crowded, width, colors.length);
   const floors = new Float32Array(width).fill(base);
   for (const [feature, color] of colors.entries()) {
     context.fillStyle = color;
@@ -69,24 +72,22 @@ export function paintBars(context, bars, view, { width, base, room, colors }) {
 }
 
 /** Where a bar begins and ends, on whole pixels, with a gap to the next where there is room for one. */
-export function edges(position, { left, step }) {
-  const start = Math.round((position - left) * step);
-  const end = Math.round((position + 1 - left) * step);
-  return [start, end - (step >= 3 ? Math.max(1, Math.round(step / 12)) : 0)];
+export function edges({ from, to }, column) {
+  const [start, end] = [Math.round(from[column]), Math.round(to[column])];
+  return [start, end - (end - start >= 3 ? Math.max(1, Math.round((end - start) / 12)) : 0)];
 }
 
 /** Paint a row of marks a feature, as the Features page has under its bars: a mark where one of its bins stands. */
-export function paintRows(context, bars, view, { width, top, height, gap, colors, rows }) {
+export function paintRows(context, bars, { width, top, height, gap, colors, rows }) {
   const of = new Map(rows.map((feature, row) => [feature, row]));
-  if (view.step >= SHARED) {
-    for (const column of bars.columns) {
-      const [start, end] = edges(bars.position[column], view);
-      context.fillStyle = colors[bars.feature[column]];
-      context.fillRect(start, top + of.get(bars.feature[column]) * height, end - start, height - gap);
-    }
-    return;
+  const { wide, crowded } = sorted(bars);
+  for (const column of wide) {
+    const [start, end] = edges(bars, column);
+    context.fillStyle = colors[bars.feature[column]];
+    context.fillRect(start, top + of.get(bars.feature[column]) * height, end - start, height - gap);
   }
-  const { shares } = crowd(bars, view, width, colors.length);
+  if (crowded.columns.length === 0) return;
+  const { shares } = crowd(crowded, width, colors.length);
   for (const [feature, row] of of) {
     context.fillStyle = colors[feature];
     for (let pixel = 0; pixel < width; pixel += 1) {

@@ -61,7 +61,7 @@ export class BinChart {
           button("−", "Zoom out (−)", () => plot.zoom(1 / 2)),
           button("+", "Zoom in (+)", () => plot.zoom(2)),
           this.closer,
-          button("All", "Show all bars (0)", () => plot.look(0, 0)),
+          button("All", "Show all bars (0)", () => plot.lookAtAll()),
         ),
       ),
       element("div", { class: "bin-tools" }, this.reading, this.#choiceTools()),
@@ -320,7 +320,7 @@ export class BinChart {
     const { places, placeOf } = this.plot;
     if (places.length === 0) return;
     const beside = number === 1 ? this.#beside?.after : number === -1 ? this.#beside?.before : undefined;
-    const from = this.pointed === null ? Math.floor(this.plot.view.left) - Math.sign(number) : placeOf[this.pointed];
+    const from = this.pointed === null ? Math.floor(this.plot.scale.left) - Math.sign(number) : placeOf[this.pointed];
     this.visit(beside ?? places[Math.min(Math.max(from + number, 0), places.length - 1)]);
   }
 

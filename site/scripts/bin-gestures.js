@@ -33,13 +33,14 @@ export class BinGestures {
     this.plot.surface.setPointerCapture(event.pointerId);
     if (this.#pointers.size === 2) {
       const [a, b] = [...this.#pointers.values()];
-      this.#drag = { kind: "pinch", spread: Math.abs(a - b), middle: (a + b) / 2, view: this.plot.view };
+      const { scale } = this.plot;
+      this.#drag = { kind: "pinch", spread: Math.abs(a - b), place: scale.placeOf((a + b) / 2), step: scale.step };
       this.chart.mark(null);
       return;
     }
     // One choice on the page says what dragging does, on the maps and here.
     const moves = this.plot.surface.closest("[data-drag='move']") !== null || event.button === 1;
-    this.#drag = { kind: "press", then: moves ? "move" : "select", start: x, left: this.plot.view.left, place: this.plot.at(x, true) };
+    this.#drag = { kind: "press", then: moves ? "move" : "select", start: x, last: x, place: this.plot.at(x, true) };
   }
 
   #move(event) {
@@ -56,7 +57,8 @@ export class BinGestures {
       drag.kind = drag.then;
       chart.point(null);
     }
-    if (drag.kind === "move") plot.look(drag.left - (x - drag.start) / plot.view.step, plot.view.step);
+    if (drag.kind === "move") plot.pan(drag.last - x);
+    drag.last = x;
     if (drag.kind === "select" && plot.places.length > 0) {
       if (x < 0 || x > plot.width) plot.pan(x < 0 ? x : x - plot.width);
       chart.mark([drag.place, plot.at(x, true)]);
@@ -89,16 +91,15 @@ export class BinGestures {
 
   #stretch(drag) {
     const [a, b] = [...this.#pointers.values()];
-    const step = (drag.view.step * Math.abs(a - b)) / Math.max(drag.spread, 1);
     // What was between the fingers stays between them.
-    this.plot.look(drag.view.left + drag.middle / drag.view.step - (a + b) / 2 / step, step);
+    this.plot.hold(drag.place, (a + b) / 2, (drag.step * Math.abs(a - b)) / Math.max(drag.spread, 1));
   }
 
   #wheel(event) {
     const lines = event.deltaMode === 1 ? 18 : 1;
     const sideways = event.shiftKey ? event.deltaX || event.deltaY : event.deltaX;
     if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
-      if (this.plot.whole) return;
+      if (this.plot.scale.whole) return;
       this.plot.pan(sideways * lines);
     } else {
       // Where the page itself scrolls, the wheel belongs to it unless the reader asks for zoom.
@@ -123,7 +124,7 @@ export class BinGestures {
       chart.giveUp(chart.range ? chart.marked : [chart.pointed]);
     } else if (event.key === "+" || event.key === "=") plot.zoom(1.5);
     else if (event.key === "-") plot.zoom(1 / 1.5);
-    else if (event.key === "0") plot.look(0, 0);
+    else if (event.key === "0") plot.lookAtAll();
     else if (event.key === "Escape" && (chart.range || chart.pointed !== null)) this.#letGo();
     else return;
     event.preventDefault();

@@ -1,13 +1,11 @@
 // The bars of the bins on a canvas: where each stands, which part is in view, and what is marked.
 
 import { axisEnd, edges, paintBars, paintRows } from "./bin-bars.js";
+import { BinScale } from "./bin-scale.js";
 import { BinStrip } from "./bin-strip.js";
 import { calm, element, svg } from "./dom.js";
 import { styleColor } from "./theme.js";
 
-/** Pixels a bar: with few bars, and zoomed in as far as it goes. */
-const WIDEST = 36;
-const CLOSEST = 48;
 /** Letters of a name below a bar. */
 const NAME = 12;
 /** From these widths on, bars have their names below them, and chosen ones a border each. */
@@ -34,7 +32,10 @@ export class BinPlot {
     this.level = new Float32Array(bins.count);
     this.feature = Uint16Array.from({ length: bins.count }, (_, column) => bins.featureOf(column));
     this.features = [];
-    this.view = { left: 0, step: 0 };
+    this.from = new Float32Array(bins.count);
+    this.to = new Float32Array(bins.count);
+    this.scale = new BinScale();
+    this.taken = [];
     this.pointed = null;
     this.range = null;
     this.canvas = element("canvas");
@@ -50,7 +51,10 @@ export class BinPlot {
     );
     this.rows = element("ul");
     this.levels = element("div", { class: "levels" });
-    this.strip = new BinStrip((from, to, held) => this.#frameShares(from, to, held));
+    this.strip = new BinStrip((from, to, last) => {
+      this.scale.frame(from * this.places.length, to * this.places.length, last);
+      this.#moved();
+    });
     this.node = element(
       "div",
       { class: "bin-plot" },
@@ -75,7 +79,6 @@ export class BinPlot {
   }
 
   resize() {
-    const whole = this.view.step <= this.#least;
     this.density = window.devicePixelRatio;
     this.width = Math.max(this.surface.clientWidth, 10);
     this.height = Math.max(this.surface.clientHeight, 10);
@@ -84,7 +87,7 @@ export class BinPlot {
     this.node.style.setProperty("--foot", `${this.foot}px`);
     this.#listRows();
     Object.assign(this.canvas, { width: this.#pixels(this.width), height: this.#pixels(this.height) });
-    this.look(this.view.left, whole ? 0 : this.view.step);
+    this.#fit();
     this.#paint();
     this.#paintStrip();
   }
@@ -95,7 +98,6 @@ export class BinPlot {
 
   /** Show bars in an order; they move from where they were, and grow or shrink to their scores. */
   show({ scores, chosen, places }) {
-    const whole = this.view.step <= this.#least;
     const first = this.places.length === 0;
     const [position, level] = [this.position.slice(), this.level.slice()];
     // New ones grow where they stand.
@@ -114,8 +116,10 @@ export class BinPlot {
     this.top = axisEnd(places.reduce((most, column) => Math.max(most, scores[column]), 0));
     this.levels.replaceChildren(...[this.top, this.top / 2, 0].map((level) => element("span", {}, String(Number(level.toPrecision(3))))));
     if (first) this.resize();
-    else this.#listRows();
-    this.look(this.view.left, whole ? 0 : this.view.step);
+    else {
+      this.#listRows();
+      this.#fit();
+    }
     this.#travel(position, level, first || calm() || places.length > MOST_MOVING ? 0 : MOVEMENT);
   }
 
@@ -150,45 +154,22 @@ export class BinPlot {
 
   // The part in view
 
-  get #least() {
-    return Math.min((this.width ?? 10) / Math.max(this.places.length, 1), WIDEST);
+  #fit() {
+    const chosen = [...this.chosen].map((column) => this.placeOf[column]).filter((place) => place >= 0);
+    this.taken = chosen.sort((a, b) => a - b);
+    this.scale.fit(this.places.length, this.taken, this.width);
+    this.#moved();
   }
 
-  get #most() {
-    return Math.max(this.#least, CLOSEST);
-  }
-
-  /** Show the bars from a place on, with so many pixels each; as near to that as there are bars. */
-  look(left, step) {
-    const kept = Math.min(Math.max(step, this.#least), this.#most);
-    const shown = this.width / kept;
-    this.view = { left: Math.min(Math.max(left, 0), Math.max(this.places.length - shown, 0)), step: kept };
+  #moved() {
     const total = Math.max(this.places.length, 1);
-    this.strip.show(this.view.left / total, Math.min((this.view.left + shown) / total, 1));
+    this.strip.show(this.scale.left / total, Math.min(this.scale.placeOf(this.width) / total, 1));
     this.#redraw();
   }
 
-  /** Show what lies between two shares of the whole; where the zoom ends, the named end stays. */
-  #frameShares(from, to, held) {
-    const total = this.places.length;
-    const span = Math.max((to - from) * total, this.width / this.#most);
-    this.look(held === "to" ? to * total - span : from * total, this.width / span);
-  }
-
-  /** Zoom by a factor with one point of the surface held still: what is pointed at, or the middle. */
-  zoom(factor, x = this.#middle()) {
-    const { left, step } = this.view;
-    const next = Math.min(Math.max(step * factor, this.#least), this.#most);
-    this.look(left + x / step - x / next, next);
-  }
-
-  #middle() {
-    const x = this.pointed === null ? -1 : this.xOf(this.placeOf[this.pointed] + 0.5);
-    return x >= 0 && x <= this.width ? x : this.width / 2;
-  }
-
-  pan(pixels) {
-    this.look(this.view.left + pixels / this.view.step, this.view.step);
+  lookAtAll() {
+    this.scale.look(0, 0);
+    this.#moved();
   }
 
   /** How many bars are in view when they are just wide enough for their names; a round number. */
@@ -197,29 +178,42 @@ export class BinPlot {
   }
 
   lookClose() {
-    this.look(0, this.width / this.close);
+    this.scale.look(0, this.width / this.close);
+    this.#moved();
   }
 
-  get whole() {
-    return this.view.step <= this.#least;
+  /** Zoom by a factor with one point of the surface held still: what is pointed at, or the middle. */
+  zoom(factor, x = this.#middle()) {
+    this.hold(this.scale.placeOf(x), x, this.scale.step * factor);
+  }
+
+  #middle() {
+    const x = this.pointed === null ? -1 : this.scale.xOf(this.placeOf[this.pointed] + 0.5);
+    return x >= 0 && x <= this.width ? x : this.width / 2;
+  }
+
+  /** Show a place, which may have a fraction, at a point of the surface. */
+  hold(place, x, step) {
+    this.scale.hold(place, x, step);
+    this.#moved();
+  }
+
+  pan(pixels) {
+    this.hold(this.scale.left, -pixels);
   }
 
   /** How many bars are in view. */
   get span() {
-    return Math.min(this.width / this.view.step, this.places.length);
+    return Math.min(this.scale.placeOf(this.width), this.places.length) - this.scale.left;
   }
 
   reveal(place) {
-    if (this.xOf(place) < 0 || this.xOf(place + 1) > this.width + 0.5) this.look(place + 0.5 - this.span / 2, this.view.step);
-  }
-
-  xOf(place) {
-    return (place - this.view.left) * this.view.step;
+    if (this.scale.xOf(place) < -0.5 || this.scale.xOf(place + 1) > this.width + 0.5) this.hold(place + 0.5, this.width / 2);
   }
 
   /** The place under a point of the surface, or null; `nearest` takes the bar beside it where there is none. */
   at(x, nearest = false) {
-    const place = Math.floor(this.view.left + x / this.view.step);
+    const place = Math.floor(this.scale.placeOf(x));
     if (nearest) return Math.min(Math.max(place, 0), this.places.length - 1);
     return place >= 0 && place < this.places.length ? place : null;
   }
@@ -227,7 +221,8 @@ export class BinPlot {
   /** Where a bar stands in the window. */
   box(place) {
     const { left, top } = this.surface.getBoundingClientRect();
-    return { left: left + this.xOf(place), top, width: this.view.step, height: this.height - this.foot };
+    const x = this.scale.xOf(place);
+    return { left: left + x, top, width: this.scale.xOf(place + 1) - x, height: this.height - this.foot };
   }
 
   // Painting
@@ -237,11 +232,8 @@ export class BinPlot {
   }
 
   #paintStrip() {
-    this.strip.paint(this.#bars(this.places), this.places.length, this.#runs(), this);
-  }
-
-  #bars(columns) {
-    return { columns, position: this.position, level: this.level, feature: this.feature };
+    const { places, position, level, feature } = this;
+    this.strip.paint({ columns: places, position, level, feature }, places.length, this.#runs(), this);
   }
 
   #paint() {
@@ -252,28 +244,33 @@ export class BinPlot {
     this.message.hidden = this.places.length > 0;
     this.#placeMarks();
     if (this.places.length === 0) return;
-    const view = { left: this.view.left, step: this.view.step * this.density };
     const base = this.#pixels(this.height - this.foot);
     const frame = { width: this.canvas.width, base, room: base - this.#pixels(4), colors: this.colors };
-    const inView = this.places.subarray(Math.floor(view.left), Math.ceil(view.left + frame.width / view.step) + 1);
+    const { scale, density } = this;
+    const inView = this.places.subarray(Math.floor(scale.left), Math.ceil(scale.placeOf(this.width)));
     const visible = this.#movement === null ? inView : this.places;
+    for (const column of visible) {
+      this.from[column] = scale.xOf(this.position[column]) * density;
+      this.to[column] = scale.xOf(this.position[column] + 1) * density;
+    }
+    const bars = { columns: visible, from: this.from, to: this.to, level: this.level, feature: this.feature };
     const found = this.matched && visible.filter((column) => this.matched.has(column));
-    const runs = this.#runsIn(view);
+    const runs = this.#runsInView();
     this.#paintLevels(context, frame);
     this.#paintGround(context, runs, frame);
     context.globalAlpha = found ? 0.2 : 1;
-    paintBars(context, this.#bars(visible), view, frame);
+    paintBars(context, bars, frame);
     context.globalAlpha = 1;
-    if (found) paintBars(context, this.#bars(found), view, frame);
+    if (found) paintBars(context, { ...bars, columns: found }, frame);
     context.fillStyle = this.ink;
     context.fillRect(0, base, frame.width, this.#line(1));
-    this.#paintBorders(context, visible, runs, view, frame);
+    this.#paintBorders(context, bars, runs, frame);
     context.fillStyle = this.ink;
-    if (found) this.#paintTicks(context, found, view, frame);
-    const named = this.view.step >= NAMED;
+    if (found) this.#paintTicks(context, found, frame);
+    const named = scale.step >= NAMED;
     this.rows.classList.toggle("aside", named);
-    if (named) this.#paintNames(context, visible, view, frame);
-    else this.#paintMatrix(context, this.#bars(found ?? visible), view, frame);
+    if (named) this.#paintNames(context, visible, frame);
+    else this.#paintMatrix(context, { ...bars, columns: found ?? visible }, frame);
   }
 
   #line(width) {
@@ -296,36 +293,35 @@ export class BinPlot {
   }
 
   /** Their border; where they are too narrow for one each, those side by side share a frame. */
-  #paintBorders(context, visible, runs, view, { base, room }) {
+  #paintBorders(context, bars, runs, { base, room }) {
     context.fillStyle = context.strokeStyle = this.accent;
     for (const { start, width } of runs) context.fillRect(start, base, width, this.#line(3));
-    const framed = this.view.step < BORDERED;
-    const line = (context.lineWidth = this.#line(framed || this.view.step < 10 ? 1 : 2));
+    const framed = this.scale.chosenWidth < BORDERED;
+    const line = (context.lineWidth = this.#line(this.scale.chosenWidth < 10 ? 1 : 2));
     const frame = (start, width, height) => context.strokeRect(start + line / 2, base - height + line / 2, width - line, height);
     if (framed) {
       for (const { start, width } of runs) if (width >= this.#pixels(FRAMED)) frame(start, width, room);
       return;
     }
-    for (const column of visible) {
+    for (const column of bars.columns) {
       if (!this.chosen.has(column)) continue;
-      const [start, end] = edges(this.position[column], view);
+      const [start, end] = edges(bars, column);
       frame(start, end - start, Math.max(Math.round(this.level[column] * room), 2 * line));
     }
   }
 
   /** Where runs of chosen bins stand on the screen. */
-  #runsIn(view) {
+  #runsInView() {
     return this.#runs().map(([first, last]) => {
-      const start = Math.round((first - view.left) * view.step);
-      return { start, width: Math.max(Math.round((last + 1 - view.left) * view.step) - start, this.#line(2)) };
+      const start = this.#pixels(this.scale.xOf(first));
+      return { start, width: Math.max(this.#pixels(this.scale.xOf(last + 1)) - start, this.#line(2)) };
     });
   }
 
   /** First and last places of chosen bins that stand side by side. */
   #runs() {
     const runs = [];
-    const places = [...this.chosen].map((column) => this.placeOf[column]).filter((place) => place >= 0);
-    for (const place of places.sort((a, b) => a - b)) {
+    for (const place of this.taken) {
       if (runs.at(-1)?.[1] === place - 1) runs.at(-1)[1] = place;
       else runs.push([place, place]);
     }
@@ -333,17 +329,17 @@ export class BinPlot {
   }
 
   /** Ticks below matches: a bar of no height, or one among thousands, would not be seen. */
-  #paintTicks(context, found, view, { base }) {
-    const width = Math.max(Math.min(view.step * 0.6, this.#pixels(6)), this.#line(2));
+  #paintTicks(context, found, { base }) {
     for (const column of found) {
-      const middle = (this.position[column] + 0.5 - view.left) * view.step;
-      context.fillRect(Math.round(middle - width / 2), base + this.#line(2), Math.round(width), this.#pixels(4));
+      const [from, to] = [this.from[column], this.to[column]];
+      const width = Math.max(Math.min((to - from) * 0.6, this.#pixels(6)), this.#line(2));
+      context.fillRect(Math.round((from + to - width) / 2), base + this.#line(2), Math.round(width), this.#pixels(4));
     }
   }
 
-  #paintMatrix(context, bars, view, { width, base, colors }) {
+  #paintMatrix(context, bars, { width, base, colors }) {
     const height = Math.max(Math.floor(this.#rowHeight * this.density), 1);
-    paintRows(context, bars, view, {
+    paintRows(context, bars, {
       width,
       top: base + this.#pixels(MARKS),
       height,
@@ -353,13 +349,13 @@ export class BinPlot {
     });
   }
 
-  #paintNames(context, visible, view, { base }) {
+  #paintNames(context, visible, { base }) {
     Object.assign(context, { fillStyle: this.ink, textAlign: "right", textBaseline: "middle" });
     // On a low window, names are a little smaller rather than cut.
     const plain = `${(this.foot < FOOT[0] ? 10 : 11) * this.density}px ${this.family}`;
     for (const column of visible) {
       context.font = this.chosen.has(column) || this.matched?.has(column) ? `600 ${plain}` : plain;
-      context.setTransform(0, -1, 1, 0, (this.position[column] + 0.5 - view.left) * view.step, base + this.#pixels(MARKS));
+      context.setTransform(0, -1, 1, 0, (this.from[column] + this.to[column]) / 2, base + this.#pixels(MARKS));
       context.fillText(this.bins.shortName(column, NAME), 0, 0);
     }
     context.resetTransform();
@@ -385,9 +381,9 @@ export class BinPlot {
   #span(node, range, least) {
     node.classList.toggle("shown", range !== null);
     if (range === null) return;
-    const [first, last] = [Math.min(...range), Math.max(...range)];
-    const width = Math.max((last + 1 - first) * this.view.step, least);
-    node.setAttribute("x", this.xOf((first + last + 1) / 2) - width / 2);
+    const [start, end] = [this.scale.xOf(Math.min(...range)), this.scale.xOf(Math.max(...range) + 1)];
+    const width = Math.max(end - start, least);
+    node.setAttribute("x", (start + end - width) / 2);
     node.setAttribute("width", width);
     node.setAttribute("height", this.height);
   }

@@ -9,7 +9,7 @@ const NARROW = 40;
 export class BinStrip {
   #drag = null;
 
-  /** `look(from, to)` is asked to show the places between two shares of the whole. */
+  /** `look(from, to, last)` is asked to show what lies between two shares of the whole; `last` says that the end must stay. */
   constructor(look) {
     this.look = look;
     this.canvas = element("canvas");
@@ -28,7 +28,8 @@ export class BinStrip {
     const context = this.canvas.getContext("2d");
     const line = Math.round(2 * density);
     const step = width / count;
-    paintBars(context, bars, { left: 0, step }, { width, base: height - line, room: height - 2 * line, colors });
+    const from = bars.position.map((position) => position * step);
+    paintBars(context, { ...bars, from, to: from.map((start) => start + step) }, { width, base: height - line, room: height - 2 * line, colors });
     context.fillStyle = accent;
     for (const [first, last] of runs) context.fillRect(first * step, height - line, Math.max((last + 1 - first) * step, line), line);
   }
@@ -67,11 +68,11 @@ export class BinStrip {
     if (!drag) return;
     const share = Math.min(Math.max(this.#share(event), 0), 1);
     const width = this.to - this.from;
-    if (drag.kind === "from") this.look(Math.min(share, this.to), this.to, "to");
-    else if (drag.kind === "to") this.look(this.from, Math.max(share, this.from), "from");
+    if (drag.kind === "from") this.look(Math.min(share, this.to), this.to, true);
+    else if (drag.kind === "to") this.look(this.from, Math.max(share, this.from), false);
     else {
       const from = Math.min(Math.max(this.#share(event) - drag.offset, 0), 1 - width);
-      this.look(from, from + width, "from");
+      this.look(from, from + width, false);
     }
   }
 }

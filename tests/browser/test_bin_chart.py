@@ -389,11 +389,18 @@ class TestReaders:
 
 
 @pytest.fixture(scope="module")
-def painted(browser):
-    """2000 bars on 100 pixel columns, and their rows of marks: pictures (50, 100, 4) of colours and opacity."""
+def painter(browser):
+    """An empty page with the painter of the bars."""
     page = browser.new_page()
     page.evaluate(join(BARS))
-    pictures = page.evaluate("""() => {
+    yield page
+    page.close()
+
+
+@pytest.fixture(scope="module")
+def painted(painter):
+    """2000 bars on 100 pixel columns, and their rows of marks: pictures (50, 100, 4) of colours and opacity."""
+    pictures = painter.evaluate("""() => {
         const count = 2000;
         const columns = Int32Array.from({ length: count }, (_, place) => place);
         const level = new Float32Array(count).fill(0.2);
@@ -401,8 +408,8 @@ def painted(browser):
         // One bar far above all others, and one of another feature.
         level[1234] = 0.9;
         feature[432] = 1;
-        const bars = { columns, position: Float32Array.from(columns), level, feature };
-        const view = { left: 0, step: 100 / count };
+        const from = Float32Array.from(columns, (place) => place / 20);
+        const bars = { columns, from, to: from.map((start) => start + 1 / 20), level, feature };
         const frame = { width: 100, colors: ["#0000ff", "#ff0000"] };
         const paint = (draw) => {
           const canvas = Object.assign(document.createElement("canvas"), { width: 100, height: 50 });
@@ -413,11 +420,10 @@ def painted(browser):
         const { paintBars, paintRows } = window.bars;
         const rows = { ...frame, top: 0, height: 25, gap: 0, rows: [0, 1] };
         return [
-          paint((context) => paintBars(context, bars, view, { ...frame, base: 50, room: 50 })),
-          paint((context) => paintRows(context, bars, view, rows)),
+          paint((context) => paintBars(context, bars, { ...frame, base: 50, room: 50 })),
+          paint((context) => paintRows(context, bars, rows)),
         ];
     }""")
-    page.close()
     return [np.array(picture).reshape(50, 100, 4) for picture in pictures]
 
 
@@ -437,3 +443,26 @@ class TestManyBars:
         marks = rows[30, :, 3]
         assert marks[432 // 20] > 80
         assert np.count_nonzero(marks) == 1
+
+    def test_chosen_ones_stay_wide_enough_to_be_seen_and_places_find_back(self, painter):
+        found = painter.evaluate("""() => {
+            const scale = new window.bars.BinScale();
+            scale.fit(1870, [0, 1, 2, 700, 701], 990);
+            const whole = [0, 1, 2, 3, 700, 701, 702, 1869, 1870].map((place) => scale.xOf(place));
+            const places = [0, 0.5, 2.9, 3, 350, 700.25, 1000, 1869.5];
+            const back = places.map((place) => scale.placeOf(scale.xOf(place)) - place);
+            scale.hold(700.5, 300, 2);
+            const held = scale.xOf(700.5);
+            const kept = scale.xOf(701) - scale.xOf(700);
+            scale.frame(650, 750, false);
+            return { whole, back, held, kept, framed: [scale.xOf(650), scale.xOf(750)] };
+        }""")
+        whole = found["whole"]
+        np.testing.assert_allclose(np.diff([*whole[:4]]), 6)
+        np.testing.assert_allclose(np.diff(whole[4:7]), 6)
+        assert whole[8] == pytest.approx(990)
+        assert 0.4 < whole[8] - whole[7] < 990 / 1870
+        np.testing.assert_allclose(found["back"], 0, atol=1e-9)
+        assert found["held"] == pytest.approx(300)
+        assert found["kept"] == 6
+        np.testing.assert_allclose(found["framed"], [0, 990], atol=1e-6)
