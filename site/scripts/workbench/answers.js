@@ -8,8 +8,14 @@ import { contests } from "./separation.js";
 
 const SCORE_STEPS = 65535;
 
+/** As many engines score at once, beside the one that lays out; each holds the whole table. */
+const SCORING = Math.min(Math.max((navigator.hardwareConcurrency ?? 2) - 1, 1), 3);
+
+const MOST_CONTESTS = 500;
+
 export class Answers {
-  #engine = null;
+  #engines = [];
+  #contests = new Map();
 
   constructor(model, data, bins) {
     this.model = model;
@@ -18,13 +24,13 @@ export class Answers {
     this.titles = new Map(model.data.methods.map(({ key, title, note }) => [key, { title, note }]));
   }
 
-  /** The engine, started when first needed, and again after it could not be started. */
-  get engine() {
-    this.#engine ??= this.#start().catch((error) => {
-      this.#engine = null;
+  /** An engine by its number, started when first needed, and again after it could not be started. */
+  #engine(number) {
+    this.#engines[number] ??= this.#start().catch((error) => {
+      delete this.#engines[number];
       throw error;
     });
-    return this.#engine;
+    return this.#engines[number];
   }
 
   #start() {
@@ -84,13 +90,42 @@ export class Answers {
     const groups = this.groups(hidden);
     const rows = this.rows(step);
     const rowsOf = (chosen) => rows.filter((row) => chosen.includes(this.model.groups[row]));
-    const asked = contests(separation, groups).map(({ positive, negative }) => ({ positive: rowsOf(positive), negative: rowsOf(negative) }));
+    const asked = contests(separation, groups);
+    const done = new Array(asked.length).fill(0);
+    const tell = (number, progress) => {
+      done[number] = progress;
+      report({ progress: done.reduce((sum, share) => sum + share, 0) / asked.length });
+    };
     return this.#chain(async (run) => {
-      const { scores } = await run("score", { method: scorer, contests: asked, columns, seed: this.data.seed }, report);
+      const found = [];
+      let next = 0;
+      // Contests know nothing of each other, so several engines share them.
+      const lane = async (engine) => {
+        for (let number = next++; number < asked.length; number = next++) {
+          const { positive, negative } = asked[number];
+          const key = JSON.stringify([scorer, step.sample, positive, negative, [...features].sort()]);
+          if (!this.#contests.has(key)) {
+            const contest = { positive: rowsOf(positive), negative: rowsOf(negative) };
+            const task = { method: scorer, contests: [contest], columns, seed: this.data.seed };
+            const { scores } = await run("score", task, ({ progress }) => tell(number, progress), engine);
+            this.#remember(key, scores);
+          }
+          found[number] = this.#contests.get(key);
+          tell(number, 1);
+        }
+      };
+      await Promise.all(Array.from({ length: Math.min(SCORING, asked.length) }, (_, place) => lane(1 + place)));
       const all = new Float64Array(this.bins.count).fill(NaN);
-      for (const [place, column] of columns.entries()) all[column] = scores[place];
+      for (const [place, column] of columns.entries()) {
+        all[column] = found.reduce((sum, scores) => sum + scores[place], 0) / found.length;
+      }
       return all;
     });
+  }
+
+  #remember(key, scores) {
+    this.#contests.set(key, scores);
+    if (this.#contests.size > MOST_CONTESTS) this.#contests.delete(this.#contests.keys().next().value);
   }
 
   /** Without labels nothing is to be separated; then a bin says most where shapes differ most. */
@@ -182,19 +217,21 @@ export class Answers {
     };
   }
 
-  /** Several tasks of the engine one after the other as one job. */
+  /** Several tasks of the engines as one job; maps are made by the first engine, which is not kept waiting by scores. */
   #chain(work) {
-    let [running, cancelled] = [null, false];
-    const run = async (name, parameters, report) => {
-      running = (await this.engine).run(name, parameters, report);
-      if (cancelled) running.cancel();
-      return running.done;
+    const running = new Set();
+    let cancelled = false;
+    const run = async (name, parameters, report, number = 0) => {
+      const job = (await this.#engine(number)).run(name, parameters, report);
+      if (cancelled) job.cancel();
+      running.add(job);
+      return job.done.finally(() => running.delete(job));
     };
     return {
       done: work(run),
       cancel: () => {
         cancelled = true;
-        running?.cancel();
+        for (const job of running) job.cancel();
       },
     };
   }

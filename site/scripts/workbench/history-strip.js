@@ -20,9 +20,13 @@ export class HistoryStrip {
     this.undo.addEventListener("click", () => go(history.at - 1));
     this.redo.addEventListener("click", () => go(history.at + 1));
     state.listen((changed) => {
+      if (changed.has("theme")) this.#pictures = new WeakMap();
       if (["step", "originalMap", "refinedMap", "theme"].some((name) => changed.has(name))) this.render();
     });
   }
+
+  // By step: a strip is made anew with every step, its pictures only with every map.
+  #pictures = new WeakMap();
 
   render() {
     const { history } = this;
@@ -56,9 +60,14 @@ export class HistoryStrip {
         title: `Step ${place + 1}: ${words}. ${step.bins.size > 0 ? `The map of ${count(step.bins.size, "bin")}.` : "The original map; no bins were chosen."}`,
         onclick: () => this.go(place),
       },
-      map ? this.#picture(map, step.hidden) : element("span", { class: "no-map" }),
+      map ? this.#pictureOf(step, map) : element("span", { class: "no-map" }),
       element("span", { class: "told" }, map?.hitOfAll !== null && element("b", {}, map ? figure(map.hitOfAll) : "…"), element("span", { class: "changed" }, parts)),
     );
+  }
+
+  #pictureOf(step, map) {
+    if (this.#pictures.get(step)?.map !== map) this.#pictures.set(step, { map, canvas: this.#picture(map, step.hidden) });
+    return this.#pictures.get(step).canvas;
   }
 
   #picture(map, hidden) {
