@@ -182,14 +182,15 @@ export class BinPlot {
     this.#moved();
   }
 
-  /** Zoom by a factor with one point of the surface held still: what is pointed at, or the middle. */
-  zoom(factor, x = this.#middle()) {
+  /** Zoom by a factor with one point of the surface held still: what is pointed at, the best bars, or the middle. */
+  zoom(factor, x = this.#centre()) {
     this.hold(this.scale.placeOf(x), x, this.scale.step * factor);
   }
 
-  #middle() {
+  #centre() {
     const x = this.pointed === null ? -1 : this.scale.xOf(this.placeOf[this.pointed] + 0.5);
-    return x >= 0 && x <= this.width ? x : this.width / 2;
+    if (x >= 0 && x <= this.width) return x;
+    return this.scale.left === 0 ? 0 : this.width / 2;
   }
 
   /** Show a place, which may have a fraction, at a point of the surface. */
