@@ -64,11 +64,11 @@ def hits(values: FloatArray, codes: np.ndarray) -> FloatArray:
     return np.mean([neighbourhood_hits(neighbour_weights(xy, NEIGHBOURS), codes) for xy in maps], axis=0)
 
 
-def best(scorer: Scorer, compared: FloatArray, labels: Sequence[str | None], count: int) -> list[int]:
-    """The best bins by the labels that are given."""
+def rank(scorer: Scorer, compared: FloatArray, labels: Sequence[str | None]) -> list[int]:
+    """All bins from the best to the worst by the labels that are given."""
     classes = sorted({label for label in labels if label is not None})
     scores = [score_separation(scorer, compared, as_one_group(labels, [name])) for name in classes]
-    return sorted(np.argsort(-np.mean(scores, axis=0), kind="stable")[:count].tolist())
+    return np.argsort(-np.mean(scores, axis=0), kind="stable").tolist()
 
 
 def main() -> None:
@@ -96,13 +96,16 @@ def main() -> None:
         for count in options.count:
             random = np.random.default_rng(0)
             tell(f"random {count}", *(random.choice(width, count, False) for _ in range(RANDOM_CHOICES)))
-            for scorer in SCORERS:
+        for scorer in SCORERS:
+            ranked = rank(scorer, compared, labels)
+            folds = deal_folds(codes, 0)
+            seen = [[None if row in fold else label for row, label in enumerate(labels)] for fold in folds]
+            ranked_by = [rank(scorer, compared, some) for some in seen]
+            for count in options.count:
                 reached = np.empty(len(labels))
-                for fold in deal_folds(codes, 0):
-                    seen = [None if row in fold else label for row, label in enumerate(labels)]
-                    reached[fold] = hits(by_bins(table, best(scorer, compared, seen, count)), codes)[fold]
-                chosen = best(scorer, compared, labels, count)
-                tell(f"{scorer.name} {count}", chosen, held_out=reached.mean())
+                for fold, order in zip(folds, ranked_by, strict=True):
+                    reached[fold] = hits(by_bins(table, order[:count]), codes)[fold]
+                tell(f"{scorer.name} {count}", ranked[:count], held_out=reached.mean())
 
 
 if __name__ == "__main__":
