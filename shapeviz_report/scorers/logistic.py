@@ -11,6 +11,9 @@ from shapeviz_report.types import FloatArray
 PAIRS = 50
 """Random cuts of the rows into two halves: twice as many runs."""
 
+MOST = 200
+"""Rows of either group in a run, so that a run costs no more with thousands of shapes than with some hundreds."""
+
 STRENGTHS = 0.64 ** np.arange(1, 7)
 """Of the penalty, as parts of the least that leaves no coefficient; the last one leaves about 15 of 1870."""
 
@@ -45,7 +48,7 @@ def measure(values: FloatArray, positive: BoolArray, seed: int) -> FloatArray:
     scaled = standardise(values, balanced_weights(positive))
     columns = np.ascontiguousarray(np.concatenate([scaled[positive], scaled[~positive]]).T)
     hits = int(positive.sum())
-    selected = stability.selections(columns, hits, PAIRS, STRENGTHS, WEAKEST, TOLERANCE, seed)
+    selected = stability.selections(columns, hits, PAIRS, MOST, STRENGTHS, WEAKEST, TOLERANCE, seed)
     return selected / (2 * PAIRS * len(STRENGTHS))
 
 

@@ -27,6 +27,7 @@ def selections(
     columns: FloatArray,
     hits: int,
     pairs: int,
+    most: int,
     strengths: FloatArray,
     weakest: float,
     tolerance: float,
@@ -35,7 +36,7 @@ def selections(
     """How often each column has a coefficient, over all runs and strengths.
 
     Either group is cut at random into two halves, ``pairs`` times, and each half of the rows is a run; where a group
-    has an odd number of rows, both halves have the one in the middle.
+    has an odd number of rows, both halves have the one in the middle. Of a large group, a run has fewer than half.
 
     Parameters
     ----------
@@ -44,6 +45,8 @@ def selections(
     hits : int
         Size of the first group.
     pairs : int
+    most : int
+        Rows of a group in a run.
     strengths : (k,) float64 array
         Falling, of :func:`follow_path`.
     weakest : float
@@ -62,7 +65,8 @@ def selections(
     total = np.zeros(width, np.int64)
     order = np.arange(count)
     misses = count - hits
-    taken, size = (hits + 1) // 2, (hits + 1) // 2 + (misses + 1) // 2
+    taken = min((hits + 1) // 2, most)
+    size = taken + min((misses + 1) // 2, most)
     sample, penalties = np.empty((width, size)), np.empty(width)
     for _ in range(pairs):
         _shuffle(order[:hits], state)

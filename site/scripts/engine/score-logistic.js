@@ -5,6 +5,7 @@ import { standardise } from "./balance.js";
 import { Random } from "./random.js";
 
 const PAIRS = 50;
+const MOST = 200;
 const STRENGTHS = Array.from({ length: 6 }, (_, step) => 0.64 ** (step + 1));
 const WEAKEST = 0.5;
 const TOLERANCE = 1e-4;
@@ -20,19 +21,18 @@ export function* scoreByLogistic(table, contest, columns, seed) {
   const order = Int32Array.from({ length: count }, (_, i) => i);
   const first = order.subarray(0, hits);
   const second = order.subarray(hits);
-  const taken = (hits + 1) >> 1;
-  const others = (count - hits + 1) >> 1;
+  const taken = Math.min((hits + 1) >> 1, MOST);
+  const others = Math.min((count - hits + 1) >> 1, MOST);
   const run = new LassoPath(width, taken, others);
   for (let pair = 0; pair < PAIRS; pair += 1) {
     shuffle(first, random);
     shuffle(second, random);
     for (let half = 0; half < 2; half += 1) {
       // Where a group has an odd number of rows, both halves have the one in the middle.
-      const [one, other] = half ? [first.subarray(hits - taken), second.subarray(second.length - others)] : [first, second];
+      const [one, other] = half ? [first.slice(-taken), second.slice(-others)] : [first, second];
       run.sample(values, count, one, other, random);
       for (let step = 0; step < STRENGTHS.length; step += 1) {
-        run.fit(STRENGTHS[step]);
-        yield { progress: (2 * pair + half + (step + 1) / STRENGTHS.length) / (2 * PAIRS) };
+        yield* run.fit(STRENGTHS[step], (2 * pair + half + (step + 1) / STRENGTHS.length) / (2 * PAIRS));
         for (let place = 0; place < run.size; place += 1) {
           const column = run.active[place];
           if (run.coefficients[column] !== 0) selected[column] += 1;
@@ -97,7 +97,7 @@ class LassoPath {
   }
 
   /** Lower the penalty to a part of the least one at which all coefficients are zero. */
-  fit(strength) {
+  *fit(strength, progress) {
     if (this.highest < 1e-12) return;
     const now = strength * this.highest;
     const allowed = TOLERANCE * this.highest;
@@ -108,6 +108,7 @@ class LassoPath {
         const violation = this.approximate(now);
         if (violation <= allowed) break;
         this.descend(now, violation);
+        yield { progress };
       }
       for (let column = 0; column < this.width; column += 1) this.gradient[column] = this.slope(column);
     } while (this.join(now, allowed) > 0);

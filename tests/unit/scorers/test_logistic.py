@@ -112,5 +112,13 @@ def test_both_halves_of_every_cut_are_runs() -> None:
     """Without random penalties, a column of even groups is in one half of each cut or in both."""
     values = np.zeros((1, 8))
     values[0, 0] = 1.0  # one row of the first group differs: it is in exactly one half
-    counts = stability.selections(values, 4, 10, np.array([0.5]), 1.0, 1e-6, 0)
+    counts = stability.selections(values, 4, 10, 9, np.array([0.5]), 1.0, 1e-6, 0)
     assert counts.tolist() == [10]
+
+
+def test_of_a_large_group_a_run_has_fewer_rows() -> None:
+    values = np.zeros((1, 80))
+    values[0, 0] = 1.0
+    counts = stability.selections(values, 40, 400, 5, np.array([0.5]), 1.0, 1e-6, 0)
+    # 5 of 40 rows in each of 800 runs: the one that differs is in 100 of them.
+    assert counts[0] == pytest.approx(100, abs=30)
