@@ -5,8 +5,8 @@ import { Random } from "./random.js";
 /** Up to this many rows layouts work on the distances of all pairs; their start then comes from these. */
 export const ALL_PAIRS = 300;
 
-/** Rounds of the power iteration: enough for a start, which need not be exact. */
-const ROUNDS = 40;
+/** Rounds of the power iteration; few where each is dear, as a start need not be exact. */
+const ROUNDS = { squared: 40, values: 10 };
 
 /** Vectors that are iterated along; more than the two wanted let those settle sooner. */
 const BLOCK = 4;
@@ -23,7 +23,7 @@ export function classicalScaling(squared, count) {
     for (let other = 0; other < count; other++) means[row] += squared[row * count + other] / count;
   }
   // The doubly centred matrix is never made: vectors are kept centred, so the column means cancel.
-  const steps = principalCoordinates(count, (vector, product) => {
+  const steps = principalCoordinates(count, ROUNDS.squared, (vector, product) => {
     for (let row = 0; row < count; row++) {
       let sum = 0;
       for (let other = 0, place = row * count; other < count; other++, place++) {
@@ -41,7 +41,7 @@ export function classicalScaling(squared, count) {
 /** As {@link classicalScaling}, from the points of `scaledPoints`, for more rows than have all their distances. */
 export function* principalComponents({ count, width, values }) {
   const axis = new Float64Array(width);
-  return yield* principalCoordinates(count, (vector, product) => {
+  return yield* principalCoordinates(count, ROUNDS.values, (vector, product) => {
     axis.fill(0);
     for (let row = 0; row < count; row++) {
       const weight = vector[row];
@@ -59,15 +59,16 @@ export function* principalComponents({ count, width, values }) {
  * The two leading eigenvectors of the scalar products of centred rows, each times the root of its eigenvalue.
  *
  * @param {number} count
+ * @param {number} rounds
  * @param {function(Float64Array, Float64Array)} multiply writes the product with a centred vector
  */
-function* principalCoordinates(count, multiply) {
+function* principalCoordinates(count, rounds, multiply) {
   const random = new Random(1);
   let vectors = Array.from({ length: Math.min(BLOCK, count - 1) }, () => new Float64Array(count));
   let products = vectors.map(() => new Float64Array(count));
   for (const vector of vectors) for (let row = 0; row < count; row++) vector[row] = random.normal();
   const lengths = new Float64Array(BLOCK);
-  for (let round = 0; round <= ROUNDS; round++) {
+  for (let round = 0; round <= rounds; round++) {
     vectors.forEach((vector, place) => {
       centre(vector);
       for (let before = 0; before < place; before++) remove(vector, vectors[before]);
@@ -75,10 +76,10 @@ function* principalCoordinates(count, multiply) {
       const factor = lengths[place] > 0 ? 1 / lengths[place] : 0;
       for (let row = 0; row < count; row++) vector[row] *= factor;
     });
-    if (round === ROUNDS) break;
+    if (round === rounds) break;
     for (const [place, vector] of vectors.entries()) {
       multiply(vector, products[place]);
-      yield { progress: round / ROUNDS };
+      yield { progress: round / rounds };
     }
     [vectors, products] = [products, vectors];
   }
