@@ -156,7 +156,7 @@ export class BinChart {
     const groups = Array.from({ length: 2 * this.bins.features.length }, () => []);
     for (const column of ranking) groups[(this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(column);
     const places = Int32Array.from(groups.flat());
-    this.range = null;
+    this.mark(null);
     this.plot.show({ scores: this.scores, chosen, places });
     if (this.pointed !== null && this.rankOf[this.pointed] === 0) this.point(null);
     this.#search();
