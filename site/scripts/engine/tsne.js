@@ -14,13 +14,14 @@ const PERPLEXITY = 30;
 const EXAGGERATION = { all: 4, nearest: 8 };
 
 /**
- * Steps with and without exaggeration, from the components and from an earlier map. Python takes 250 and 500; fewer do as
- * well (docs/workbench.md), and a reader waits for these.
+ * Steps with and without exaggeration, and the size of the start: small from components, from an earlier map that of a
+ * finished one, which moves its points least. Python takes 250 and 500 steps; fewer do as well (docs/workbench.md). Of many
+ * rows the tree's maps were worse from a finished size than anew, so these start small from anywhere.
  */
-const STEPS = { cold: { early: 100, late: 250 }, warm: { early: 50, late: 200 } };
-
-/** Size of the start along the first axis: small from components, from an earlier map that of a finished one. */
-const SIZE = { cold: () => 1e-4, warm: (count) => 0.36 * Math.sqrt(count) };
+const PLANS = {
+  anew: { early: 100, late: 250, size: () => 1e-4 },
+  onwards: { early: 50, late: 200, size: (count) => 0.36 * Math.sqrt(count) },
+};
 
 /** Size of the seeded noise on the start, relative to its extent: what differs between two seeds. */
 const JITTER = 0.01;
@@ -51,7 +52,7 @@ export function* layOutByTsne(points, start, seed) {
     const nearest = yield* part(nearestRows(points, Math.floor(3 * perplexityOf(count))), 0, 0.3);
     forces = new NearPairs(yield* part(nearAffinities(nearest, count), 0.3, 0.35), count);
   }
-  const way = start ? "warm" : "cold";
+  const plan = start && squared ? PLANS.onwards : PLANS.anew;
   let origin;
   if (start) origin = placeNewcomers(start, (visit) => forces.visitPairs(visit));
   else if (squared) origin = classicalScaling(squared, count);
@@ -59,9 +60,9 @@ export function* layOutByTsne(points, start, seed) {
   yield { progress: 0.4, partial: origin };
   const random = new Random(seed);
   const unit = extent(origin);
-  const size = SIZE[way](count);
+  const size = plan.size(count);
   const xy = origin.map((value) => (value / unit + JITTER * random.normal()) * size);
-  return yield* part(descend(forces, xy, forces.exaggeration, STEPS[way]), 0.4, 1);
+  return yield* part(descend(forces, xy, forces.exaggeration, plan), 0.4, 1);
 }
 
 function perplexityOf(count) {

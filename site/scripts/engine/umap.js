@@ -16,7 +16,7 @@ const B = 0.8950608781227859;
  * Rounds over the edges, and how far a point goes at first, from the components and from an earlier map. The package takes
  * 500 rounds at a rate of 1; fewer do as well, and a gentle rate leaves an earlier map where it was (docs/workbench.md).
  */
-const PLANS = { cold: { epochs: 200, rate: 1 }, warm: { epochs: 150, rate: 0.25 } };
+const PLANS = { anew: { epochs: 200, rate: 1 }, onwards: { epochs: 150, rate: 0.25 } };
 
 /** Points that each end of an edge is pushed from, drawn at random. */
 const NEGATIVES = 5;
@@ -46,7 +46,7 @@ export function* layOutByUmap(points, start, seed) {
   const random = new Random(seed);
   const unit = extent(origin);
   const xy = origin.map((value) => (value / unit + JITTER * random.normal()) * SIDE / 4);
-  return yield* part(descend(edges, xy, start ? PLANS.warm : PLANS.cold, random), 0.4, 1);
+  return yield* part(descend(edges, xy, start ? PLANS.onwards : PLANS.anew, random), 0.4, 1);
 }
 
 /** How surely each of a row's nearest is its neighbour: 1 for the first, falling off so that they add up to log2(k + 1). */
