@@ -23,11 +23,23 @@ export function watchControls(model, data, state, desk) {
     document.body.dataset.drag = drag;
   });
   document.body.dataset.drag = state.get("drag");
+  watchRamp(model, state);
   watchSelection(model, state, desk);
   if (model.separable) {
     watchScorer(data, state, desk);
     watchSeparation(model, state, desk);
   }
+}
+
+/** What the colours of NH mean, while the maps have them. */
+function watchRamp(model, state) {
+  const node = document.getElementById("hit-key");
+  const show = () => {
+    node.hidden = state.get("color") !== "hit";
+    node.querySelector(".ramp").style.background = `linear-gradient(to right, ${model.marks.hit.join(", ")})`;
+  };
+  state.listen((changed) => (changed.has("color") || changed.has("theme")) && show());
+  show();
 }
 
 function watchScorer(data, state, desk) {

@@ -42,7 +42,9 @@ export class HistoryStrip {
   #step(place) {
     const { history } = this;
     const step = history.steps[place];
-    const map = step.bins.size > 0 ? step.refinedMap : step.originalMap;
+    const map = mapOf(step);
+    // Where steps were made by different projections, each says by which.
+    const mixed = new Set(history.steps.map((one) => mapOf(one)?.title).filter(Boolean)).size > 1;
     const changed = place === 0 ? [] : changes(history.steps[place - 1], step);
     const words = place === 0 ? "start" : changed.map(([number, word]) => changeOf(number, word)).join(", ");
     const parts = place === 0
@@ -61,7 +63,7 @@ export class HistoryStrip {
         onclick: () => this.go(place),
       },
       map ? this.#pictureOf(step, map) : element("span", { class: "no-map" }),
-      element("span", { class: "told" }, map?.hitOfAll !== null && element("b", {}, map ? figure(map.hitOfAll) : "…"), element("span", { class: "changed" }, parts)),
+      element("span", { class: "told" }, map?.hitOfAll !== null && element("b", {}, map ? figure(map.hitOfAll) : "…", mixed && map && element("i", {}, map.title)), element("span", { class: "changed" }, parts)),
     );
   }
 
@@ -97,6 +99,11 @@ export class HistoryStrip {
     const last = this.list.children.length - 1;
     this.list.children[Math.min(Math.max(place, 0), last)].firstElementChild.focus();
   }
+}
+
+/** The map that a step stands for. */
+function mapOf(step) {
+  return step.bins.size > 0 ? step.refinedMap : step.originalMap;
 }
 
 function many(word) {
