@@ -41,6 +41,7 @@ STAGES = {
     "search": "Searching features",
     "bins": "Scoring bins",
     "select": "Searching bins",
+    "paint": "Painting bins",
     "score": "Scoring maps",
     "write": "Writing the site",
 }
@@ -102,7 +103,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     _add_destination(demo)
-    _add_options(demo, ["preset", "bins", "search", "seed", "jobs", "scheduler", "cache"])
+    _add_options(demo, ["preset", "bins", "search", "meshes", "seed", "jobs", "scheduler", "cache"])
     demo.set_defaults(command=_demo)
 
     check = commands.add_parser(
@@ -146,6 +147,11 @@ def _add_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
         if option.name not in names:
             continue
         kind = str(option.type)
+        if kind == "bool":
+            parser.add_argument(
+                "--" + option.name, action=argparse.BooleanOptionalAction, help=option.metadata["help"]
+            )
+            continue
         parser.add_argument(
             "--" + option.name.replace("_", "-"),
             metavar=option.metadata["metavar"],

@@ -61,6 +61,10 @@ class Config:
         "method of the maps among which the best features are searched: 'tsne', 'umap', or 'none' for no search",
         "METHOD",
     )
+    meshes: bool = _option(
+        True,
+        "whether the site holds a 3D model of every shape, to be turned in the browser: some 80 kB a shape",
+    )
     edge_length: float = _option(
         0.01, "edge length after remeshing, as a fraction of the shape's size", "FRACTION"
     )
@@ -165,6 +169,8 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
         paths = value if isinstance(value, list | tuple) else [value]
         if all(isinstance(path, str | os.PathLike) for path in paths):
             return tuple(folder / path for path in paths)
+    elif kind == "bool" and isinstance(value, bool):
+        return value
     elif kind.startswith("Path") and isinstance(value, str | os.PathLike):
         return folder / value
     elif kind.startswith("float") and isinstance(value, int | float) and not isinstance(value, bool):
@@ -172,4 +178,5 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
     elif isinstance(value, {"str": str, "int": int}.get(kind[:3], ())) and not isinstance(value, bool):
         return value
     wanted = {"t": "a list of file names", "P": "a path", "s": "text", "i": "a whole number", "f": "a number"}
+    wanted["b"] = "true or false"
     raise ConfigError(f"{key} must be {wanted[kind[0]]}, not {value!r} ({where})")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.spatial.distance import cdist
@@ -40,8 +40,9 @@ def find_rivals(xy: FloatArray, labels: Sequence[str | None], k: int) -> dict[st
     labels : n labels
         Of at least two classes.
     k : int
-        From 1 to n - 1.
+        At least 1; less where there are fewer other shapes.
     """
+    k = min(k, len(xy) - 1)
     classes = sorted({label for label in labels if label is not None})
     members = np.array([[label == name for label in labels] for name in classes], dtype=float)
     shares = members @ neighbour_weights(xy, k) @ members.T
@@ -60,8 +61,9 @@ def choose_contrasts(
     found: BinSearch,
     table: FeatureTable,
     labels: Sequence[str | None],
-    centres: Mapping[str, int],
-    rivals: Mapping[str, str],
+    scaled: FloatArray,
+    xy: FloatArray,
+    k: int,
 ) -> dict[str, tuple[int, ...]]:
     """The shapes on which every bin that a search found is to be seen, as rows of the table.
 
@@ -73,14 +75,15 @@ def choose_contrasts(
     found : BinSearch
     table : FeatureTable
     labels : n labels
-    centres, rivals : mapping
-        As :func:`find_centres` and :func:`find_rivals` find them.
+    scaled, xy, k
+        As for :func:`find_centres` and :func:`find_rivals`.
 
     Returns
     -------
     dict of str to tuple of int
         By bin, in the order of the columns. Without external features, of which no surface is known.
     """
+    centres, rivals = find_centres(scaled, labels), find_rivals(xy, labels, k)
     pairs: dict[str, list[str]] = {}
     for separated in found.minimal:
         for column in (column for chosen in separated.sets for column in chosen.bins):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.descriptors.kernels.histograms import add_up
@@ -113,17 +114,75 @@ def compute_histograms(mesh: Mesh, edges: FloatArray, *, by_area: bool) -> Float
     (1870,) float64 array
         Fractions; each dimension's ten add up to 1.
     """
+    return describe(mesh, edges, np.empty(0, np.int64), by_area=by_area)[0]
+
+
+def describe(
+    mesh: Mesh, edges: FloatArray, vertices: npt.NDArray[np.int64], *, by_area: bool
+) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
+    """The features of a shape, and the bins into which some of its vertices fall.
+
+    Parameters
+    ----------
+    mesh, edges, by_area
+        As for :func:`compute_histograms`.
+    vertices : (v,) int64 array
+        Which of the mesh's.
+
+    Returns
+    -------
+    histograms : (1870,) float64 array
+    bins : (187, v) uint8 array
+        From 0, in every dimension.
+    """
     surface = Surface(mesh)
     weights = surface.areas if by_area else np.ones(len(surface.vertices))
     limits = edges[:, 1:-1].astype(np.float32)
     totals, start = np.zeros(edges[:, 1:].shape), 0
+    bins = np.empty((len(edges), len(vertices)), np.uint8)
     # One descriptor at a time: together they would take 1.5 kB a vertex.
     for descriptor in DESCRIPTORS:
         end = start + descriptor.dimensions
         values = descriptor.compute(surface).astype(np.float32, copy=False)
         add_up(values, limits[start:end], weights, totals[start:end])
+        bins[start:end] = find_bins(values[vertices].T, edges[start:end])
         start = end
-    return totals.ravel() / weights.sum()
+    return totals.ravel() / weights.sum(), bins
+
+
+def find_bins(values: npt.NDArray[np.float32], edges: FloatArray) -> npt.NDArray[np.uint8]:
+    """The bin from 0 of every value, as histograms count it.
+
+    Parameters
+    ----------
+    values : (d, n) float32 array
+    edges : (d, 11) array
+        As for :func:`compute_histograms`.
+    """
+    limits = edges[:, 1:-1].astype(np.float32)
+    return (values[:, :, None] >= limits[:, None, :]).sum(axis=2, dtype=np.uint8)
+
+
+def measure(mesh: Mesh, dimensions: Sequence[int]) -> npt.NDArray[np.float32]:
+    """The values at every vertex in some of the 187 dimensions; (len(dimensions), n).
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Prepared.
+    dimensions : sequence of int
+        From 0.
+    """
+    surface = Surface(mesh)
+    values = np.empty((len(dimensions), len(surface.vertices)), np.float32)
+    start = 0
+    for descriptor in DESCRIPTORS:
+        end = start + descriptor.dimensions
+        own = [place for place, dimension in enumerate(dimensions) if start <= dimension < end]
+        if own:
+            values[own] = descriptor.compute(surface)[:, [dimensions[place] - start for place in own]].T
+        start = end
+    return values
 
 
 def load_external(path: Path, shape_count: int) -> FloatArray:

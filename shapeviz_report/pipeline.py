@@ -1,4 +1,4 @@
-"""The stages of a build, in order: read, prepare, describe, render, project, search, bins, score, write."""
+"""The stages of a build: read, prepare, render, describe, project, search, bins, select, paint, score, write."""
 
 from __future__ import annotations
 
@@ -19,10 +19,12 @@ from shapeviz_report import demo, stages
 from shapeviz_report.bins import features_of, read_bins, scale_bins
 from shapeviz_report.cache import Cache, default_root, write_atomically
 from shapeviz_report.config import SEARCHES, Config
+from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
 from shapeviz_report.executor import Executor, LocalExecutor
 from shapeviz_report.features import (
+    BINS,
     BLOCKS,
     PRESETS,
     compared_values,
@@ -49,6 +51,7 @@ from shapeviz_report.types import (
     FeatureSearch,
     FeatureTable,
     FloatArray,
+    Painting,
     Projection,
     Quality,
     Report,
@@ -62,6 +65,9 @@ SAMPLED_VERTICES = 400_000
 
 SUBSETS_A_TASK = 16
 """Maps that a worker makes before it reports back: few enough to lose little, many enough to send distances seldom."""
+
+PAINTING_SIZE = 320
+"""Width and height of a picture of a bin, in pixels."""
 
 Name = TypeVar("Name", bound=Hashable)
 
@@ -182,36 +188,39 @@ def build_report(
 
         prepared = run("prepare", stages.PREPARE, paths, plan_preparing, stages.read_facts)
 
-        def plan(stage: stages.Stage, *options: Any) -> Callable[[str], _Task]:
-            """The tasks of a stage that starts from the prepared mesh."""
-
-            def plan_one(shape: str) -> _Task:
-                source = prepared[shape].key
-                key = stage.key(source, *(o.tobytes() if isinstance(o, np.ndarray) else o for o in options))
-                return _Task(key, lambda: (cache.demand(stages.PREPARE.folder, source), *options))
-
-            return plan_one
+        def plan(stage: stages.Stage, shape: str, *options: Any) -> _Task:
+            """A task that starts from the prepared mesh."""
+            source = prepared[shape].key
+            key = stage.key(source, *(o.tobytes() if isinstance(o, np.ndarray) else o for o in options))
+            return _Task(key, lambda: (cache.demand(stages.PREPARE.folder, source), *options))
 
         if preset.fixed_ranges:
             edges = fixed_edges()
         else:
             share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), 16, 1000))
-            samples = run("sample", stages.SAMPLE, prepared, plan(stages.SAMPLE, share), stages.read_array)
+            samples = run(
+                "sample", stages.SAMPLE, prepared, lambda s: plan(stages.SAMPLE, s, share), stages.read_array
+            )
             edges = quantile_edges([s.value for s in samples.values()]) if samples else fixed_edges()
+        pictures = run(
+            "render",
+            stages.RENDER,
+            prepared,
+            lambda s: plan(stages.RENDER, s, config.thumbnail_size, config.up),
+            stages.read_picture,
+        )
+        views = {shape: result.value[1] for shape, result in pictures.items()}
         described = run(
             "describe",
             stages.DESCRIBE,
-            prepared,
-            plan(stages.DESCRIBE, edges, preset.by_area),
-            stages.read_array,
+            pictures,
+            lambda s: plan(stages.DESCRIBE, s, views[s], edges, preset.by_area),
+            stages.read_features,
         )
-        pictures = run(
-            "render", stages.RENDER, described, plan(stages.RENDER, config.thumbnail_size, config.up), bytes
-        )
-        shapes = tuple(s for s in database.shapes if s.id in pictures)
+        shapes = tuple(s for s in database.shapes if s.id in described)
         if not shapes:
             raise DatabaseError(_nothing_usable(database_path, failures))
-        rows = [i for i, s in enumerate(database.shapes) if s.id in pictures]
+        rows = [i for i, s in enumerate(database.shapes) if s.id in described]
         features = FeatureTable(
             tuple(s.id for s in shapes),
             blocks,
@@ -228,6 +237,21 @@ def build_report(
         search = _search(run, space, labels, config)
         scores = _score_bins(run, compared_values(features, preset), labels, config.seed)
         found = _search_bins(run, features, scaled, labels, config)
+        paintings: tuple[Painting, ...] = ()
+        if found is not None:
+            contrasts = choose_contrasts(
+                found, features, labels, scaled, next(iter(projections.values())).xy, config.neighbours
+            )
+
+            def plan_painting(shape: int, bins: tuple[tuple[int, int], ...]) -> _Task:
+                name = shapes[shape].id
+                return plan(stages.PAINT, name, views[name], edges, bins, PAINTING_SIZE)
+
+            paintings = _paint(run, features, contrasts, plan_painting)
+    models = None
+    if config.meshes:
+        results = (cache.demand(stages.DESCRIBE.folder, described[s.id].key) for s in shapes)
+        models = tuple(stages.read_model(result) for result in results)
     with clock.stage("score"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
@@ -237,7 +261,7 @@ def build_report(
         database=database,
         shapes=shapes,
         facts=tuple(prepared[s.id].value for s in shapes),
-        thumbnails=tuple(pictures[s.id].value for s in shapes),
+        thumbnails=tuple(pictures[s.id].value[0] for s in shapes),
         labeling=labeling,
         labels=labels,
         features=features,
@@ -252,6 +276,8 @@ def build_report(
         search=search,
         scores=scores,
         bins=found,
+        paintings=paintings,
+        models=models,
     )
     with clock.stage("write"):
         write_site(report, destination)
@@ -619,6 +645,44 @@ def _search_bins(
         chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
         minimal=tuple(stages.read_minimal(answers[i]) for i in range(1 + 2 * len(folds), len(questions))),
     )
+
+
+def _paint(
+    run: _Runner,
+    features: FeatureTable,
+    contrasts: Mapping[str, Sequence[int]],
+    plan: Callable[[int, tuple[tuple[int, int], ...]], _Task],
+) -> tuple[Painting, ...]:
+    """Bins painted on shapes, a task a shape.
+
+    Parameters
+    ----------
+    run : _Runner
+    features : FeatureTable
+    contrasts : mapping of str to rows
+        Bin -> the shapes that are to show it.
+    plan : callable
+        The task of a shape, by its row, and some bins, each by its dimension and place, both from 0.
+    """
+    place = {column: divmod(number, BINS) for number, column in enumerate(features.columns)}
+    shapes = sorted({row for rows in contrasts.values() for row in rows})
+    columns = {row: [column for column, rows in contrasts.items() if row in rows] for row in shapes}
+    found: dict[tuple[str, int], Painting] = {}
+    with run.clock.stage("paint", len(shapes)) as step:
+
+        def take(row: int, _: str, content: bytes, cpu_seconds: float) -> None:
+            for column, (value, inside) in zip(columns[row], stages.read_paintings(content)):
+                found[column, row] = Painting(column, row, value, inside)
+            step(cpu_seconds)
+
+        def drop(row: int, reason: str, _: float) -> None:
+            name = features.shape_ids[row]
+            raise DatabaseError(f"Painting bins on {name} failed: {reason}. A larger time_limit may help.")
+
+        run.find(
+            stages.PAINT, shapes, lambda row: plan(row, tuple(place[c] for c in columns[row])), take, drop
+        )
+    return tuple(found[column, row] for column, rows in contrasts.items() for row in rows)
 
 
 def _load_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:

@@ -6,6 +6,7 @@ worker may be on any machine.
 
 from __future__ import annotations
 
+import gzip
 import io
 import json
 from collections.abc import Callable, Mapping, Sequence
@@ -21,10 +22,18 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report import demo
 from shapeviz_report.cache import code_version, make_key
 from shapeviz_report.errors import MeshError
-from shapeviz_report.features import compute_histograms, sample_values
+from shapeviz_report.features import describe, find_bins, measure, sample_values
 from shapeviz_report.mesh import clean, prepare, read_mesh
+from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.projections import PROJECTIONS, project
-from shapeviz_report.render import UpAxis, render_thumbnail
+from shapeviz_report.render import (
+    UpAxis,
+    choose_view,
+    mark_colors,
+    render_painted,
+    render_thumbnail,
+    value_colors,
+)
 from shapeviz_report.scorers import SCORERS, Contest, score_separation
 from shapeviz_report.search import SubsetMaps, map_subsets
 from shapeviz_report.search.bins import BinSpace, find_minimal_bins, hold_out, select_bins
@@ -90,20 +99,83 @@ def sample_shape(prepared: bytes, count: int) -> bytes:
     return _pack_array(sample_values(_unpack(prepared), count))
 
 
-def describe_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
-    """The features of a prepared shape; an array (1870,) as a file."""
-    return _pack_array(compute_histograms(_unpack(prepared), edges, by_area=by_area))
+def describe_shape(prepared: bytes, view: FloatArray, edges: FloatArray, by_area: bool) -> bytes:
+    """The features of a prepared shape, for :func:`read_features`, and its model, for :func:`read_model`."""
+    mesh = _unpack(prepared)
+    model = simplify(mesh)
+    features, bins = describe(mesh, edges, model.source, by_area=by_area)
+    packed = gzip.compress(pack_model(model, bins, view), compresslevel=9, mtime=0)
+    return _pack_arrays(features=features, model=np.frombuffer(packed, np.uint8))
+
+
+def read_features(described: bytes) -> FloatArray:
+    """The (1870,) features in a result of :func:`describe_shape`."""
+    return _read_arrays(described)["features"]
+
+
+def read_model(described: bytes) -> bytes:
+    """The model in a result of :func:`describe_shape`, packed and gzipped."""
+    return _read_arrays(described)["model"].tobytes()
 
 
 def read_array(content: bytes) -> FloatArray:
-    """The array in a result of :func:`sample_shape`, :func:`describe_shape`, :func:`project_features` or
-    :func:`score_bins`."""
+    """The array in a result of :func:`sample_shape`, :func:`project_features` or :func:`score_bins`."""
     return np.load(io.BytesIO(content), allow_pickle=False)
 
 
 def render_shape(prepared: bytes, size: int, up: UpAxis | None) -> bytes:
-    """The thumbnail of a prepared shape: a WebP image of ``size`` x ``size`` pixels."""
-    return render_thumbnail(_unpack(prepared), size=size, up=up)
+    """The thumbnail of a prepared shape, ``size`` x ``size`` pixels, and its view, for :func:`read_picture`."""
+    mesh = _unpack(prepared)
+    view = choose_view(mesh, up)
+    picture = render_thumbnail(mesh, view, size=size)
+    return _pack_arrays(view=view, picture=np.frombuffer(picture, np.uint8))
+
+
+def read_picture(rendered: bytes) -> tuple[bytes, FloatArray]:
+    """The thumbnail, a WebP image, and the view, a rotation, in a result of :func:`render_shape`."""
+    arrays = _read_arrays(rendered)
+    return arrays["picture"].tobytes(), arrays["view"]
+
+
+def paint_shape(
+    prepared: bytes, view: FloatArray, edges: FloatArray, bins: Sequence[tuple[int, int]], size: int
+) -> bytes:
+    """Bins painted on a prepared shape, for :func:`read_paintings`.
+
+    Parameters
+    ----------
+    prepared : bytes
+    view : (3, 3) float64 array
+    edges : (187, 11) float64 array
+    bins : sequence of (int, int)
+        Dimension and bin, both from 0.
+    size : int
+        Of the pictures, in pixels.
+    """
+    mesh = _unpack(prepared)
+    dimensions = sorted({dimension for dimension, _ in bins})
+    values = measure(mesh, dimensions)
+    falls = find_bins(values, edges[dimensions])
+    colorings = [value_colors(row, edges[dimension]) for row, dimension in zip(values, dimensions)]
+    colorings += [mark_colors(falls[dimensions.index(dimension)] == place) for dimension, place in bins]
+    pictures = render_painted(mesh, view, colorings, size=size)
+    by_dimension = dict(zip(dimensions, pictures))
+    inside = pictures[len(dimensions) :]
+    return _pack_arrays(
+        **{
+            f"value {n}": np.frombuffer(by_dimension[dimension], np.uint8)
+            for n, (dimension, _) in enumerate(bins)
+        },
+        **{f"inside {n}": np.frombuffer(picture, np.uint8) for n, picture in enumerate(inside)},
+    )
+
+
+def read_paintings(painted: bytes) -> list[tuple[bytes, bytes]]:
+    """The pictures of the value and of the inside of every bin in a result of :func:`paint_shape`."""
+    arrays = _read_arrays(painted)
+    return [
+        (arrays[f"value {n}"].tobytes(), arrays[f"inside {n}"].tobytes()) for n in range(len(arrays) // 2)
+    ]
 
 
 def generate_shape(class_name: str, index: int, seed: int) -> bytes:
@@ -119,15 +191,12 @@ def project_features(method: str, values: FloatArray, seed: int) -> bytes:
 def map_features(squared: FloatArray, method: str, seed: int, subsets: tuple[int, ...]) -> bytes:
     """Maps of some subsets of the features, for :func:`read_maps`; see :func:`~shapeviz_report.search.map_subsets`."""
     maps = map_subsets(squared, method, seed, subsets)
-    buffer = io.BytesIO()
-    np.savez(buffer, xy=maps.xy, cpu_seconds=maps.cpu_seconds)
-    return buffer.getvalue()
+    return _pack_arrays(xy=maps.xy, cpu_seconds=maps.cpu_seconds)
 
 
 def read_maps(content: bytes) -> SubsetMaps:
     """The maps in a result of :func:`map_features`."""
-    with np.load(io.BytesIO(content), allow_pickle=False) as archive:
-        return SubsetMaps(archive["xy"], archive["cpu_seconds"])
+    return SubsetMaps(**_read_arrays(content))
 
 
 def score_bins(values: FloatArray, members: Sequence[int], others: Sequence[int], seed: int) -> bytes:
@@ -216,10 +285,15 @@ _READERS = ("numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml")
 EXAMINE = Stage("examined", examine_shape, ("mesh", "types"), _READERS)
 PREPARE = Stage("prepared", prepare_shape, ("mesh", "types"), ("mmgpy", *_READERS))
 SAMPLE = Stage("sampled", sample_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
-DESCRIBE = Stage("described", describe_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
-RENDER = Stage(
-    "rendered", render_shape, ("render",), ("pillow", "pyrender-maintained", "PyOpenGL", "numpy", "scipy")
+DESCRIBE = Stage(
+    "described",
+    describe_shape,
+    ("descriptors", "features", "models"),
+    ("numba", "numpy", "scipy", "fast-simplification"),
 )
+_PAINTERS = ("pillow", "pyrender-maintained", "PyOpenGL", "numpy", "scipy", "numba")
+RENDER = Stage("rendered", render_shape, ("render",), _PAINTERS)
+PAINT = Stage("painted", paint_shape, ("render", "descriptors", "features"), _PAINTERS)
 _PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
 PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
 SEARCH = Stage("searched", map_features, ("search.space", "projections"), _PROJECTORS)
@@ -230,7 +304,7 @@ GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "sci
 
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
-    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PROJECT, SEARCH, SCORE, SELECT, GENERATE)
+    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PAINT, PROJECT, SEARCH, SCORE, SELECT, GENERATE)
     libraries = {library for stage in stages for library in stage.libraries}
     return code_version(("shapeviz_report",), tuple(sorted(libraries)))
 
@@ -253,6 +327,17 @@ def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:
 def _unpack(prepared: bytes) -> Mesh:
     with np.load(io.BytesIO(prepared), allow_pickle=False) as archive:
         return Mesh(archive["vertices"], archive["faces"])
+
+
+def _pack_arrays(**arrays: np.ndarray) -> bytes:
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    return buffer.getvalue()
+
+
+def _read_arrays(content: bytes) -> dict[str, Any]:
+    with np.load(io.BytesIO(content), allow_pickle=False) as archive:
+        return dict(archive)
 
 
 def _pack_array(values: FloatArray) -> bytes:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from shapeviz_report.render.camera import frame
@@ -10,7 +12,6 @@ from shapeviz_report.render.ramp import ramp_colors
 from shapeviz_report.render.rasteriser import rasterise
 from shapeviz_report.render.shading import CLAY, shade
 from shapeviz_report.render.thumbnail import SUPERSAMPLING, encode_webp
-from shapeviz_report.render.viewpoint import UpAxis, choose_view
 from shapeviz_report.types import FloatArray, Mesh
 
 MARKED = (0.80, 0.19, 0.02)
@@ -51,22 +52,26 @@ def mark_colors(inside: FloatArray) -> FloatArray:
     return np.where(inside[:, None], MARKED, CLAY)
 
 
-def render_painted(mesh: Mesh, colors: FloatArray, *, size: int = 320, up: UpAxis | None = None) -> bytes:
-    """Draw a shape in the view of its thumbnail, its vertices in given colours, on nothing.
+def render_painted(
+    mesh: Mesh, view: FloatArray, colorings: Sequence[FloatArray], *, size: int = 320
+) -> list[bytes]:
+    """Draw a shape as its thumbnail shows it, once with each of several sets of colours on its vertices, on nothing.
 
     Parameters
     ----------
     mesh : Mesh
         Not empty.
-    colors : (n, 3) float64 array
-        Linear reflectance of every vertex, in [0, 1].
-    size, up
+    view : (3, 3) float64 array
         As for :func:`shapeviz_report.render.render_thumbnail`.
+    colorings : sequence of (n, 3) float64 arrays
+        Linear reflectance of every vertex, in [0, 1].
+    size : int
+        Width and height in pixels.
 
     Returns
     -------
-    bytes
-        A WebP image with transparency.
+    list of bytes
+        WebP images with transparency.
 
     Raises
     ------
@@ -74,8 +79,11 @@ def render_painted(mesh: Mesh, colors: FloatArray, *, size: int = 320, up: UpAxi
         If this machine cannot draw; see :func:`shapeviz_report.render.check_renderer`.
     """
     surface = split_at_creases(mesh)
-    camera = frame(surface.positions, choose_view(mesh, up), size * SUPERSAMPLING)
+    camera = frame(surface.positions, view, size * SUPERSAMPLING)
     normals = (surface.normals @ camera.rotation.T + 1.0) / 2.0
     buffers = rasterise(surface.positions, surface.faces, normals, camera)
-    albedo = rasterise(surface.positions, surface.faces, colors[surface.source], camera).values
-    return encode_webp(shade(buffers.depth, buffers.values * 2.0 - 1.0, albedo, camera))
+    pictures = []
+    for colors in colorings:
+        albedo = rasterise(surface.positions, surface.faces, colors[surface.source], camera).values
+        pictures.append(encode_webp(shade(buffers.depth, buffers.values * 2.0 - 1.0, albedo, camera)))
+    return pictures

@@ -13,8 +13,7 @@ from shapeviz_report.render.camera import frame
 from shapeviz_report.render.normals import split_at_creases
 from shapeviz_report.render.rasteriser import rasterise
 from shapeviz_report.render.shading import CLAY, shade
-from shapeviz_report.render.viewpoint import UpAxis, choose_view
-from shapeviz_report.types import Mesh
+from shapeviz_report.types import FloatArray, Mesh
 
 WEBP_QUALITY = 84
 WEBP_METHOD = 2  # 4 would save a fifth of the bytes for three times the time
@@ -24,19 +23,19 @@ SUPERSAMPLING = 2
 _TENT = np.array([1 / 8, 3 / 8, 3 / 8, 1 / 8], np.float32)
 
 
-def render_thumbnail(mesh: Mesh, *, size: int = 320, up: UpAxis | None = None) -> bytes:
-    """Draw a shape in a three-quarter view, on nothing.
+def render_thumbnail(mesh: Mesh, view: FloatArray, *, size: int = 320) -> bytes:
+    """Draw a shape on nothing.
 
-    The same mesh gives the same bytes, in any process.
+    The same mesh and view give the same bytes, in any process.
 
     Parameters
     ----------
     mesh : Mesh
-        Not empty; closed or open, of any number of parts and with any up axis.
+        Not empty; closed or open, of any number of parts.
+    view : (3, 3) float64 array
+        As :func:`shapeviz_report.render.choose_view` finds it.
     size : int
         Width and height in pixels.
-    up : {"y", "z"} or None
-        The axis of the file that points up, where that is known; None to guess it from the shape.
 
     Returns
     -------
@@ -49,7 +48,7 @@ def render_thumbnail(mesh: Mesh, *, size: int = 320, up: UpAxis | None = None) -
         If this machine cannot draw; see :func:`shapeviz_report.render.check_renderer`.
     """
     surface = split_at_creases(mesh)
-    camera = frame(surface.positions, choose_view(mesh, up), size * SUPERSAMPLING)
+    camera = frame(surface.positions, view, size * SUPERSAMPLING)
     camera_normals = surface.normals @ camera.rotation.T
     buffers = rasterise(surface.positions, surface.faces, (camera_normals + 1.0) / 2.0, camera)
     albedo = np.broadcast_to(np.array(CLAY, np.float32), buffers.values.shape)

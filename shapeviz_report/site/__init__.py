@@ -17,6 +17,7 @@ import numpy as np
 from shapeviz_report.errors import SiteError
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
+from shapeviz_report.pages.bins import model_name, painting_name
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.site.data_files import GENERATOR, data_files, json_text
 from shapeviz_report.site.joiner import join
@@ -125,6 +126,15 @@ def _files(report: Report) -> dict[str, bytes]:
         **pages,
         **{f"assets/{name}": content for name, content in assets.items()},
         **{f"thumbnails/{thumbnail_name(thumbnail)}": thumbnail for thumbnail in report.thumbnails},
+        **{
+            f"paintings/{painting_name(picture)}": picture
+            for painting in report.paintings
+            for picture in (painting.value, painting.inside)
+        },
+        **{
+            f"models/{model_name(model)}.js": _handing_over(f"model-{model_name(model)}", "bytes", model)
+            for model in report.models or ()
+        },
         **{f"data/{name}": content for name, content in data.items()},
     }
 
@@ -189,10 +199,19 @@ def _chunks(contents: list[tuple[Page, PageContent]]) -> dict[str, object]:
 
 
 def _chunk(name: str, value: object) -> bytes:
-    """A script that hands compressed JSON or bytes to the page: the one way to load data from ``file://``."""
+    """JSON or bytes in a script for the page."""
     kind, content = ("bytes", value) if isinstance(value, bytes) else ("json", json_text(value).encode())
-    packed = base64.b64encode(gzip.compress(content, compresslevel=9, mtime=0)).decode()
-    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {json.dumps(packed)});\n".encode()
+    return _handing_over(name, kind, gzip.compress(content, compresslevel=9, mtime=0))
+
+
+def _handing_over(name: str, kind: str, packed: bytes) -> bytes:
+    """A script that hands gzipped data to the page: the one way to load any from ``file://``."""
+    text = base64.b64encode(packed).decode()
+    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {json.dumps(text)});\n".encode()
+
+
+def _is_webp(picture: bytes) -> bool:
+    return picture[:4] == b"RIFF" and picture[8:12] == b"WEBP"
 
 
 def _is_site(folder: Path) -> bool:
@@ -235,8 +254,15 @@ def _check_report(report: Report) -> None:
         require(bool(held.all()), "a score is not in [0, 1]")
     for name in ("facts", "thumbnails", "labels"):
         require(len(getattr(report, name)) == count, f"{name} do not match the shapes")
-    for thumbnail in report.thumbnails:
-        require(thumbnail[:4] == b"RIFF" and thumbnail[8:12] == b"WEBP", "a thumbnail is not a WebP image")
+    for picture in report.thumbnails:
+        require(_is_webp(picture), "a thumbnail is not a WebP image")
+    for painting in report.paintings:
+        require(painting.column in report.features.columns, "a painting of a bin that is not there")
+        require(0 <= painting.shape < count, "a painting of a shape that is not there")
+        require(_is_webp(painting.value) and _is_webp(painting.inside), "a painting is not a WebP image")
+    if report.models is not None:
+        require(len(report.models) == count, "models do not match the shapes")
+        require(all(model[:2] == b"\x1f\x8b" for model in report.models), "a model is not gzipped")
     require(report.labeling is not None or not any(report.labels), "labels without a labeling")
     require(bool(report.projections), "no projection")
     for method, (projection, quality) in report.projections.items():

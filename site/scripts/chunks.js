@@ -13,13 +13,18 @@ const loaded = new Map();
 
 /** The content of a chunk, loaded when first asked for: an ArrayBuffer where it holds bytes. */
 export function chunk(name) {
-  if (!loaded.has(name)) loaded.set(name, load(name));
+  if (!loaded.has(name)) loaded.set(name, load(name, JSON.parse(document.body.dataset.chunks)[name]));
   return loaded.get(name);
 }
 
-async function load(name) {
+/** The 3D model of a shape by its name in the chunk "selection", an ArrayBuffer; loaded anew each time. */
+export function modelBytes(name) {
+  return load(`model-${name}`, `models/${name}.js`);
+}
+
+async function load(name, address) {
   const { packed } = window.shapeviz;
-  if (!packed.has(name)) await addScript(JSON.parse(document.body.dataset.chunks)[name]);
+  if (!packed.has(name)) await addScript(address);
   const { kind, text } = packed.get(name);
   packed.delete(name);
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));

@@ -2,7 +2,7 @@
 
 import { chunk } from "./chunks.js";
 
-const OWN_DATA = /^assets\/chunk-[a-z-]+\.js\?[0-9a-f]{8}$/;
+const OWN_DATA = /^(assets\/chunk-[a-z-]+\.js\?[0-9a-f]{8}|models\/[0-9a-f]{20}\.js)$/;
 
 /** The address of the one worker that is being started at this moment. */
 let starting = null;
