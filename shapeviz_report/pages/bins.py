@@ -9,6 +9,7 @@ from hashlib import sha256
 import numpy as np
 
 from shapeviz_report.contrasts import find_rivals
+from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.features import BINS
 from shapeviz_report.pages.base import (
     COORDINATE_STEPS,
@@ -60,6 +61,7 @@ def _selection(report: Report) -> dict[str, object]:
     return {
         **({"minimal": [], "path": []} if report.bins is None else _found(report, report.bins, place)),
         "coordinateSteps": COORDINATE_STEPS,
+        "dimensions": _dimensions(report),
         "paintings": [
             {
                 "column": place[painting.column],
@@ -74,6 +76,25 @@ def _selection(report: Report) -> dict[str, object]:
         "clay": list(CLAY),
         "marked": list(MARKED),
     }
+
+
+def _dimensions(report: Report) -> list[dict[str, object]]:
+    """What each dimension of the descriptors measures, and between which values its bins lie; percentages as such."""
+    descriptors = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
+    dimensions: list[dict[str, object]] = []
+    for block in report.features.blocks:
+        descriptor = descriptors.get(block.name)
+        for dimension in range(block.dimensions if block.bins > 1 else 0):
+            unit = descriptor.unit if descriptor else ""
+            edges = report.edges[len(dimensions)] * (100 if unit == "%" else 1)
+            dimensions.append(
+                {
+                    "quantity": descriptor.quantities[dimension] if descriptor else block.name,
+                    "unit": unit,
+                    "edges": [float(f"{edge:.4g}") for edge in edges],
+                }
+            )
+    return dimensions
 
 
 def _found(report: Report, found: BinSearch, place: dict[str, int]) -> dict[str, object]:
