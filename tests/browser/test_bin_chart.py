@@ -278,7 +278,8 @@ class TestKeyboard:
         page.keyboard.press("End")
         for _ in range(4):
             page.keyboard.press("+")
-        assert page.locator(".column.pointed").get_attribute("width") == "48"
+        pointed = page.locator(".column.pointed")
+        eventually(page, lambda: float(pointed.get_attribute("width")) == pytest.approx(48))
         box = page.locator(SURFACE).bounding_box()
         page.mouse.move(box["x"] + box["width"] - 10, box["y"] + 50)
         assert reading(page).split()[0] == names[49]
