@@ -26,9 +26,6 @@ LIMIT = 51
 CLIMB_MAPS = 120
 """Maps that the climb may make: 5 CPU seconds for 280 shapes. docs/bins-search.md says what more would bring."""
 
-ADDITIONS = 40
-"""Bins that the climb tries to add: those that separate best in the space of the bins."""
-
 SPREAD_SEEDS = 5
 """Maps of the result with other seeds than the climb's."""
 
@@ -51,7 +48,7 @@ def select_bins(
 
     First NH_s in the space of the bins decides, which needs no map: the bin that raises it most joins, then whatever
     can leave without loss leaves, until no bin raises it. Then NH_s of the map decides: every bin is tried to leave
-    and the most promising ones to join, in the order of NH_s in the space of the bins, and the first change that
+    or to join, in the order of the NH_s that the space of the bins would then have, and the first change that
     raises it is made, until none does or ``CLIMB_MAPS`` maps are made.
 
     Parameters
@@ -187,9 +184,7 @@ def _changes(
         changes += [(float(score), True, b) for score, b in zip(left, bins)]
     if len(bins) < limit:
         joined = hits_of_additions(space.columns, squared, rows, codes, k).mean(axis=1)
-        joined[bins] = -1
-        best = np.argsort(-joined, kind="stable")[:ADDITIONS]
-        changes += [(float(joined[b]), False, int(b)) for b in best if joined[b] >= 0]
+        changes += [(float(score), False, b) for b, score in enumerate(joined) if b not in bins]
     # Rounded, so that of equal ones those with fewer bins come first.
     return sorted(changes, key=lambda change: (-round(change[0], 9), not change[1], change[2]))
 
