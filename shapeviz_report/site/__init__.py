@@ -50,6 +50,7 @@ STYLES = (
     "features.css",
     "workbench.css",
     "bin-chart.css",
+    "bins.css",
     "about.css",
 )
 

@@ -41,7 +41,7 @@ export class BinCard {
 
   /** Show the card of a column at its bar: a box in the window, and `free`, the height down to which the card may hang. */
   show(column, box) {
-    this.node.replaceChildren(...this.#words(column), this.#classes(column));
+    this.node.replaceChildren(...this.#words(column), this.classes(column));
     this.node.hidden = false;
     this.#place(box);
   }
@@ -71,8 +71,8 @@ export class BinCard {
   }
 
   /** A row a class: its shapes as dots on one axis, the middle half of them as a band, the median as a line. */
-  #classes(column) {
-    const rows = this.#rows(column);
+  classes(column) {
+    const rows = this.rows(column);
     const shown = rows.slice(0, MOST_ROWS);
     const share = this.bins.isShare(column);
     const lowest = Math.min(...shown.map(({ values }) => values[0]));
@@ -94,7 +94,7 @@ export class BinCard {
   }
 
   /** The classes in use with their sorted values, those to be separated first, those with most of the bin on top. */
-  #rows(column) {
+  rows(column) {
     const { model, members } = this;
     const row = (rows, apart, name, mark, color) => {
       const values = rows.map((index) => this.bins.share(column, index)).sort((a, b) => a - b);
@@ -166,7 +166,7 @@ function quantile(values, share) {
 }
 
 /** A share in percent, short. */
-function percent(share) {
+export function percent(share) {
   const value = 100 * share;
   if (value > 0 && value < 0.05) return "<0.1 %";
   return `${value === 0 || value >= 9.95 ? value.toFixed(0) : value.toFixed(1)} %`;

@@ -1,5 +1,64 @@
-// The Bins page.
+// The Bins page (paper, 4.4 and Fig. 6, 7, 8): the few bins that separate a class, or all, and how they look on shapes.
 
-import { watchTheme } from "../theme.js";
+import { BinCard } from "../bin-card.js";
+import { Bins } from "../bins.js";
+import { readBinsAddress, workbenchAddress, writeBinsAddress } from "../bins-page/address.js";
+import { BinChips } from "../bins-page/bin-chip.js";
+import { binsTables } from "../bins-page/bins-tables.js";
+import { chooseSet, ClassCards } from "../bins-page/class-cards.js";
+import { Look } from "../bins-page/look.js";
+import { PathPlayer } from "../bins-page/path-player.js";
+import { Turntable } from "../bins-page/turntable.js";
+import { chunk } from "../chunks.js";
+import { calm } from "../dom.js";
+import { Model } from "../model.js";
+import { State } from "../state.js";
+import { watchTables } from "../tables.js";
+import { currentTheme, watchTheme } from "../theme.js";
 
-watchTheme(() => {});
+async function main() {
+  const [overview, selection, data, bytes] = await Promise.all(["overview", "selection", "workbench", "bins"].map(chunk));
+  const bins = new Bins(data, bytes);
+  const model = new Model(overview, currentTheme);
+  const live = document.getElementById("live");
+  const announce = (text) => {
+    live.textContent = text;
+  };
+  const first = selection.minimal.length > 0 ? chooseSet(selection.minimal[0].sets, "fewest").bins[0] : 0;
+  const state = new State({ ...readBinsAddress(model, bins, selection, first), theme: currentTheme() });
+  const card = new BinCard(bins, model);
+  const chips = new BinChips(bins, card, state, {
+    look: (bin) => {
+      card.hide();
+      state.set({ bin });
+      goToLook();
+    },
+  });
+  const open = (columns) => workbenchAddress(columns, data.features);
+  if (selection.minimal.length > 0) new ClassCards(model, selection, state, chips, { open }).render();
+  if (selection.path.length > 0) new PathPlayer(model, selection, bins, state, chips, { open, announce }).start();
+  new Look(model, bins, selection, state, card).render();
+  new Turntable(model, bins, selection, state, announce).start();
+  watchTables(() => binsTables(model, bins, selection, state, card));
+  document.querySelector(".lead a").addEventListener("click", (event) => {
+    // The address holds the state of the view, not a place on the page.
+    event.preventDefault();
+    goToLook();
+  });
+  state.listen((changed) => {
+    if (!["size", "step", "bin", "shape", "reading"].some((name) => changed.has(name))) return;
+    clearTimeout(main.writing);
+    main.writing = setTimeout(() => writeBinsAddress(model, bins, selection, state, first), 250);
+  });
+  window.addEventListener("hashchange", () => state.set(readBinsAddress(model, bins, selection, first)));
+  watchTheme(() => state.set({ theme: currentTheme() }));
+  document.documentElement.dataset.ready = "";
+}
+
+function goToLook() {
+  const look = document.getElementById("look");
+  look.focus({ preventScroll: true });
+  look.scrollIntoView({ behavior: calm() ? "instant" : "smooth", block: "start" });
+}
+
+main();

@@ -1,0 +1,41 @@
+// What the Bins page shows, in its address.
+
+import { shortNames } from "../workbench/bin-names.js";
+
+const SIZES = ["fewest", "1", "2", "3"];
+const READINGS = ["value", "inside"];
+const ENDS = ["most", "least"];
+
+/** `first` is the bin that is looked at unless the address names one. */
+export function readBinsAddress(model, bins, selection, first) {
+  const query = new URLSearchParams(window.location.hash.slice(1));
+  const bin = bins.names.indexOf(query.get("bin"));
+  const last = Math.max(selection.path.length - 1, 0);
+  const step = query.has("step") ? Number(query.get("step")) - 1 : last;
+  const shape = query.get("shape");
+  return {
+    size: SIZES.includes(query.get("size")) ? query.get("size") : SIZES[0],
+    step: Number.isInteger(step) && step >= 0 && step <= last ? step : last,
+    bin: bin >= 0 ? bin : first,
+    shape: ENDS.includes(shape) ? shape : (model.indexOfId.get(query.get("id")) ?? null),
+    reading: READINGS.includes(query.get("reading")) ? query.get("reading") : READINGS[0],
+  };
+}
+
+export function writeBinsAddress(model, bins, selection, state, first) {
+  const query = new URLSearchParams();
+  if (state.get("size") !== SIZES[0]) query.set("size", state.get("size"));
+  if (state.get("step") < selection.path.length - 1) query.set("step", state.get("step") + 1);
+  if (state.get("bin") !== first) query.set("bin", bins.names[state.get("bin")]);
+  const shape = state.get("shape");
+  if (ENDS.includes(shape)) query.set("shape", shape);
+  else if (shape !== null) query.set("id", model.ids[shape]);
+  if (state.get("reading") !== READINGS[0]) query.set("reading", state.get("reading"));
+  const hash = query.toString();
+  window.history.replaceState(null, "", hash === "" ? window.location.pathname + window.location.search : `#${hash}`);
+}
+
+/** Where the Workbench shows the map of some bins. */
+export function workbenchAddress(columns, features) {
+  return `workbench.html#${new URLSearchParams({ bins: shortNames(columns, features), map: "tsne" })}`;
+}

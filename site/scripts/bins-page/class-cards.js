@@ -1,0 +1,62 @@
+// Each class from the rest (paper, Fig. 6): a small map of few bins, the class in its colour, all others grey.
+
+import { element, swatch } from "../dom.js";
+import { styleColor } from "../theme.js";
+import { count, figure } from "../words.js";
+import { mapOf, Plot } from "./plot.js";
+
+/** NH_c, in the space of the bins and on their map, at which a class counts as separated. */
+export const SEPARATED = 0.9;
+
+export class ClassCards {
+  constructor(model, selection, state, chips, { open }) {
+    Object.assign(this, { model, selection, state, chips, open });
+    this.list = document.getElementById("class-cards");
+    const inputs = document.querySelectorAll("#sizes input");
+    for (const input of inputs) {
+      input.checked = input.value === state.get("size");
+      input.addEventListener("change", () => state.set({ size: input.value }));
+    }
+    state.listen((changed) => {
+      if (!changed.has("size") && !changed.has("theme")) return;
+      for (const input of inputs) input.checked = input.value === state.get("size");
+      this.render();
+    });
+  }
+
+  render() {
+    const cards = this.selection.minimal.map((separated) => ({ group: separated.group, found: chooseSet(separated.sets, this.state.get("size")) }));
+    this.list.replaceChildren(...cards.map(({ group, found }) => element("li", { class: "class-card" }, this.#card(group, found))));
+  }
+
+  #card(group, found) {
+    const { model, selection } = this;
+    const name = model.className(group);
+    const plot = new Plot(model, {
+      label: `Map of ${count(found.bins.length, "bin")}: ${name} against the rest`,
+      first: (index) => model.groups[index] !== group,
+      mark: (index) => {
+        const own = model.groups[index] === group;
+        return { path: model.symbol(own ? group : -1), color: own ? model.color(group) : styleColor("quiet"), radius: own ? 3.2 : 1.7, alpha: own ? 0.95 : 0.45 };
+      },
+    });
+    plot.show(mapOf(found, selection, model.count));
+    return [
+      element(
+        "div",
+        { class: "card-head" },
+        element("h3", {}, swatch(model.symbol(group), model.color(group)), element("bdi", {}, name)),
+        element("p", { class: "nh", title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins` }, element("span", { class: "unseen" }, "NH "), element("b", {}, figure(found.nh))),
+      ),
+      element("a", { class: "open-map", href: this.open(found.bins), title: "Open these bins in the Workbench" }, plot.node),
+      element("div", { class: "bin-chips" }, found.bins.map((column) => this.chips.chip(column, { group }))),
+    ];
+  }
+}
+
+/** The set of a size, or the largest below it; or the smallest that separates, else the best. */
+export function chooseSet(sets, size) {
+  if (size !== "fewest") return sets[Math.min(Number(size), sets.length) - 1];
+  const worth = ({ nh, nhSpace }) => Math.min(nh, nhSpace);
+  return sets.find((found) => worth(found) >= SEPARATED) ?? sets.reduce((best, found) => (worth(found) > worth(best) ? found : best));
+}
