@@ -166,7 +166,7 @@ function emptyMap(which, state, answers, desk) {
   }
   if (rows > MOST_SHAPES && (which === "original" || state.get("bins").size > 0)) {
     return [
-      element("p", {}, `A map of ${count(rows, "shape")} would keep you waiting for minutes. A sample of ${grouped(MOST_SHAPES)}, each class in proportion, is made in seconds; so are both maps then, and their NH can be compared.`),
+      element("p", {}, `A map of ${count(rows, "shape")} takes a browser long. A sample of ${grouped(MOST_SHAPES)}, each class in proportion, takes seconds; both maps are then of the sample, so that their NH can be compared.`),
       element("button", { type: "button", class: "plain strong", id: "use-sample", onclick: () => desk.ask({ sample: true }) }, "Use a sample"),
     ];
   }
