@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import io
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -10,10 +11,13 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw
+from solids import ball
 
 from shapeviz_report import quality
 from shapeviz_report.bins import features_of
+from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.features import PRESETS, compared_values, scale
+from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import make_space, search_features
@@ -33,6 +37,8 @@ from shapeviz_report.types import (
     Failure,
     FeatureBlock,
     FeatureTable,
+    Mesh,
+    Painting,
     Projection,
     Report,
     ShapeEntry,
@@ -169,6 +175,34 @@ def with_bin_search(report: Report) -> Report:
         ),
     )
     return replace(report, bins=found)
+
+
+def with_paintings(report: Report) -> Report:
+    """The report with pictures of the bins that its search found, which show polygons; of the right shapes."""
+    xy = next(iter(report.projections.values()))[0].xy
+    contrasts = choose_contrasts(
+        report.bins, report.features, report.labels, report.features.values, xy, quality.NEIGHBOURS
+    )
+    paintings = (
+        Painting(column, row, picture(number, row), picture(number, row + 1))
+        for number, (column, rows) in enumerate(contrasts.items())
+        for row in rows
+    )
+    return replace(report, paintings=tuple(paintings))
+
+
+def with_models(report: Report) -> Report:
+    """The report with the models of balls, more and more stretched. In their first dimension the bins are layers from
+    bottom to top, in each further one they are turned by one bin more."""
+    sphere = ball(2)
+    models = []
+    for number in range(len(report.shapes)):
+        stretched = Mesh(sphere.vertices * [1, 1 - number / (2 * len(report.shapes)), 0.5], sphere.faces)
+        model = simplify(stretched)
+        layers = np.clip((model.vertices[:, 1] + 1) * 5, 0, 9).astype(np.uint8)
+        bins = np.stack([(layers + turn) % 10 for turn in range(len(report.edges))]).astype(np.uint8)
+        models.append(gzip.compress(pack_model(model, bins, np.eye(3)), mtime=0))
+    return replace(report, models=tuple(models))
 
 
 def with_bins(report: Report, bins: tuple[str, ...]) -> Report:

@@ -1,6 +1,7 @@
 """Every page in ``PAGES`` keeps the contract of a page."""
 
 import json
+from functools import cache
 
 import jinja2
 import pytest
@@ -9,6 +10,11 @@ from reports import make_report, with_bin_search, with_scores, with_search
 from shapeviz_report.pages import PAGES
 from shapeviz_report.site.data_files import json_text
 from shapeviz_report.site.resources import site_folder, templates_folder
+
+
+@cache
+def whole_report(classes):
+    return with_bin_search(with_scores(with_search(make_report(classes, 3))))
 
 
 def test_names_and_files_are_unique():
@@ -30,10 +36,9 @@ class TestPage:
 
     @pytest.mark.parametrize("classes", [("ant", "bird"), (None,), ("ant", None)])
     def test_its_chunks_are_json_or_bytes(self, page, classes):
-        report = with_bin_search(with_scores(with_search(make_report(classes, 3))))
-        for chunk in page.content(report).chunks.values():
+        for chunk in page.content(whole_report(classes)).chunks.values():
             assert isinstance(chunk, bytes) or json.loads(json_text(chunk)) == chunk
 
     def test_its_content_is_the_same_every_time(self, page):
-        report = with_bin_search(with_scores(with_search(make_report())))
+        report = whole_report(("ant", "bird"))
         assert page.content(report) == page.content(report)

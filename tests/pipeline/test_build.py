@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import gzip
+import io
 import json
 import shutil
 import signal
@@ -14,6 +16,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from packed_models import unpack
+from PIL import Image
 from scipy.spatial.distance import pdist
 from small_database import OPTIONS, WITH_SEARCH, make_shape, read_site, write_database
 
@@ -22,6 +26,7 @@ from shapeviz_report.bins import scale_bins
 from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
 from shapeviz_report.features import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
+from shapeviz_report.search.bins import find_minimal_bins, make_bin_space
 
 
 def entries(cache: Path, stage: str) -> dict[Path, int]:
@@ -43,6 +48,8 @@ def test_a_site_is_complete(built) -> None:
     assert (site / "index.html").is_file()
     assert (site / "about.html").is_file()
     assert len(list((site / "thumbnails").glob("*.webp"))) == 15
+    assert len(list((site / "models").glob("*.js"))) == 15
+    assert (site / "bins.html").is_file()
     with np.load(site / "data/features.npz", allow_pickle=False) as features:
         assert features["values"].shape == (15, 1870)
         assert features["shape_ids"].tolist() == [s.id for s in report.shapes]
@@ -121,7 +128,7 @@ def test_killed_at_any_moment_a_second_run_continues(tmp_path) -> None:
         "none",
     ]
     kept = 0
-    for moment in ("prepared", "described", "rendered"):
+    for moment in ("prepared", "rendered", "described"):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         deadline = time.monotonic() + 120
         while len(entries(cache, moment)) < 3 and process.poll() is None and time.monotonic() < deadline:
@@ -276,6 +283,80 @@ def test_every_class_is_scored_against_the_rest(built, database, cache, tmp_path
     again = shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS)
     assert entries(cache, "scored") == found
     np.testing.assert_array_equal(again.scores.values, report.scores.values)
+
+
+def test_the_search_for_bins_asks_everything_once(built, database, cache, tmp_path) -> None:
+    _, report = built
+    found = report.bins
+    assert [separated.label for separated in found.minimal] == ["ball", "box", "ring"]
+    assert sum(fold.shapes for fold in found.held_out) == 15
+    assert sum(fold.shapes for fold in found.shuffled) == 15
+    # Four of the other fourteen shapes are of the own class.
+    assert found.chance == pytest.approx(4 / 14)
+    space = make_bin_space(report.features, PRESETS["default"], report.labels)
+    assert find_minimal_bins(space, report.labels, "ring").sets[0].bins == found.minimal[2].sets[0].bins
+    stored = entries(cache, "selected") | entries(cache, "painted")
+    assert len(entries(cache, "selected")) == 1 + 5 + 5 + 3
+    again = shapeviz_report.build(database, tmp_path / "site", cache=cache, **WITH_SEARCH)
+    assert entries(cache, "selected") | entries(cache, "painted") == stored
+    assert again.paintings == report.paintings
+    np.testing.assert_array_equal(again.bins.automatic.path[-1].xy, found.automatic.path[-1].xy)
+
+
+def test_a_painting_marks_what_falls_into_the_bin(built, cache) -> None:
+    _, report = built
+    found = {bin for separated in report.bins.minimal for chosen in separated.sets for bin in chosen.bins}
+    assert {painting.column for painting in report.paintings} == found | set(report.bins.automatic.bins)
+    marked, shares = [], []
+    for painting in report.paintings:
+        pixels = np.asarray(Image.open(io.BytesIO(painting.inside)).convert("RGBA"), float)
+        outline = np.asarray(Image.open(io.BytesIO(painting.value)).convert("RGBA"))[..., 3]
+        np.testing.assert_array_equal(outline, pixels[..., 3])
+        surface = pixels[..., 3] == 255
+        marked.append((pixels[..., 0] - pixels[..., 2] > 60)[surface].mean())
+        shares.append(report.features.values[painting.shape, report.features.columns.index(painting.column)])
+    # Half of a surface is out of sight, so that the share seen is not quite the share there is.
+    assert np.corrcoef(marked, shares)[0, 1] > 0.9
+    assert np.abs(np.array(marked) - shares).max() < 0.35
+
+
+def test_models_are_of_their_shapes(built) -> None:
+    _, report = built
+    for row, model in enumerate(report.models):
+        view, vertices, faces, bins = unpack(gzip.decompress(model))
+        assert view @ view.T == pytest.approx(np.eye(3), abs=1e-6)
+        assert len(faces) <= 4000
+        assert np.linalg.norm(vertices, axis=1).max() == pytest.approx(1, abs=0.02)
+        assert bins.shape == (187, len(vertices))
+        # Of its ten bins, the one with most vertices is one of the fullest of the whole surface.
+        fullest = np.stack([np.bincount(row, minlength=10) for row in bins]).argmax(axis=1)
+        shares = report.features.values[row].reshape(187, 10)
+        held = shares[np.arange(187), fullest]
+        assert (held > shares.max(axis=1) - 0.2).mean() > 0.9
+
+
+def test_models_may_be_left_out(built, database, cache, tmp_path) -> None:
+    site, _ = built
+    described = entries(cache, "described")
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, meshes=False, **WITH_SEARCH)
+    assert report.models is None
+    assert entries(cache, "described") == described
+    whole, slim = read_site(site), read_site(tmp_path / "site")
+    models = {name for name in whole if name.startswith("models/")}
+    assert len(models) == 15
+    assert whole.keys() - slim.keys() == models
+    differing = {name for name in slim if slim[name] != whole[name]}
+    assert "assets/chunk-selection.js" in differing
+    # Nothing but the pages, which say so, and what they load by its content.
+    assert {name for name in differing if not name.endswith(".html")} == {"assets/chunk-selection.js"}
+
+
+def test_no_search_no_bins(built, database, cache, tmp_path) -> None:
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS)
+    assert report.bins is None
+    assert report.paintings == ()
+    assert json.loads((tmp_path / "site/data/summary.json").read_text())["bins"] is None
+    assert report.models == built[1].models
 
 
 def test_maps_of_chosen_bins(tmp_path, database, cache, built) -> None:

@@ -40,6 +40,13 @@ def test_paths_of_the_file_start_at_its_folder(database) -> None:
     assert config.cache == Path("/somewhere")
 
 
+def test_what_is_on_can_be_switched_off(database) -> None:
+    write(database, "meshes = false")
+    assert load_config(None, {}).meshes
+    assert not load_config(database, {}).meshes
+    assert load_config(database, {"meshes": True}).meshes
+
+
 def test_the_file_lies_beside_a_table(database) -> None:
     (database / "shapes.csv").write_text("file\n")
     write(database, "seed = 4")
@@ -60,6 +67,7 @@ def test_the_file_lies_beside_a_table(database) -> None:
         ('preset = "best"', "preset must be one of default, paper"),
         ("external = [1]", "external must be a list of file names"),
         ('up = "x"', "up must be y or z"),
+        ("meshes = 1", "meshes must be true or false"),
         ("cache = 3", "cache must be a path"),
         ("seed = ", "cannot be read as TOML"),
     ],

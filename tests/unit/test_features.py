@@ -12,8 +12,11 @@ from shapeviz_report.features import (
     BLOCKS,
     PRESETS,
     compute_histograms,
+    describe,
+    find_bins,
     fixed_edges,
     load_external,
+    measure,
     quantile_edges,
     sample_values,
     scale,
@@ -52,6 +55,29 @@ def test_fractions_add_up_and_values_beyond_the_ends_count() -> None:
     found = compute_histograms(lump(), edges, by_area=True).reshape(187, 10)
     assert found.sum(axis=1) == pytest.approx(1)
     assert found[:, [0, 9]].sum() > 100
+
+
+def test_bins_of_vertices_are_those_that_the_histograms_count() -> None:
+    mesh, edges = lump(), fixed_edges()
+    every = np.arange(len(mesh.vertices))
+    histograms, bins = describe(mesh, edges, every, by_area=False)
+    counted = np.stack([np.bincount(row, minlength=10) for row in bins])
+    assert histograms.reshape(187, 10) == pytest.approx(counted / len(every))
+    np.testing.assert_array_equal(describe(mesh, edges, every[7:3:-1], by_area=True)[1], bins[:, 7:3:-1])
+
+
+def test_measured_values_are_the_ones_that_fall_into_bins() -> None:
+    mesh, edges = lump(), fixed_edges()
+    _, bins = describe(mesh, edges, np.arange(len(mesh.vertices)), by_area=True)
+    dimensions = [186, 0, 40, 5]
+    values = measure(mesh, dimensions)
+    np.testing.assert_array_equal(find_bins(values, edges[dimensions]), bins[dimensions])
+
+
+def test_a_value_on_an_edge_falls_above_it_and_what_lies_beyond_into_the_outer_bins() -> None:
+    edges = np.arange(11.0)[None]
+    values = np.array([[-5, 0, 0.99, 1, 9, 10, 99]], np.float32)
+    assert find_bins(values, edges).tolist() == [[0, 0, 0, 1, 9, 9, 9]]
 
 
 def test_quantile_edges_cut_off_one_per_cent() -> None:

@@ -11,13 +11,17 @@ from solids import ball
 
 from shapeviz_report.render.painting import mark_colors, render_painted, value_colors
 from shapeviz_report.render.ramp import ramp_codes, ramp_colors
+from shapeviz_report.render.shading import CLAY
+from shapeviz_report.render.thumbnail import render_thumbnail
+from shapeviz_report.render.viewpoint import choose_view
 
 EDGES = np.array([0, 1, 2, 4, 8, 16, 32, 64, 128, 256, 512], float)
 
 
 def picture(colors: np.ndarray) -> np.ndarray:
     mesh = ball()
-    return np.asarray(Image.open(io.BytesIO(render_painted(mesh, colors, size=128, up="y"))), float)
+    (content,) = render_painted(mesh, choose_view(mesh, up="y"), [colors], size=128)
+    return np.asarray(Image.open(io.BytesIO(content)), float)
 
 
 def lightness(linear: np.ndarray) -> np.ndarray:
@@ -60,3 +64,16 @@ def test_a_value_shows_its_colour(share: float):
     shown = picture(np.tile(expected, (len(ball().vertices), 1)))[50, 50, :3]
     assert np.argmax(shown) == np.argmax(expected)
     assert np.argmin(shown) == np.argmin(expected)
+
+
+def test_clay_all_over_is_the_thumbnail():
+    mesh = ball()
+    view = choose_view(mesh)
+    painted = render_painted(mesh, view, [np.tile(CLAY, (len(mesh.vertices), 1))] * 2, size=96)
+    assert painted[0] == painted[1]
+    pictures = (painted[0], render_thumbnail(mesh, view, size=96))
+    one, other = (np.asarray(Image.open(io.BytesIO(content)), float) for content in pictures)
+    assert np.array_equal(one[..., 3], other[..., 3])
+    # Colours on vertices come in steps of 1/255, which the thumbnail's does not.
+    surface = one[..., 3] == 255
+    assert np.abs(one - other)[surface].max() <= 6

@@ -12,7 +12,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from shapeviz_report.render import render_thumbnail
+from shapeviz_report.render import choose_view, render_thumbnail
 from shapeviz_report.types import Mesh
 
 
@@ -32,7 +32,7 @@ SHEET = Mesh(
 
 def pixels(mesh: Mesh, size: int = 160) -> np.ndarray:
     """(size, size, 4) float array of what a browser shows."""
-    image = Image.open(io.BytesIO(render_thumbnail(mesh, size=size)))
+    image = Image.open(io.BytesIO(render_thumbnail(mesh, choose_view(mesh), size=size)))
     assert (image.format, image.mode, image.size) == ("WEBP", "RGBA", (size, size))
     return np.asarray(image, np.float64)
 
@@ -105,15 +105,16 @@ def test_an_inside_out_surface_looks_the_same():
 def test_the_same_mesh_gives_the_same_bytes_in_another_process():
     code = """
 import sys, numpy as np, trimesh
-from shapeviz_report.render import render_thumbnail
+from shapeviz_report.render import choose_view, render_thumbnail
 from shapeviz_report.types import Mesh
 shape = trimesh.creation.torus(major_radius=0.7, minor_radius=0.25)
 mesh = Mesh(np.asarray(shape.vertices, np.float64), np.asarray(shape.faces, np.int32))
 import hashlib
-print(hashlib.sha256(render_thumbnail(mesh)).hexdigest())
+print(hashlib.sha256(render_thumbnail(mesh, choose_view(mesh))).hexdigest())
 """
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
-    assert result.stdout.strip() == hashlib.sha256(render_thumbnail(TORUS)).hexdigest(), result.stderr
+    here = render_thumbnail(TORUS, choose_view(TORUS))
+    assert result.stdout.strip() == hashlib.sha256(here).hexdigest(), result.stderr
 
 
 def test_parts_that_do_not_touch_are_all_in_the_picture():

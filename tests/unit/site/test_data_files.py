@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reports import NASTY_LABELS, make_report, with_bins, with_scores, with_search
+from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_scores, with_search
 
+from shapeviz_report.bins import read_bins
 from shapeviz_report.site.data_files import data_files, json_text, summary
 from shapeviz_report.types import Failure
 
@@ -107,6 +108,38 @@ def test_scores_stand_beside_what_they_are_scores_of(tmp_path):
         assert tuple(content["classes"]) == tuple(sorted(NASTY_LABELS[:3]))
         assert tuple(content["columns"]) == report.features.columns
     assert "scores.npz" not in data_files(make_report(), "1")
+
+
+@pytest.fixture(scope="module")
+def searched():
+    return with_bin_search(make_report([*NASTY_LABELS[:3], None], 6))
+
+
+class TestBins:
+    def test_summary_has_the_promised_keys(self, searched):
+        bins = json.loads(data_files(searched, "1")["summary.json"])["bins"]
+        automatic = bins["automatic"]
+        assert tuple(automatic["bins"]) == searched.bins.automatic.bins
+        assert automatic["nh_s"] == searched.bins.automatic.nh_s == automatic["path"][-1]["nh_s"]
+        assert automatic["seconds"] == searched.bins.automatic.cpu_seconds
+        for part, folds in (("held_out", searched.bins.held_out), ("permuted", searched.bins.shuffled)):
+            weights = [fold.shapes for fold in folds]
+            for name in ("nh_s", "knn_accuracy"):
+                mean = np.average([getattr(fold, name) for fold in folds], weights=weights)
+                assert automatic[part][name] == pytest.approx(mean)
+        assert set(bins["minimal"]) == set(NASTY_LABELS[:3])
+        for separated in searched.bins.minimal:
+            sets = bins["minimal"][separated.label]
+            assert [(tuple(s["bins"]), s["nh_c"]) for s in sets] == [(s.bins, s.nh_c) for s in separated.sets]
+
+    def test_the_list_of_selected_bins_is_what_a_build_reads(self, searched, tmp_path):
+        path = tmp_path / "selected-bins.txt"
+        path.write_bytes(data_files(searched, "1")["selected-bins.txt"])
+        assert read_bins(path, searched.features.blocks) == searched.bins.automatic.bins
+
+    def test_without_a_search_there_is_neither(self):
+        assert summary(make_report(), "1")["bins"] is None
+        assert "selected-bins.txt" not in data_files(make_report(), "1")
 
 
 @pytest.fixture(scope="module")

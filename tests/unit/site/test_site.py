@@ -5,11 +5,13 @@ import dataclasses
 import gzip
 import json
 import re
+from functools import cache
 from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from reports import NASTY_LABELS, make_report, with_scores
+from packed_models import unpack
+from reports import NASTY_LABELS, make_report, with_bin_search, with_models, with_paintings, with_scores
 
 from shapeviz_report.errors import SiteError
 from shapeviz_report.pages.workbench import WorkbenchPage
@@ -27,6 +29,12 @@ def chunk(folder, name):
     assert match[1] == name
     content = gzip.decompress(base64.b64decode(match[3]))
     return content if match[2] == "bytes" else json.loads(content)
+
+
+@cache
+def whole_report():
+    """A report with all parts that may be missing."""
+    return with_models(with_paintings(with_bin_search(with_scores(make_report()))))
 
 
 class Markup(HTMLParser):
@@ -82,6 +90,29 @@ def test_a_chunk_of_bytes_keeps_them(tmp_path):
     assert chunk(tmp_path, "bins") == WorkbenchPage().content(report).chunks["bins"]
 
 
+def test_a_model_is_a_script_of_its_own(tmp_path):
+    report = with_models(make_report())
+    write_site(report, tmp_path)
+    for name, model in zip(chunk(tmp_path, "selection")["models"], report.models, strict=True):
+        text = (tmp_path / "models" / f"{name}.js").read_text()
+        match = re.fullmatch(
+            r'shapeviz\.receive\("model-([0-9a-f]{20})", "bytes", "([A-Za-z0-9+/=]+)"\);\n', text
+        )
+        assert match[1] == name
+        assert base64.b64decode(match[2]) == model
+    _, vertices, _, bins = unpack(gzip.decompress(report.models[0]))
+    assert bins.shape == (len(report.edges), len(vertices))
+
+
+def test_without_models_nothing_else_changes(tmp_path):
+    report = with_paintings(with_bin_search(make_report()))
+    write_site(with_models(report), tmp_path / "with")
+    write_site(report, tmp_path / "without")
+    rest = {name for name in contents(tmp_path / "with") if not name.startswith("models/")}
+    assert rest == set(contents(tmp_path / "without"))
+    assert chunk(tmp_path / "without", "selection")["models"] is None
+
+
 def test_the_worker_travels_as_text(tmp_path):
     write_site(make_report(), tmp_path)
     engine = chunk(tmp_path, "engine")
@@ -90,7 +121,7 @@ def test_the_worker_travels_as_text(tmp_path):
 
 
 def test_equal_input_gives_equal_bytes_but_for_the_times(tmp_path):
-    report = with_scores(make_report())
+    report = whole_report()
     write_site(report, tmp_path / "one")
     write_site(dataclasses.replace(report, seconds={"read": 9.0}), tmp_path / "two")
     one, two = contents(tmp_path / "one"), contents(tmp_path / "two")
@@ -186,7 +217,21 @@ def test_a_report_without_shapes_is_refused_with_the_reason(tmp_path):
     ("change", "complaint"),
     [
         (lambda r: {"labels": r.labels[1:]}, "labels do not match"),
-        (lambda r: {"thumbnails": (b"GIF89a", *r.thumbnails[1:])}, "not a WebP"),
+        (lambda r: {"thumbnails": (b"GIF89a", *r.thumbnails[1:])}, "thumbnail is not a WebP"),
+        (lambda r: {"models": r.models[1:]}, "models do not match"),
+        (lambda r: {"models": (b"plain", *r.models[1:])}, "not gzipped"),
+        (
+            lambda r: {"paintings": (dataclasses.replace(r.paintings[0], inside=b"GIF89a"),)},
+            "painting is not a WebP",
+        ),
+        (
+            lambda r: {"paintings": (dataclasses.replace(r.paintings[0], shape=24),)},
+            "a shape that is not there",
+        ),
+        (
+            lambda r: {"paintings": (dataclasses.replace(r.paintings[0], column="Gc:11"),)},
+            "a bin that is not there",
+        ),
         (lambda r: {"shapes": r.shapes[::-1]}, "not sorted"),
         (lambda r: {"projections": {}}, "no projection"),
         (lambda r: {"edges": r.edges[1:]}, "edges do not match"),
@@ -206,7 +251,7 @@ def test_a_report_without_shapes_is_refused_with_the_reason(tmp_path):
     ],
 )
 def test_parts_that_do_not_fit_are_a_bug_of_the_caller(tmp_path, change, complaint):
-    report = with_scores(make_report())
+    report = whole_report()
     with pytest.raises(ValueError, match=complaint):
         write_site(dataclasses.replace(report, **change(report)), tmp_path / "site")
     assert not (tmp_path / "site").exists()
