@@ -155,6 +155,7 @@ async function main() {
   });
   for (const node of [...maps.map(({ surface }) => surface), document.getElementById("bin-chart")]) observer.observe(node);
   document.documentElement.dataset.ready = "";
+  answers.warm();
 }
 
 /** Why there is no map, and what to do next. */

@@ -33,6 +33,11 @@ export class Answers {
     return this.#engines[number];
   }
 
+  /** Start the engine of maps before it is asked for; if that fails, whoever asks will hear why. */
+  warm() {
+    this.#engine(0).catch(() => {});
+  }
+
   #start() {
     const { bins, data } = this;
     return startEngine({
