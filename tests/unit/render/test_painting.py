@@ -74,6 +74,7 @@ def test_clay_all_over_is_the_thumbnail():
     pictures = (painted[0], render_thumbnail(mesh, view, size=96))
     one, other = (np.asarray(Image.open(io.BytesIO(content)), float) for content in pictures)
     assert np.array_equal(one[..., 3], other[..., 3])
-    # Colours on vertices come in steps of 1/255, which the thumbnail's does not.
-    surface = one[..., 3] == 255
-    assert np.abs(one - other)[surface].max() <= 6
+    # Colours on vertices come in steps of 1/255, which the thumbnail's does not; WebP makes the most of that.
+    differences = np.abs(one - other)[one[..., 3] == 255]
+    assert differences.mean() < 2
+    assert differences.max() <= 12
