@@ -611,7 +611,7 @@ class BinSearch:
     held_out : tuple of HeldOutBins
         The automatic selection repeated without each part of the shapes in turn.
     shuffled : tuple of HeldOutBins
-        The same for labels dealt out at random, anew for each part.
+        The same for labels dealt out at random, anew for each of a few parts.
     chance : float
         NH_s that labels without meaning reach on average.
     minimal : tuple of MinimalBins

@@ -137,6 +137,11 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
             if report.scores is not None
             else ()
         ),
+        *(
+            (("selected-bins.txt", "a few bins that separate all classes, for build --bins"),)
+            if report.bins is not None
+            else ()
+        ),
     ]
 
 
