@@ -189,10 +189,10 @@ export class Answers {
   /** Lay out some shapes, then measure the map. */
   async #layout(run, { method, rows, columns, by }, report, partial) {
     const { model, data } = this;
-    // Every layout turns to agree with the site's own map, so that the same address gives the same map on any way
-    // there, and a reader finds shapes where they were.
+    // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
+    // and yet the same address gives the same map on any way there.
     const base = this.#siteMap(method) ?? model.data.methods[0];
-    const reference = Float32Array.from({ length: 2 * rows.length }, (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]]);
+    const start = Float32Array.from({ length: 2 * rows.length }, (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]]);
     const spread = (xy, place) => {
       const all = new Array(model.count).fill(NaN);
       rows.forEach((row, index) => (all[row] = xy[2 * index + place]));
@@ -202,7 +202,7 @@ export class Answers {
       report({ progress: told.progress * 0.97 });
       if (told.partial) partial(spread(told.partial.xy, 0), spread(told.partial.xy, 1));
     };
-    const { xy } = await run("layout", { method, rows, columns, by, start: null, reference, seed: data.seed }, listen);
+    const { xy } = await run("layout", { method, rows, columns, by, start, seed: data.seed }, listen);
     const groups = Int32Array.from(rows, (row) => model.groups[row]);
     const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
     const hits = new Array(model.count).fill(null);
