@@ -129,7 +129,7 @@ def test_a_separation_of_groups_is_scored_as_python_scores_it(bench):
     page = bench()
     page.select_option("#scorer", "chi2")
     page.click("#separate-all")
-    assert page.locator("#separation-words").inner_text() == "…"
+    assert "Tick classes" in page.locator("#separation-words").inner_text()
     for name in ("kind a", "kind c"):
         page.get_by_label(f"Separate {name}", exact=True).check()
     page.get_by_text("together", exact=True).click()

@@ -62,8 +62,7 @@ function watchSeparation(model, state, desk) {
     const separation = state.get("separation");
     const groups = [...model.classes.keys()].filter((group) => !state.get("hidden").has(group));
     const asked = contests(separation, groups);
-    words.textContent = asked.length > 0 ? separationWords(separation, groups, model) : "…";
-    words.parentElement.title = asked.length > 0 ? "" : missing(separation, groups);
+    words.textContent = asked.length > 0 ? separationWords(separation, groups, model) : missing(separation, groups);
     words.parentElement.classList.toggle("missing", asked.length === 0);
     for (const input of against.querySelectorAll("input")) input.checked = (input.value === "rest") === (separation.against === null);
     for (const input of each.querySelectorAll("input")) input.checked = (input.value === "each") === separation.each;
@@ -78,11 +77,11 @@ function watchSeparation(model, state, desk) {
 }
 
 /** Why there is nothing to score. */
-export function missing({ from, against, each }, groups) {
-  if (groups.length < 2) return "Scores tell classes apart: take at least two into use.";
-  if (from !== null && !groups.some((group) => from.has(group))) return "Tick under “separate” the classes to set apart.";
-  if (against !== null && !groups.some((group) => against.has(group))) return "Tick under “from” the classes to set them apart from.";
-  return each ? "A class cannot be set apart from itself: tick another." : "All classes are on one side: leave some out, or set each apart.";
+function missing({ from, against, each }, groups) {
+  if (groups.length < 2) return "needs two classes in use";
+  if (from !== null && !groups.some((group) => from.has(group))) return "which? Tick classes under “separate”";
+  if (against !== null && !groups.some((group) => against.has(group))) return "from which? Tick classes under “from”";
+  return each ? "from which? Tick another class" : "from which? All are on one side";
 }
 
 /** The shapes collected on the maps, in words; else whether the maps are those of a sample. */
