@@ -23,8 +23,8 @@ from shapeviz_report.types import BinSelection, BinStep, FloatArray
 LIMIT = 51
 """Most bins of a selection: as many as the paper's expert took (4.4 B)."""
 
-CLIMB_MAPS = 120
-"""Maps that the climb may make: 5 CPU seconds for 280 shapes. docs/bins-search.md says what more would bring."""
+CLIMB_MAPS = 300
+"""Maps that the climb may make: 15 CPU seconds for 280 shapes. docs/bins-search.md says what more would bring."""
 
 SPREAD_SEEDS = 5
 """Maps of the result with other seeds than the climb's."""

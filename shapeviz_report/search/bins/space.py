@@ -146,7 +146,13 @@ def hits_of_additions(
 
 def hits_of(squared: FloatArray, rows: npt.NDArray[np.intp], codes: Codes, k: int) -> FloatArray:
     """NH of the shapes ``rows`` by distances ``squared`` (m, m); (len(rows),)."""
-    return hits_of_additions(np.zeros((1, len(squared))), squared, rows, codes, k)[0]
+    own = squared[rows]
+    own[np.arange(len(rows)), rows] = np.inf
+    last = np.partition(own, k - 1, axis=1)[:, k - 1, None]
+    same = codes[rows][:, None] == codes
+    nearer, tied = own < last, own == last
+    places = k - nearer.sum(axis=1)
+    return ((nearer & same).sum(axis=1) + places * (tied & same).sum(axis=1) / tied.sum(axis=1)) / k
 
 
 def lay_out(squared: FloatArray, seed: int) -> FloatArray:

@@ -14,7 +14,7 @@ from shapeviz_report.types import BinSelection
 
 @pytest.fixture(scope="module")
 def selection(planted) -> BinSelection:
-    return select_bins(planted.space, planted.labels)
+    return select_bins(planted.space, planted.labels, limit=6)
 
 
 def test_planted_bins_are_found(selection) -> None:
@@ -46,7 +46,7 @@ def test_the_order_of_shapes_does_not_matter(planted, selection) -> None:
     order = np.random.default_rng(1).permutation(48)
     labels = [planted.labels[i] for i in order]
     space = make_bin_space(make_table(planted.table.values[order]), PRESETS["default"], labels)
-    other = select_bins(space, labels)
+    other = select_bins(space, labels, limit=6)
     assert [step.bins for step in other.path] == [step.bins for step in selection.path]
     assert [step.nh_s for step in other.path] == [step.nh_s for step in selection.path]
     assert (other.path[-1].xy == selection.path[-1].xy[order]).all()
