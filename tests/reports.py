@@ -205,6 +205,14 @@ def with_models(report: Report) -> Report:
     return replace(report, models=tuple(models))
 
 
+def with_external(report: Report) -> Report:
+    """The report with a feature of two values a shape that was brought along, and that no search has seen."""
+    table = report.features
+    values = np.random.default_rng(0).normal(0, 1, (len(table.values), 2))
+    blocks = (*table.blocks, FeatureBlock("own", 2, 1))
+    return replace(report, features=FeatureTable(table.shape_ids, blocks, np.hstack([table.values, values])))
+
+
 def with_bins(report: Report, bins: tuple[str, ...]) -> Report:
     """The report as if its maps, which stay as they are, were of these bins only."""
     features = features_of(report.features, bins)

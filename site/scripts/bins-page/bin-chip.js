@@ -25,7 +25,7 @@ export class BinChips {
         type: "button",
         class: added ? "bin-chip added" : "bin-chip",
         "data-column": column,
-        onclick: () => this.look(column),
+        onclick: () => this.look(column, group),
         onpointerenter: (event) => event.pointerType === "mouse" && show(event),
         onpointerleave: () => this.card.hide(),
         onfocus: (event) => event.currentTarget.matches(":focus-visible") && show(event),

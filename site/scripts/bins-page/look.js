@@ -14,14 +14,17 @@ export class Look {
     this.paintings = document.getElementById("paintings");
     this.legend = new Legend(selection);
     this.choice = document.getElementById("bin-choice");
-    this.choice.addEventListener("change", () => state.set({ bin: Number(this.choice.value) }));
+    this.choice.addEventListener("change", () => {
+      const [bin, group] = this.choice.value.split(" ").map(Number);
+      state.set({ bin, group: group >= 0 ? group : null });
+    });
     new Finder("bin", {
       find: (text) => bins.find(text),
       label: (column) => [hue(bins, column), element("bdi", {}, bins.names[column]), " ", element("span", { class: "quiet" }, bins.features[bins.featureOf(column)].title)],
-      choose: (column) => state.set({ bin: column }),
+      choose: (column) => state.set({ bin: column, group: null }),
     });
     state.listen((changed) => {
-      if (changed.has("bin") || changed.has("theme")) this.render();
+      if (["bin", "group", "theme"].some((name) => changed.has(name))) this.render();
     });
   }
 
@@ -38,16 +41,17 @@ export class Look {
   /** The bins of this page in a list: those of each class, and those that separate all. */
   #offer(column) {
     const { model, bins, selection } = this;
-    const groups = selection.minimal.map(({ group, sets }) => [`separate ${model.className(group)}`, [...new Set(sets.flatMap((found) => found.bins))]]);
-    if (selection.path.length > 0) groups.push(["separate all classes", selection.path.at(-1).bins]);
-    const known = groups.some(([, columns]) => columns.includes(column));
-    const option = (value) => element("option", { value }, bins.names[value]);
+    const lists = selection.minimal.map(({ group, sets }) => [group, model.className(group), [...new Set(sets.flatMap((found) => found.bins))]]);
+    if (selection.path.length > 0) lists.push([-1, "all classes", selection.path.at(-1).bins]);
+    const group = this.state.get("group") ?? -1;
+    const known = lists.some(([own, , columns]) => own === group && columns.includes(column));
+    const option = (value, own) => element("option", { value: `${value} ${own}` }, bins.names[value]);
     this.choice.replaceChildren(
-      ...(known ? [] : [option(column)]),
-      ...groups.map(([label, columns]) => element("optgroup", { label }, columns.map(option))),
+      ...(known ? [] : [option(column, group)]),
+      ...lists.map(([own, name, columns]) => element("optgroup", { label: `separate ${name}` }, columns.map((value) => option(value, own)))),
     );
-    this.choice.value = String(column);
-    this.choice.closest("label").hidden = groups.length === 0;
+    this.choice.value = `${column} ${group}`;
+    this.choice.closest("label").hidden = lists.length === 0;
   }
 
   #tell(column) {
@@ -55,7 +59,9 @@ export class Look {
     const feature = bins.features[bins.featureOf(column)];
     const end = bins.binOf(column) < feature.bins / 2 ? ["Low values mean ", feature.lowMeans] : ["High values mean ", feature.highMeans];
     const measured = bins.isShare(column) && feature.measures !== "";
-    card.know({ scores: new Float64Array(bins.count).fill(NaN), scorer: "", separated: [], others: [...model.sizes.keys()].sort((a, b) => a - b) });
+    const group = this.state.get("group");
+    const groups = [...model.sizes.keys()].sort((a, b) => a - b);
+    card.know({ scores: new Float64Array(bins.count).fill(NaN), scorer: "", separated: groups.filter((other) => other === group), others: groups.filter((other) => other !== group) });
     return [
       element("h3", {}, hue(bins, column), element("bdi", {}, bins.names[column])),
       element("p", { class: "sentence" }, bins.sentence(column)),
@@ -70,23 +76,39 @@ export class Look {
     const { bins, card, model } = this;
     if (!model.separable) return [];
     const told = bins.isShare(column) ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
-    const rows = card.rows(column);
+    const rows = card.rows(column).sort((a, b) => b.median - a.median || b.mean - a.mean);
     const [most, ...rest] = rows;
     const least = rest.at(-1);
     const name = (row) => element("bdi", {}, row.name);
-    if (most.median === least.median) return [`In every class half of the shapes have ${told(most.median)} of it or less.`];
+    const contrast = this.#contrast(rows, told, name);
+    if (contrast !== null) return contrast;
+    if (told(most.median) === told(least.median)) return [`All classes have the same of it: half of their shapes have ${told(most.median)} or more.`];
     const next = rest.slice(0, -1).slice(0, 2);
     return [
-      "The class ", name(most), ` has most of it: half of its shapes have more than ${told(most.median)}. `,
+      "The class ", name(most), ` has most of it: half of its shapes have ${told(most.median)} or more. `,
       ...(next.length > 0 ? ["Next ", next.length > 1 ? "come " : "comes ", ...next.flatMap((row, place) => [place > 0 ? " and " : "", name(row), ` with ${told(row.median)}`]), ". "] : []),
       "Least of it has ", name(least), `, with ${told(least.median)}.`,
+    ];
+  }
+
+  /** For the bin of a class: how it sets this class apart from the others, and from its nearest. */
+  #contrast(rows, told, name) {
+    const own = this.selection.minimal.find(({ group }) => group === this.state.get("group"));
+    if (own === undefined) return null;
+    const named = (group) => rows.find((row) => row.name === this.model.className(group));
+    const [row, rival] = [named(own.group), named(own.other)];
+    const rank = rows.indexOf(row);
+    const place = rank === 0 ? " has most of it of all classes: " : rank === rows.length - 1 ? " has least of it of all classes: " : ": ";
+    return [
+      "The class ", name(row), place, `half of its shapes have ${told(row.median)} or more. Of `, name(rival), `, its nearest class on the Overview, half have ${told(rival.median)} or more.`,
+      ...(rank > 0 ? [" Most of it has ", name(rows[0]), `, with ${told(rows[0].median)}.`] : []),
     ];
   }
 
   #paint(column) {
     const { bins, model, selection } = this;
     if (!bins.isShare(column)) return [element("p", { class: "notice" }, "This feature was brought along: it has one value a shape, and none on the surface, so there is nothing to paint.")];
-    const own = selection.paintings.filter((painting) => painting.column === column).slice(0, MOST_PICTURED);
+    const own = pictured(selection, model, column, this.state.get("group"));
     if (own.length === 0) {
       return [element("p", { class: "quiet" }, selection.models === null ? "No pictures were drawn of this bin." : "No pictures were drawn of this bin beforehand; the 3D view shows it on any shape.")];
     }
@@ -101,6 +123,15 @@ export class Look {
       ),
     );
   }
+}
+
+/** The pictures of a bin; of one that separates a class, those that show this contrast. */
+export function pictured({ paintings, minimal }, model, column, group) {
+  const own = paintings.filter((painting) => painting.column === column);
+  const other = minimal.find((separated) => separated.group === group)?.other;
+  const order = (painting) => [group, other].indexOf(model.groups[painting.shape]);
+  const contrast = own.filter((painting) => order(painting) >= 0).sort((a, b) => order(a) - order(b));
+  return (contrast.length > 0 ? contrast : own).slice(0, MOST_PICTURED);
 }
 
 /** Class, and how much of the bin: what stands above a picture of a shape. */

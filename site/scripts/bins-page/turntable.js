@@ -5,7 +5,7 @@ import { element } from "../dom.js";
 import { unpackModel } from "../viewer/model.js";
 import { canDraw, View } from "../viewer/view.js";
 import { Finder } from "./finder.js";
-import { dimensionOf, shapeLine } from "./look.js";
+import { dimensionOf, pictured, shapeLine } from "./look.js";
 import { Plot } from "./plot.js";
 
 const KEPT = 8;
@@ -22,7 +22,7 @@ export class Turntable {
     this.#watchShapes();
     this.#makePick();
     state.listen((changed) => {
-      if (["bin", "shape", "reading"].some((name) => changed.has(name))) this.render();
+      if (["bin", "group", "shape", "reading"].some((name) => changed.has(name))) this.render();
       if (changed.has("theme")) this.pick.draw();
     });
   }
@@ -32,7 +32,7 @@ export class Turntable {
     const [shape, bin] = [this.state.get("shape"), this.state.get("bin")];
     if (shape === "least") return this.#extreme(bin, -1);
     if (shape === "most") return this.#extreme(bin, 1);
-    return shape ?? this.selection.paintings.find(({ column }) => column === bin)?.shape ?? this.#extreme(bin, 1);
+    return shape ?? pictured(this.selection, this.model, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1);
   }
 
   #extreme(column, sign) {

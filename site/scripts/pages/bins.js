@@ -24,13 +24,13 @@ async function main() {
   const announce = (text) => {
     live.textContent = text;
   };
-  const first = selection.minimal.length > 0 ? chooseSet(selection.minimal[0].sets, "fewest").bins[0] : 0;
+  const first = firstBin(selection);
   const state = new State({ ...readBinsAddress(model, bins, selection, first), theme: currentTheme() });
   const card = new BinCard(bins, model);
   const chips = new BinChips(bins, card, state, {
-    look: (bin) => {
+    look: (bin, group) => {
       card.hide();
-      state.set({ bin });
+      state.set({ bin, group });
       goToLook();
     },
   });
@@ -46,13 +46,19 @@ async function main() {
     goToLook();
   });
   state.listen((changed) => {
-    if (!["size", "step", "bin", "shape", "reading"].some((name) => changed.has(name))) return;
-    clearTimeout(main.writing);
-    main.writing = setTimeout(() => writeBinsAddress(model, bins, selection, state, first), 250);
+    if (["size", "step", "bin", "group", "shape", "reading"].some((name) => changed.has(name))) writeBinsAddress(model, bins, selection, state, first);
   });
   window.addEventListener("hashchange", () => state.set(readBinsAddress(model, bins, selection, first)));
   watchTheme(() => state.set({ theme: currentTheme() }));
   document.documentElement.dataset.ready = "";
+}
+
+/** The bin to look at first, and its class: one that separates a class alone, if any does, the best of these. */
+function firstBin({ minimal }) {
+  const found = minimal.map(({ group, sets }) => ({ group, ...chooseSet(sets, "fewest") }));
+  if (found.length === 0) return { bin: 0, group: null };
+  const best = found.reduce((a, b) => (b.bins.length - a.bins.length || a.nh - b.nh) < 0 ? b : a);
+  return { bin: best.bins[0], group: best.group };
 }
 
 function goToLook() {
