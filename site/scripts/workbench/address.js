@@ -7,6 +7,9 @@ import { EVERY_CLASS } from "./separation.js";
 
 const PROJECTIONS = ["tsne", "umap"];
 
+/** Its best bins make the best maps, on shapes that had no say too (docs/scorers.md). */
+export const DEFAULT_SCORER = "rfe";
+
 export function readWorkAddress(model, data) {
   const query = new URLSearchParams(window.location.hash.slice(1));
   const groups = new Map(model.classes.map((name, group) => [name, group]));
@@ -22,7 +25,7 @@ export function readWorkAddress(model, data) {
     features,
     bins: new Set(bins),
     projection: PROJECTIONS.includes(query.get("map")) ? query.get("map") : PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0],
-    scorer: scorers.includes(query.get("scorer")) ? query.get("scorer") : scorers.includes("trees") ? "trees" : scorers[0],
+    scorer: scorers.includes(query.get("scorer")) ? query.get("scorer") : DEFAULT_SCORER,
     separation: {
       from: query.has("separate") ? new Set(named("separate")) : EVERY_CLASS.from,
       against: query.has("from") ? new Set(named("from")) : EVERY_CLASS.against,
@@ -62,7 +65,7 @@ export function workAddress(model, data, state) {
   if (features.size < data.features.length) query.set("features", joinNames([...features].sort((a, b) => a - b).map((index) => data.features[index].name)));
   if (!isSame(state.get("bins"), data.bins ?? [])) query.set("bins", shortNames(state.get("bins"), data.features));
   if (state.get("projection") !== (PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0])) query.set("map", state.get("projection"));
-  if (state.get("scorer") !== "trees") query.set("scorer", state.get("scorer"));
+  if (state.get("scorer") !== DEFAULT_SCORER) query.set("scorer", state.get("scorer"));
   const { from, against, each } = state.get("separation");
   const names = (name, groups) => {
     for (const group of groups) query.append(name, model.classes[group]);

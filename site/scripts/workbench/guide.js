@@ -3,6 +3,7 @@
 import { ranked } from "../bin-list.js";
 import { element, swatch } from "../dom.js";
 import { count, figure } from "../words.js";
+import { DEFAULT_SCORER } from "./address.js";
 import { difference } from "./figures.js";
 import { EVERY_CLASS } from "./separation.js";
 
@@ -92,7 +93,7 @@ export class Guide {
       () => ({
         words: ["Each bar below is one bin: the share of a surface within a small range of a feature. Its height can say how well this share alone tells ", ...pair, " apart."],
         action: "Score the bins for that",
-        todo: () => act.ask({ scorer: "trees", separation: { from: new Set([one]), against: new Set([other]), each: true } }),
+        todo: () => act.ask({ scorer: DEFAULT_SCORER, separation: { from: new Set([one]), against: new Set([other]), each: true } }),
       }),
       () => ({
         words: settled("scores") ? this.#bestBin() : waiting("scores", "Scoring …"),
