@@ -6,8 +6,8 @@
 0.905
 
 The stages can be used on their own: ``database.read_database``, ``mesh.prepare``, ``descriptors.DESCRIPTORS``,
-``features.compute_histograms``, ``projections.project``, ``quality.score``, ``render.render_thumbnail``,
-``site.write_site``.
+``features.compute_histograms``, ``projections.project``, ``quality.score``, ``search.bins.select_bins``,
+``render.render_thumbnail``, ``models.simplify``, ``site.write_site``.
 """
 
 from __future__ import annotations
