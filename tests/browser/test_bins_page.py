@@ -237,7 +237,20 @@ def test_what_cannot_be_shown_is_said(bins, site, tmp_path):
     complaints[:] = [line for line in complaints if "ERR_FILE_NOT_FOUND" not in line]
 
 
-@pytest.mark.parametrize("name", ["plain", "no labels", "one shape", "nasty", "one class"])
+def test_a_browser_without_3d_says_so(browser, site):
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    without = browser.browser_type.launch(
+        executable_path=chromium, args=["--no-sandbox", "--disable-3d-apis"]
+    )
+    page = without.new_page()
+    page.goto(f"{site('bins').as_uri()}/bins.html")
+    page.wait_for_selector("#stage .empty")
+    assert "WebGL 2 is missing" in page.locator("#stage .empty").inner_text()
+    assert page.locator("#show-3d").count() == 0
+    without.close()
+
+
+@pytest.mark.parametrize("name", ["no labels", "one shape", "nasty", "one class"])
 def test_without_a_search_or_3d_data_every_bin_can_still_be_read(bins, name):
     page = bins(name)
     assert page.locator(".bins-page > .notice").is_visible()

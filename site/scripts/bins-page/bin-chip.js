@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 
-const LONGEST = 24;
+const LONGEST = 18;
 
 export class BinChips {
   constructor(bins, card, state, { look }) {
@@ -40,7 +40,7 @@ export class BinChips {
 
   #show(column, group, node) {
     const { model } = this.card;
-    const groups = [...model.sizes.keys()].sort((a, b) => a - b);
+    const groups = model.labelled ? [...model.sizes.keys()].sort((a, b) => a - b) : [];
     this.card.know({
       scores: this.#none,
       scorer: "",

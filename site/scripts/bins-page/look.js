@@ -6,6 +6,7 @@ import { Finder } from "./finder.js";
 import { Legend } from "./legend.js";
 
 const MOST_PICTURED = 4;
+const LONGEST = 32;
 
 export class Look {
   constructor(model, bins, selection, state, card) {
@@ -45,7 +46,7 @@ export class Look {
     if (selection.path.length > 0) lists.push([-1, "all classes", selection.path.at(-1).bins]);
     const group = this.state.get("group") ?? -1;
     const known = lists.some(([own, , columns]) => own === group && columns.includes(column));
-    const option = (value, own) => element("option", { value: `${value} ${own}` }, bins.names[value]);
+    const option = (value, own) => element("option", { value: `${value} ${own}` }, bins.shortName(value, LONGEST));
     this.choice.replaceChildren(
       ...(known ? [] : [option(column, group)]),
       ...lists.map(([own, name, columns]) => element("optgroup", { label: `separate ${name}` }, columns.map((value) => option(value, own)))),
@@ -60,7 +61,7 @@ export class Look {
     const end = bins.binOf(column) < feature.bins / 2 ? ["Low values mean ", feature.lowMeans] : ["High values mean ", feature.highMeans];
     const measured = bins.isShare(column) && feature.measures !== "";
     const group = this.state.get("group");
-    const groups = [...model.sizes.keys()].sort((a, b) => a - b);
+    const groups = model.labelled ? [...model.sizes.keys()].sort((a, b) => a - b) : [];
     card.know({ scores: new Float64Array(bins.count).fill(NaN), scorer: "", separated: groups.filter((other) => other === group), others: groups.filter((other) => other !== group) });
     return [
       element("h3", {}, hue(bins, column), element("bdi", {}, bins.names[column])),

@@ -2,7 +2,7 @@
 
 import { calm, element, svg } from "../dom.js";
 import { Labels } from "../labels.js";
-import { symbol } from "../workbench/figures.js";
+import { difference, symbol } from "../workbench/figures.js";
 import { count, figure } from "../words.js";
 import { mapOf, Plot } from "./plot.js";
 
@@ -138,12 +138,11 @@ export class PathPlayer {
     const before = this.steps[place - 1];
     this.plot.show(this.maps[place], { travel });
     document.getElementById("step-title").textContent = `Step ${place + 1} of ${this.steps.length}`;
-    const change = before ? step.nh - before.nh : null;
-    const shown = change === null ? null : figure(Math.abs(change));
+    const change = before ? difference(step.nh - before.nh) : null;
     document.getElementById("step-nh").replaceChildren(
       symbol(),
       element("output", { class: "value" }, figure(step.nh)),
-      ...(change === null ? [] : [element("span", { class: `change ${change < 0 ? "worse" : "better"}` }, `${shown === "0.000" ? "±" : change < 0 ? "−" : "+"}${shown}`)]),
+      ...(change === null ? [] : [element("span", { class: `change ${{ "+": "better", "−": "worse" }[change[0]] ?? ""}`, title: "Against the step before" }, change)]),
     );
     document.getElementById("step-change").replaceChildren(...this.#changes(step));
     document.getElementById("step-bins-title").textContent = `${count(step.bins.length, "bin")} in use`;

@@ -40,7 +40,7 @@ async function main() {
   new Look(model, bins, selection, state, card).render();
   new Turntable(model, bins, selection, state, announce).start();
   watchTables(() => binsTables(model, bins, selection, state, card));
-  document.querySelector(".lead a").addEventListener("click", (event) => {
+  document.querySelector(".lead a")?.addEventListener("click", (event) => {
     // The address holds the state of the view, not a place on the page.
     event.preventDefault();
     goToLook();

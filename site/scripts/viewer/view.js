@@ -38,7 +38,9 @@ out vec4 shown;
 void main() {
   vec3 normal = normalize(facing);
   vec3 viewer = normalize(vec3(0.0, 0.0, ${DISTANCE.toFixed(1)} * radius) - place);
-  if (dot(normal, viewer) < 0.0) normal = -normal;
+  if (!gl_FrontFacing) normal = -normal;
+  // Where the surface turns away, a smoothed normal may already point behind it.
+  normal = normalize(normal - min(dot(normal, viewer), 0.0) * viewer);
   float key = max(0.0, (dot(normal, vec3(-0.48, 0.62, 0.62)) + 0.25) / 1.25);
   float fill = max(0.0, dot(normal, vec3(0.80, 0.10, 0.59)));
   float sky = 0.5 + 0.5 * normal.y;

@@ -62,6 +62,17 @@ def test_all_features_are_judged_by_their_own_map_where_the_site_shows_another(r
     assert chosen == pytest.approx(mean_over_folds(report.bins.held_out, "nh_s_all"), abs=1e-6)
 
 
+def test_every_dimension_has_its_words_and_the_values_between_its_bins(report) -> None:
+    dimensions = selection(report)["dimensions"]
+    assert len(dimensions) == len(report.edges)
+    assert dimensions[0]["unit"] == "radians"
+    np.testing.assert_allclose(dimensions[0]["edges"], report.edges[0])
+    # Shares are told in percent.
+    assert dimensions[1]["unit"] == "%"
+    np.testing.assert_allclose(dimensions[1]["edges"], 100 * report.edges[1])
+    assert len({dimension["quantity"] for dimension in dimensions}) == len(dimensions)
+
+
 def test_paintings_and_models_are_named_by_what_they_hold(report, tmp_path) -> None:
     write_site(report, tmp_path)
     found = selection(report)
