@@ -10,7 +10,7 @@ const PACE = 900;
 const THUMBNAIL = 64;
 
 export class PathPlayer {
-  constructor(model, selection, bins, state, chips, { open, announce }) {
+  constructor(model, selection, bins, state, chips, { open, pointing, choose, announce }) {
     Object.assign(this, { model, selection, bins, state, chips, open, announce });
     this.steps = selection.path;
     this.maps = this.steps.map((step) => mapOf(step, selection, model.count));
@@ -23,7 +23,7 @@ export class PathPlayer {
     document.querySelector(".player").addEventListener("keydown", (event) => this.#key(event));
     // Nothing plays where nobody looks.
     document.addEventListener("visibilitychange", () => document.hidden && this.pause());
-    this.#makeMap();
+    this.#makeMap(pointing, choose);
     state.listen((changed) => {
       if (changed.has("theme")) this.start();
       else if (changed.has("step")) this.#render({ travel: true });
@@ -67,7 +67,7 @@ export class PathPlayer {
     this.button.hidden = calm() || this.steps.length < 2;
   }
 
-  #makeMap() {
+  #makeMap(pointing, choose) {
     const { model } = this;
     const surface = document.getElementById("step-surface");
     const overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
@@ -97,6 +97,7 @@ export class PathPlayer {
       },
     });
     surface.append(this.plot.node, overlay);
+    pointing.watch(surface, this.plot, choose);
   }
 
   get #radius() {

@@ -9,10 +9,9 @@ import { dimensionOf, pictured, shapeLine } from "./look.js";
 import { Plot } from "./plot.js";
 
 const KEPT = 8;
-const REACH = 24;
 
 export class Turntable {
-  constructor(model, bins, selection, state, announce) {
+  constructor(model, bins, selection, state, { pointing, announce }) {
     Object.assign(this, { model, bins, selection, state, announce });
     this.stage = document.getElementById("stage");
     this.name = document.getElementById("turn-name");
@@ -20,7 +19,7 @@ export class Turntable {
     this.asked = false;
     this.#watchReadings();
     this.#watchShapes();
-    this.#makePick();
+    this.#makePick(pointing);
     state.listen((changed) => {
       if (["bin", "group", "shape", "reading"].some((name) => changed.has(name))) this.render();
       if (changed.has("theme")) this.pick.draw();
@@ -181,7 +180,7 @@ export class Turntable {
   }
 
   /** The map of all shapes, on which one can be pointed at; large marks have much of the bin. */
-  #makePick() {
+  #makePick(pointing) {
     const { model } = this;
     this.pick = new Plot(model, {
       margin: 14,
@@ -195,20 +194,7 @@ export class Turntable {
     });
     const surface = document.getElementById("pick-surface");
     surface.append(this.pick.node);
-    const reading = document.querySelector(".pick figcaption p");
-    const hint = reading.textContent;
-    const at = (event) => this.pick.at(event.offsetX, event.offsetY, REACH);
-    surface.addEventListener("pointermove", (event) => {
-      const index = at(event);
-      reading.textContent = index === null ? hint : `${model.names[index]}${model.labelled ? `, ${model.className(model.groups[index])}` : ""}`;
-    });
-    surface.addEventListener("pointerleave", () => {
-      reading.textContent = hint;
-    });
-    surface.addEventListener("click", (event) => {
-      const index = at(event);
-      if (index !== null) this.state.set({ shape: index });
-    });
+    pointing.watch(surface, this.pick, (shape) => this.state.set({ shape }));
   }
 
   /** How much of the bin a shape has, from 0 for the least to 1 for the most of all shapes. */

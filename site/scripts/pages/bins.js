@@ -8,6 +8,7 @@ import { binsTables } from "../bins-page/bins-tables.js";
 import { chooseSet, ClassCards } from "../bins-page/class-cards.js";
 import { Look } from "../bins-page/look.js";
 import { PathPlayer } from "../bins-page/path-player.js";
+import { Pointing } from "../bins-page/pointing.js";
 import { Turntable } from "../bins-page/turntable.js";
 import { chunk } from "../chunks.js";
 import { calm } from "../dom.js";
@@ -34,11 +35,16 @@ async function main() {
       goToLook();
     },
   });
+  const pointing = new Pointing(model);
+  const choose = (shape) => {
+    state.set({ shape });
+    goToLook();
+  };
   const open = (columns) => workbenchAddress(columns, data.features);
   if (selection.minimal.length > 0) new ClassCards(model, selection, state, chips, { open }).render();
-  if (selection.path.length > 0) new PathPlayer(model, selection, bins, state, chips, { open, announce }).start();
+  if (selection.path.length > 0) new PathPlayer(model, selection, bins, state, chips, { open, pointing, choose, announce }).start();
   new Look(model, bins, selection, state, card).render();
-  new Turntable(model, bins, selection, state, announce).start();
+  new Turntable(model, bins, selection, state, { pointing, announce }).start();
   watchTables(() => binsTables(model, bins, selection, state, card));
   document.querySelector(".lead a")?.addEventListener("click", (event) => {
     // The address holds the state of the view, not a place on the page.
