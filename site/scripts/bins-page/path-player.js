@@ -65,6 +65,7 @@ export class PathPlayer {
     this.button.textContent = this.timer ? "Pause" : "Play";
     // For who asks for less movement, a step is one press; nothing moves by itself.
     this.button.hidden = calm() || this.steps.length < 2;
+    document.getElementById("space-plays").hidden = this.button.hidden;
   }
 
   #makeMap(pointing, choose) {
