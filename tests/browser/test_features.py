@@ -418,3 +418,10 @@ class TestPhone:
         page.touchscreen.tap(*place_on_screen(page, 8, 15))
         drawn_again(page)
         assert value(page) == f"{subsets_of(site('searched'))[8]['nh_s']:.3f}"
+
+
+def test_the_names_of_the_features_stand_beside_their_rows(open_page):
+    page = open_page("searched", "features.html")
+    names, rows = (page.locator(f".plot {part}").bounding_box() for part in (".sides", ".scroll"))
+    assert names["x"] + names["width"] <= rows["x"] + 1
+    assert abs(names["y"] - rows["y"]) < 1

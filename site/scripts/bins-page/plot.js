@@ -23,7 +23,7 @@ export class Plot {
    */
   constructor(model, { mark, first = () => false, margin = 8, label = null, drawn = () => {} }) {
     Object.assign(this, { model, mark, first, margin, drawn });
-    this.node = element("canvas", { class: "plot", role: label === null ? null : "img", "aria-label": label, "aria-hidden": label === null ? "true" : null });
+    this.node = element("canvas", { class: "few-plot", role: label === null ? null : "img", "aria-label": label, "aria-hidden": label === null ? "true" : null });
     this.pen = this.node.getContext("2d");
     this.map = null;
     new ResizeObserver(() => this.draw()).observe(this.node);
