@@ -195,7 +195,7 @@ export class View {
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     const side = Math.min(width, height);
     // The ball, seen from the eye, fills the shorter side.
-    const lens = (Math.sqrt(DISTANCE ** 2 - 1) * (1 - 2 * MARGIN) * this.zoom);
+    const lens = Math.sqrt(DISTANCE ** 2 - 1) * (1 - 2 * MARGIN) * this.zoom;
     const at = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, width, height);
     gl.clearColor(0, 0, 0, 0);
