@@ -91,7 +91,7 @@ def read_facts(prepared: bytes) -> ShapeFacts:
         note = json.loads(str(archive["note"]))
     if "refused" in note:
         raise MeshError(note["refused"])
-    return ShapeFacts(**note["facts"])
+    return ShapeFacts(**note["facts"] | {"extents": tuple(note["facts"]["extents"])})
 
 
 def sample_shape(prepared: bytes, count: int) -> bytes:
@@ -283,8 +283,8 @@ class Stage:
 
 _READERS = ("numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml")
 
-EXAMINE = Stage("examined", examine_shape, ("mesh", "types"), _READERS)
-PREPARE = Stage("prepared", prepare_shape, ("mesh", "types"), ("mmgpy", *_READERS))
+EXAMINE = Stage("examined", examine_shape, ("mesh", "types.mesh"), _READERS)
+PREPARE = Stage("prepared", prepare_shape, ("mesh", "types.mesh"), ("mmgpy", *_READERS))
 SAMPLE = Stage("sampled", sample_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
 DESCRIBE = Stage(
     "described",
@@ -298,7 +298,7 @@ PAINT = Stage("painted", paint_shape, ("render", "descriptors", "features"), _PA
 _PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
 PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
 SEARCH = Stage("searched", map_features, ("search.space", "projections"), _PROJECTORS)
-SELECT = Stage("selected", search_bins, ("search.bins", "projections", "quality", "types"), _PROJECTORS)
+SELECT = Stage("selected", search_bins, ("search.bins", "projections", "quality", "types.bins"), _PROJECTORS)
 SCORE = Stage("scored", score_bins, ("scorers",), ("numba", "numpy", "scipy", "scikit-learn"))
 GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "scipy"))
 

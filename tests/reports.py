@@ -234,6 +234,9 @@ def _facts(index: int) -> ShapeFacts:
         watertight=index % 5 != 0,
         repairs={"duplicate faces removed": 4} if index % 3 == 0 else {},
         deviation=0.0012,
+        area=6.0 + index,
+        volume=1.0 + index / 7 if index % 5 != 0 else None,
+        extents=(1.0, 2.0, 0.5 + index),
     )
 
 

@@ -72,6 +72,7 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
             f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}; its parts "
             "may be thinner than an edge, or lie apart far off"
         )
+    watertight = is_watertight(cleaned.faces)
     facts = ShapeFacts(
         sha256=content_hash(collect_files(path)),
         faces_read=len(original.faces),
@@ -79,9 +80,12 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
         faces=len(remeshed.faces),
         vertices=len(remeshed.vertices),
         components=count_components(len(remeshed.vertices), remeshed.faces),
-        watertight=is_watertight(cleaned.faces),
+        watertight=watertight,
         repairs=repairs,
         deviation=distance,
+        area=surface_area(cleaned),
+        volume=enclosed_volume(cleaned) if watertight else None,
+        extents=tuple((cleaned.vertices.max(axis=0) - cleaned.vertices.min(axis=0)).tolist()),
     )
     return normalise(remeshed), facts
 
@@ -103,6 +107,32 @@ def normalise(mesh: Mesh) -> Mesh:
     """
     centred = mesh.vertices - mesh.vertices.mean(axis=0)
     return Mesh(centred / np.linalg.norm(centred, axis=1).max(), mesh.faces)
+
+
+def surface_area(mesh: Mesh) -> float:
+    """The area of a surface, in the squared units of its vertices."""
+    a, b, c = (mesh.vertices[mesh.faces[:, corner]] for corner in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
+
+
+def enclosed_volume(mesh: Mesh) -> float:
+    """The volume inside a closed surface: of the tetrahedra that its faces span with one point, with their signs.
+
+    Parts that are oriented apart, such as a hollow's wall, count as they are oriented.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Watertight.
+
+    Returns
+    -------
+    float
+        In the cubed units of its vertices; at least 0.
+    """
+    # From its own middle: far from the origin the signed parts would be large, and cancel badly.
+    a, b, c = (mesh.vertices[mesh.faces[:, corner]] - mesh.vertices.mean(axis=0) for corner in range(3))
+    return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6))
 
 
 def deviation(before: Mesh, after: Mesh) -> float:

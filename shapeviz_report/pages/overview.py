@@ -142,6 +142,9 @@ def _details(report: Report) -> dict[str, object]:
                 "components": facts.components,
                 "watertight": facts.watertight,
                 "deviation": facts.deviation,
+                "area": facts.area,
+                "volume": facts.volume,
+                "extents": list(facts.extents),
             }
             for shape, facts in zip(report.shapes, report.facts, strict=True)
         ],

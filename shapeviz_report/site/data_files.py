@@ -219,6 +219,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
             *(f"metadata:{column}" for column in columns),
             *(f"nh:{method}" for method in methods),
             *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
+            *("area", "volume", "extent_x", "extent_y", "extent_z"),
             *("repairs", "sha256"),
         ]
     ]
@@ -240,6 +241,9 @@ def _shape_rows(report: Report) -> list[list[str]]:
                 ),
                 "true" if facts.watertight else "false",
                 _number(facts.deviation),
+                _number(facts.area),
+                "" if facts.volume is None else _number(facts.volume),
+                *map(_number, facts.extents),
                 json_text(dict(facts.repairs)) if facts.repairs else "",
                 facts.sha256,
             ]

@@ -67,11 +67,21 @@ def test_prepared_file(tmp_path) -> None:
     assert (facts.faces_read, facts.watertight, facts.components) == (12, True, 1)
     assert facts.faces == len(mesh.faces)
     assert facts.deviation < 0.01
+    assert (facts.area, facts.volume) == (pytest.approx(22), pytest.approx(6))
+    assert facts.extents == pytest.approx((3, 2, 1))
     # Its sharp edges survive: the corners of the box are where they were.
     corners = np.array(np.meshgrid([-1.5, 1.5], [-1, 1], [-0.5, 0.5])).reshape(3, -1).T
     scale = np.linalg.norm(corners[0])
     gaps = np.linalg.norm(mesh.vertices[:, None] - corners / scale, axis=2).min(axis=0)
     assert gaps.max() < 0.03
+
+
+def test_an_open_surface_has_no_volume(tmp_path) -> None:
+    path = tmp_path / "lid.off"
+    trimesh.Trimesh([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]).export(path)
+    _, facts = prepare(path, 0.03)
+    assert (facts.watertight, facts.volume) == (False, None)
+    assert (facts.area, facts.extents) == (pytest.approx(2), pytest.approx((2, 1, 0)))
 
 
 def test_preparing_is_deterministic(tmp_path) -> None:

@@ -1,0 +1,63 @@
+"""The data that flows from stage to stage: frozen dataclasses, checked where they are made.
+
+``Database`` of ``ShapeEntry`` -> ``Mesh`` -> per-vertex descriptors -> ``FeatureTable`` -> ``Projection``
+-> ``Quality`` -> pages. A ``Failure`` travels beside them to the About page.
+"""
+
+from shapeviz_report.types.arrays import FloatArray, IntArray
+from shapeviz_report.types.bins import (
+    BinScores,
+    BinSearch,
+    BinSelection,
+    BinStep,
+    HeldOutBins,
+    MinimalBins,
+    MinimalSet,
+    Painting,
+)
+from shapeviz_report.types.database import Database, Failure, ShapeEntry
+from shapeviz_report.types.features import FeatureBlock, FeatureTable
+from shapeviz_report.types.maps import Projection, Quality
+from shapeviz_report.types.mesh import Mesh, ShapeFacts
+from shapeviz_report.types.report import Report
+from shapeviz_report.types.search import (
+    FeatureEffect,
+    FeatureSearch,
+    GreedySearch,
+    GreedyStep,
+    HeldOutFold,
+    SearchRow,
+    SeedSpread,
+    SubsetScores,
+)
+
+__all__ = [
+    "BinScores",
+    "BinSearch",
+    "BinSelection",
+    "BinStep",
+    "Database",
+    "Failure",
+    "FeatureBlock",
+    "FeatureEffect",
+    "FeatureSearch",
+    "FeatureTable",
+    "FloatArray",
+    "GreedySearch",
+    "GreedyStep",
+    "HeldOutBins",
+    "HeldOutFold",
+    "IntArray",
+    "Mesh",
+    "MinimalBins",
+    "MinimalSet",
+    "Painting",
+    "Projection",
+    "Quality",
+    "Report",
+    "SearchRow",
+    "SeedSpread",
+    "ShapeEntry",
+    "ShapeFacts",
+    "SubsetScores",
+]

@@ -1,0 +1,217 @@
+"""Scores of bins, what a search for bins found, and how bins look."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from shapeviz_report.types.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class BinScores:
+    """How well every bin separates every class from the rest (paper, 4.3).
+
+    Attributes
+    ----------
+    methods : tuple of str
+        Names of the scorers.
+    classes : tuple of str
+        Sorted by name.
+    values : (methods, classes, columns) float32 array
+        Relative scores in [0, 1]: the best bin of a method and class has 1, and all have 0 where none tells the
+        class from the rest. Columns as in the feature table.
+    """
+
+    methods: tuple[str, ...]
+    classes: tuple[str, ...]
+    values: npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class BinStep:
+    """A place on the path of the automatic selection of bins.
+
+    Attributes
+    ----------
+    bins : tuple of str
+        The chosen ones, in the order of the columns.
+    added, removed : tuple of str
+        What changed against the step before.
+    nh_space : float
+        NH_s of the shapes in the space of the bins.
+    nh_s : float
+        NH_s of their t-SNE map.
+    xy : (m, 2) float32 array
+        The map, as in :class:`Projection`, turned towards that of the step before.
+    """
+
+    bins: tuple[str, ...]
+    added: tuple[str, ...]
+    removed: tuple[str, ...]
+    nh_space: float
+    nh_s: float
+    xy: npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class BinSelection:
+    """A small set of bins whose map separates all classes, and how it was found (paper, 4.4 B, Fig. 7).
+
+    Attributes
+    ----------
+    seed : int
+        Of the maps.
+    k : int
+        Of the neighbourhood hit.
+    rows : (m,) int32 array
+        The shapes that took part, as rising rows of the feature table.
+    shape_count : int
+        Of the table. More than ``m`` if the search went over a sample.
+    path : tuple of BinStep
+        From one bin to the result. Up to where ``nh_s`` of the map takes over from ``nh_space``, the latter rises;
+        from there on the former does. Empty if there are not two classes.
+    nh_s_other_seeds : FloatArray
+        NH_s of maps of the result with seeds that had no say in it.
+    cpu_seconds : float
+    """
+
+    seed: int
+    k: int
+    rows: IntArray
+    shape_count: int
+    path: tuple[BinStep, ...]
+    nh_s_other_seeds: FloatArray
+    cpu_seconds: float
+
+    @property
+    def bins(self) -> tuple[str, ...]:
+        """The result."""
+        return self.path[-1].bins if self.path else ()
+
+    @property
+    def nh_s(self) -> float:
+        """NH_s of its map; NaN without one."""
+        return self.path[-1].nh_s if self.path else float("nan")
+
+
+@dataclass(frozen=True)
+class HeldOutBins:
+    """Selecting bins without some shapes, then scoring these.
+
+    Attributes
+    ----------
+    bins : tuple of str
+        What the other shapes select.
+    shapes : int
+        Number held out.
+    nh_s_seen : float
+        NH_s of the map of the other shapes, at which the selection stopped.
+    nh_space, nh_s : float
+        Mean NH of the held-out shapes among all, in the space of the bins and on their map.
+    nh_s_all : float
+        The same on the map of all features.
+    knn_accuracy, knn_accuracy_all : float
+        Share of the held-out shapes that their k nearest others recognise, by the bins and by all features.
+    """
+
+    bins: tuple[str, ...]
+    shapes: int
+    nh_s_seen: float
+    nh_space: float
+    nh_s: float
+    nh_s_all: float
+    knn_accuracy: float
+    knn_accuracy_all: float
+
+
+@dataclass(frozen=True)
+class MinimalSet:
+    """The bins of one number that separate a class best.
+
+    Attributes
+    ----------
+    bins : tuple of str
+        In the order of the columns.
+    nh_c_space, nh_c : float
+        NH_c of the class in the space of the bins, and on their t-SNE map.
+    xy : (m, 2) float32 array
+        The map, as in :class:`Projection`.
+    """
+
+    bins: tuple[str, ...]
+    nh_c_space: float
+    nh_c: float
+    xy: npt.NDArray[np.float32]
+
+
+@dataclass(frozen=True)
+class MinimalBins:
+    """The fewest bins that separate a class from the rest (paper, 4.4 A, Fig. 6).
+
+    Attributes
+    ----------
+    label : str
+        The class.
+    rows : (m,) int32 array
+        The shapes that took part, as rising rows of the feature table.
+    sets : tuple of MinimalSet
+        Of 1, 2, ... bins.
+    """
+
+    label: str
+    rows: IntArray
+    sets: tuple[MinimalSet, ...]
+
+    def fewest(self, nh_c: float) -> MinimalSet:
+        """The smallest set that reaches an NH_c in the space of the bins and on the map; else the best one."""
+        reached = (found for found in self.sets if min(found.nh_c_space, found.nh_c) >= nh_c)
+        return next(reached, max(self.sets, key=lambda found: min(found.nh_c_space, found.nh_c)))
+
+
+@dataclass(frozen=True)
+class BinSearch:
+    """The search for bins (paper, 4.4), and what its result is worth.
+
+    Attributes
+    ----------
+    automatic : BinSelection
+    held_out : tuple of HeldOutBins
+        The automatic selection repeated without each part of the shapes in turn.
+    shuffled : tuple of HeldOutBins
+        The same for labels dealt out at random, anew for each of a few parts.
+    chance : float
+        NH_s that labels without meaning reach on average.
+    minimal : tuple of MinimalBins
+        Of every class of at least two shapes, by name.
+    """
+
+    automatic: BinSelection
+    held_out: tuple[HeldOutBins, ...]
+    shuffled: tuple[HeldOutBins, ...]
+    chance: float
+    minimal: tuple[MinimalBins, ...]
+
+
+@dataclass(frozen=True)
+class Painting:
+    """A bin painted on a shape (paper, Fig. 8). Square WebP images with transparent background.
+
+    Attributes
+    ----------
+    column : str
+        The bin.
+    shape : int
+        Row of the feature table.
+    value : bytes
+        The descriptor's value at every vertex, by its place among the ten bins.
+    inside : bytes
+        The vertices whose value falls into the bin, against the others.
+    """
+
+    column: str
+    shape: int
+    value: bytes
+    inside: bytes

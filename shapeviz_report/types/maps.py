@@ -1,0 +1,58 @@
+"""Maps of the database, and how well they keep classes together."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from shapeviz_report.types.arrays import FloatArray
+
+
+@dataclass(frozen=True)
+class Projection:
+    """A map of the database.
+
+    Attributes
+    ----------
+    method : str
+        ``tsne``, ``umap`` or ``pca``.
+    features : tuple of str
+        The features it was made from.
+    seed : int
+    xy : (n, 2) float64 array
+        One point a shape, in the order of the feature table. Centred, and scaled by one factor into [-1, 1]^2.
+    bins : tuple of str or None
+        The bins it was made from; None for all bins of its features.
+    """
+
+    method: str
+    features: tuple[str, ...]
+    seed: int
+    xy: FloatArray
+    bins: tuple[str, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Neighbourhood hit of a projection (paper, Eq. 7 and 8), in [0, 1], higher is better separated.
+
+    Attributes
+    ----------
+    k : int
+        Number of neighbours; at most the number of shapes less one.
+    nh : (n,) float64 array
+        Per shape; NaN where the shape has no label or no neighbour.
+    nh_c : mapping of str to float
+        Per class, by falling value, then by name. Empty without labels.
+    nh_s : float or None
+        Of the whole database; None without labels.
+    null_mean, null_std : float or None
+        What random labels with the same class sizes reach on the same map.
+    """
+
+    k: int
+    nh: FloatArray
+    nh_c: Mapping[str, float]
+    nh_s: float | None
+    null_mean: float | None
+    null_std: float | None

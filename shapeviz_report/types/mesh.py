@@ -1,0 +1,67 @@
+"""A mesh, and what was measured of a shape."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from shapeviz_report.types.arrays import FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A triangle mesh.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64 array
+        Positions; finite.
+    faces : (m, 3) int32 array
+        Vertex indices, counter-clockwise seen from outside.
+    """
+
+    vertices: FloatArray
+    faces: IntArray
+
+
+@dataclass(frozen=True)
+class ShapeFacts:
+    """What was measured of one prepared shape.
+
+    Attributes
+    ----------
+    sha256 : str
+        Of the mesh file's content.
+    faces_read, vertices_read : int
+        As the file has them.
+    faces, vertices : int
+        After remeshing.
+    components : int
+        Connected parts of the prepared mesh.
+    watertight : bool
+        Whether every edge of the cleaned mesh has two faces.
+    repairs : mapping of str to int
+        What was mended and how often, for instance ``{"duplicate faces removed": 4}``; empty if nothing was.
+    deviation : float
+        Largest distance found between the input surface and the prepared one, as a fraction of the
+        bounding-box diagonal.
+    area : float
+        Of the cleaned surface, in the file's units squared.
+    volume : float or None
+        That it encloses, in the file's units cubed; None if it is not watertight.
+    extents : (float, float, float)
+        Sizes of its bounding box along x, y and z, in the file's units.
+    """
+
+    sha256: str
+    faces_read: int
+    vertices_read: int
+    faces: int
+    vertices: int
+    components: int
+    watertight: bool
+    repairs: Mapping[str, int]
+    deviation: float
+    area: float
+    volume: float | None
+    extents: tuple[float, float, float]
