@@ -120,6 +120,13 @@ def _sorted_edges(faces: IntArray) -> IntArray:
     return np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
 
 
+def bounding_diagonal(mesh: Mesh) -> float:
+    """The diagonal of the bounding box of all faces with finite coordinates, in which :func:`clean` measures."""
+    corners = mesh.vertices[mesh.faces]
+    extent = np.ptp(corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3), axis=0)
+    return float(extent.max() * np.linalg.norm(extent / extent.max()))
+
+
 def _in_diagonals(vertices: FloatArray) -> FloatArray:
     """Measure positions (n, 3) from the lowest corner of their bounding box, in units of its diagonal.
 

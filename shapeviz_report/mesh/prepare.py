@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 from trimesh.triangles import closest_point
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.clean import clean, count_components, is_watertight
+from shapeviz_report.mesh.clean import bounding_diagonal, clean, count_components, is_watertight
 from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
 from shapeviz_report.mesh.remesh import affordable_edge_length, remesh, surface_size
 from shapeviz_report.types import FloatArray, IntArray, Mesh, ShapeFacts
@@ -72,6 +72,7 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
             f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}; its parts "
             "may be thinner than an edge, or lie apart far off"
         )
+    unit = bounding_diagonal(original)
     watertight = is_watertight(cleaned.faces)
     facts = ShapeFacts(
         sha256=content_hash(collect_files(path)),
@@ -83,9 +84,9 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
         watertight=watertight,
         repairs=repairs,
         deviation=distance,
-        area=surface_area(cleaned),
-        volume=enclosed_volume(cleaned) if watertight else None,
-        extents=tuple((cleaned.vertices.max(axis=0) - cleaned.vertices.min(axis=0)).tolist()),
+        area=_in_units_of_file(surface_area(cleaned), unit, 2),
+        volume=_in_units_of_file(enclosed_volume(cleaned), unit, 3) if watertight else None,
+        extents=tuple((np.ptp(cleaned.vertices, axis=0) * unit).tolist()),
     )
     return normalise(remeshed), facts
 
@@ -133,6 +134,13 @@ def enclosed_volume(mesh: Mesh) -> float:
     # From its own middle: far from the origin the signed parts would be large, and cancel badly.
     a, b, c = (mesh.vertices[mesh.faces[:, corner]] - mesh.vertices.mean(axis=0) for corner in range(3))
     return abs(float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6))
+
+
+def _in_units_of_file(value: float, unit: float, power: int) -> float | None:
+    """None where the number would be out of range."""
+    with np.errstate(over="ignore"):
+        result = float(value * np.float64(unit) ** power)
+    return result if np.isfinite(result) else None
 
 
 def deviation(before: Mesh, after: Mesh) -> float:

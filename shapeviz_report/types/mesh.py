@@ -45,10 +45,10 @@ class ShapeFacts:
     deviation : float
         Largest distance found between the input surface and the prepared one, as a fraction of the
         bounding-box diagonal.
-    area : float
-        Of the cleaned surface, in the file's units squared.
+    area : float or None
+        Of the cleaned surface, in the file's units squared; None if that is out of range.
     volume : float or None
-        That it encloses, in the file's units cubed; None if it is not watertight.
+        That it encloses, in the file's units cubed; None if it is not watertight, or out of range.
     extents : (float, float, float)
         Sizes of its bounding box along x, y and z, in the file's units.
     """
@@ -62,6 +62,6 @@ class ShapeFacts:
     watertight: bool
     repairs: Mapping[str, int]
     deviation: float
-    area: float
+    area: float | None
     volume: float | None
     extents: tuple[float, float, float]

@@ -84,6 +84,18 @@ def test_an_open_surface_has_no_volume(tmp_path) -> None:
     assert (facts.area, facts.extents) == (pytest.approx(2), pytest.approx((2, 1, 0)))
 
 
+def test_a_volume_out_of_range_is_unknown(tmp_path) -> None:
+    box = trimesh.creation.box(extents=(3, 2, 1))
+    lines = [
+        *("v {}e120 {}e120 {}e120".format(*v) for v in box.vertices),
+        *("f {} {} {}".format(*f) for f in box.faces + 1),
+    ]
+    path = tmp_path / "huge.obj"
+    path.write_text("\n".join(lines))
+    _, facts = prepare(path, 0.05)
+    assert (facts.volume, facts.area) == (None, pytest.approx(22e240))
+
+
 def test_preparing_is_deterministic(tmp_path) -> None:
     path = tmp_path / "a.off"
     trimesh.creation.torus(0.7, 0.3).export(path)
