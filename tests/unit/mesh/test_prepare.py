@@ -92,7 +92,7 @@ def test_a_volume_out_of_range_is_unknown(tmp_path) -> None:
     ]
     path = tmp_path / "huge.obj"
     path.write_text("\n".join(lines))
-    _, facts = prepare(path, 0.05)
+    _, facts = prepare(path, 0.02)
     assert (facts.volume, facts.area) == (None, pytest.approx(22e240))
 
 
