@@ -16,6 +16,7 @@ class AboutPage:
     name = "about"
     title = "About"
     file = "about.html"
+    within = None
 
     def content(self, report: Report) -> PageContent:
         return PageContent(

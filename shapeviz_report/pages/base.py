@@ -48,11 +48,14 @@ class Page(Protocol):
         In the navigation.
     file : str
         File name in the site.
+    within : str or None
+        Name of the page through which this one is reached; None for a page that the navigation lists.
     """
 
     name: str
     title: str
     file: str
+    within: str | None
 
     def content(self, report: Report) -> PageContent:
         """Compute everything the page shows; the template only lays it out."""

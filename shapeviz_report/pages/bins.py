@@ -31,6 +31,7 @@ class BinsPage:
     name = "bins"
     title = "Bins"
     file = "bins.html"
+    within = None
 
     def content(self, report: Report) -> PageContent:
         return PageContent(

@@ -34,6 +34,7 @@ class FeaturesPage:
     name = "features"
     title = "Features"
     file = "features.html"
+    within = None
 
     def content(self, report: Report) -> PageContent:
         search = report.search

@@ -20,6 +20,7 @@ class OverviewPage:
     name = "overview"
     title = "Overview"
     file = "index.html"
+    within = None
 
     def content(self, report: Report) -> PageContent:
         classes = class_names(report)

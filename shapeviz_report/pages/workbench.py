@@ -24,6 +24,7 @@ class WorkbenchPage:
     name = "workbench"
     title = "Workbench"
     file = "workbench.html"
+    within = None
 
     def content(self, report: Report) -> PageContent:
         classes = class_names(report)

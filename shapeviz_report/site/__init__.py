@@ -51,6 +51,9 @@ STYLES = (
     "workbench.css",
     "bin-chart.css",
     "bins.css",
+    "shapes.css",
+    "shape.css",
+    "compare.css",
     "about.css",
 )
 

@@ -1,7 +1,8 @@
 // The state of the view in the address, so that a link reproduces it. Shapes and classes by name, not by number:
 // a link stays good when the database grows.
 
-const LARGEST_SELECTION = 60;
+import { pageAddress, readHash, replaceHash } from "./place.js";
+import { readSelection, writeSelection } from "./selection.js";
 
 /** Names of features as one word list; spaces in a name are written so that they do not part it. */
 export function joinNames(names) {
@@ -15,7 +16,7 @@ export function splitNames(text, features) {
 }
 
 export function readAddress(model) {
-  const query = new URLSearchParams(window.location.hash.slice(1));
+  const query = readHash();
   const method = model.methods.findIndex(({ key }) => key === query.get("map"));
   const known = (name) => query.getAll(name).map((id) => model.indexOfId.get(id)).filter((index) => index !== undefined);
   const groups = new Map(model.classes.map((name, group) => [name, group]));
@@ -29,7 +30,7 @@ export function readAddress(model) {
     features: subsets ? splitNames(query.get("features"), subsets.features) : [],
     view: ["class", "hit", "thumbnail"].includes(query.get("view")) ? query.get("view") : "class",
     hidden: new Set(hidden),
-    selection: new Set(known("select")),
+    selection: readSelection(query, model),
     opened: known("open")[0] ?? null,
     query: query.get("find") ?? "",
     camera: camera.length === 3 && camera.every(Number.isFinite) ? { x: camera[0], y: camera[1], zoom: camera[2] } : null,
@@ -46,19 +47,17 @@ export function writeAddress(model, state) {
     if (group < 0) query.set("hide-unlabelled", "");
     else query.append("hide", model.classes[group]);
   }
-  if (state.get("selection").size <= LARGEST_SELECTION) {
-    for (const index of state.get("selection")) query.append("select", model.ids[index]);
-  }
+  writeSelection(query, model, state.get("selection"));
   if (state.get("opened") !== null) query.set("open", model.ids[state.get("opened")]);
   if (state.get("query") !== "") query.set("find", state.get("query"));
   const camera = state.get("camera");
   if (camera) query.set("at", [camera.x, camera.y, camera.zoom].map((value) => Number(value.toPrecision(5))).join(","));
-  write(query);
+  replaceHash(query);
 }
 
 /** The Features page: the chosen subset, the greedy path, the colours of the map. */
 export function readFeaturesAddress(subsets) {
-  const query = new URLSearchParams(window.location.hash.slice(1));
+  const query = readHash();
   const sizes = subsets.data.greedy.map(({ s }) => s);
   const s = Number(query.get("s"));
   return {
@@ -74,15 +73,10 @@ export function writeFeaturesAddress(subsets, state) {
   const sizes = subsets.data.greedy.map(({ s }) => s);
   if (state.get("s") !== (sizes[0] ?? null)) query.set("s", state.get("s") ?? "none");
   if (state.get("color") !== "class") query.set("color", state.get("color"));
-  write(query);
+  replaceHash(query);
 }
 
 /** The address of a subset's map on the Overview. */
 export function overviewAddress(names) {
-  return `index.html#${new URLSearchParams({ features: joinNames(names) })}`;
-}
-
-function write(query) {
-  const hash = query.toString();
-  window.history.replaceState(null, "", hash === "" ? window.location.pathname + window.location.search : `#${hash}`);
+  return pageAddress("index.html", { features: joinNames(names) });
 }

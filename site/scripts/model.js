@@ -1,5 +1,7 @@
 // The shapes, classes and projections of the database, as the views ask for them.
 
+import { resource } from "./place.js";
+
 export class Model {
   constructor(data, theme) {
     this.data = data;
@@ -50,7 +52,7 @@ export class Model {
   }
 
   picture(index) {
-    return `thumbnails/${this.data.shapes.pictures[index]}`;
+    return resource(`thumbnails/${this.data.shapes.pictures[index]}`);
   }
 
   className(group) {

@@ -128,7 +128,7 @@ def open_page(browser, site) -> Iterator[Callable[..., Page]]:
         page = watched(context.new_page())
         watches.append(page.watch)
         page.goto(address or f"{site(name).as_uri()}/{file}")
-        if file.startswith(("index.html", "features.html", "workbench.html", "bins.html")):
+        if not file.startswith("about.html"):
             page.wait_for_selector("html[data-ready]", state="attached")
         return page
 

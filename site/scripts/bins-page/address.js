@@ -1,5 +1,6 @@
 // What the Bins page shows, in its address.
 
+import { pageAddress, readHash, replaceHash } from "../place.js";
 import { shortNames } from "../workbench/bin-names.js";
 
 const SIZES = ["fewest", "1", "2", "3"];
@@ -8,7 +9,7 @@ const ENDS = ["most", "least"];
 
 /** `first` is the bin that is looked at unless the address names one, and the class that it is to separate. */
 export function readBinsAddress(model, bins, selection, first) {
-  const query = new URLSearchParams(window.location.hash.slice(1));
+  const query = readHash();
   const bin = bins.names.indexOf(query.get("bin"));
   const group = model.classes.indexOf(query.get("of"));
   const last = Math.max(selection.path.length - 1, 0);
@@ -36,11 +37,10 @@ export function writeBinsAddress(model, bins, selection, state, first) {
   if (ENDS.includes(shape)) query.set("shape", shape);
   else if (shape !== null) query.set("id", model.ids[shape]);
   if (state.get("reading") !== READINGS[0]) query.set("reading", state.get("reading"));
-  const hash = query.toString();
-  window.history.replaceState(null, "", hash === "" ? window.location.pathname + window.location.search : `#${hash}`);
+  replaceHash(query);
 }
 
 /** Where the Workbench shows the map of some bins. */
 export function workbenchAddress(columns, features) {
-  return `workbench.html#${new URLSearchParams({ bins: shortNames(columns, features), map: "tsne" })}`;
+  return pageAddress("workbench.html", { bins: shortNames(columns, features), map: "tsne" });
 }

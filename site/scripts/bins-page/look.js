@@ -2,6 +2,7 @@
 
 import { percent } from "../bin-card.js";
 import { element, swatch } from "../dom.js";
+import { resource } from "../place.js";
 import { Finder } from "./finder.js";
 import { Legend } from "./legend.js";
 
@@ -119,7 +120,7 @@ export class Look {
         { type: "button", class: "painting", "data-shape": shape, title: `${model.names[shape]}: show in the 3D view`, onclick: () => this.state.set({ shape }) },
         element("span", { class: "whose" }, shapeLine(model, bins, column, shape)),
         [["value", value, "its values in colours"], ["in the bin", inside, "what falls into the bin"]].map(([word, address, alt]) =>
-          element("span", { class: "reading" }, element("img", { src: address, alt: `${model.names[shape]}, ${alt}`, width: 320, height: 320, decoding: "async" }), element("i", {}, word)),
+          element("span", { class: "reading" }, element("img", { src: resource(address), alt: `${model.names[shape]}, ${alt}`, width: 320, height: 320, decoding: "async" }), element("i", {}, word)),
         ),
       ),
     );

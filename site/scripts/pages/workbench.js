@@ -10,6 +10,7 @@ import { Gestures } from "../gestures.js";
 import { LiveScene } from "../live-scene.js";
 import { MapView } from "../map.js";
 import { Model } from "../model.js";
+import { pushHash, replaceHash } from "../place.js";
 import { State } from "../state.js";
 import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
@@ -134,9 +135,9 @@ async function main() {
         map.start();
       }
     }
-    if (["projection", "scorer", "separation", "sample", "color"].some((name) => changed.has(name)) && !desk.arriving) window.history.replaceState(null, "", workAddress(model, data, state));
+    if (["projection", "scorer", "separation", "sample", "color"].some((name) => changed.has(name)) && !desk.arriving) replaceHash(workAddress(model, data, state));
     // Every step is a place that the browser's way back leads to, unless it has just led here.
-    if (changed.has("step") && !desk.arriving) window.history.pushState(null, "", workAddress(model, data, state));
+    if (changed.has("step") && !desk.arriving) pushHash(workAddress(model, data, state));
   });
   window.addEventListener("hashchange", () => desk.arrive(readWorkAddress(model, data)));
   watchTheme(() => {

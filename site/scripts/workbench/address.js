@@ -1,6 +1,7 @@
 // The work in the address: a link, and a reload, bring back the same maps and the same figures.
 
 import { joinNames, splitNames } from "../address.js";
+import { readHash } from "../place.js";
 import { isSame } from "./answers.js";
 import { readShortNames, shortNames } from "./bin-names.js";
 import { EVERY_CLASS } from "./separation.js";
@@ -11,7 +12,7 @@ const PROJECTIONS = ["tsne", "umap"];
 export const DEFAULT_SCORER = "rfe";
 
 export function readWorkAddress(model, data) {
-  const query = new URLSearchParams(window.location.hash.slice(1));
+  const query = readHash();
   const groups = new Map(model.classes.map((name, group) => [name, group]));
   const named = (name) => query.getAll(name).map((label) => groups.get(label)).filter((group) => group !== undefined);
   const known = splitNames(query.get("features"), data.features.map(({ name }) => name));
@@ -50,6 +51,7 @@ function featureOf(column, data) {
   return data.features.findLastIndex(({ start }) => start <= column);
 }
 
+/** The parameters of the work's address. */
 export function workAddress(model, data, state) {
   const query = new URLSearchParams();
   const hidden = state.get("hidden");
@@ -76,6 +78,5 @@ export function workAddress(model, data, state) {
   if (!each) query.set("together", "");
   if (state.get("sample")) query.set("sample", "");
   if (state.get("color") !== "class") query.set("color", state.get("color"));
-  const hash = query.toString();
-  return hash === "" ? window.location.pathname + window.location.search : `#${hash}`;
+  return query;
 }

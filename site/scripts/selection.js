@@ -1,0 +1,36 @@
+// The selected shapes in an address. Few stand there by name, so that a link stays good when the database grows; many
+// as one bit a shape, with a mark of the database that the bits belong to.
+
+const MOST_NAMED = 40;
+
+/** Add a selection to the parameters of an address. */
+export function writeSelection(query, model, selection) {
+  if (selection.size === 0) return;
+  if (selection.size <= MOST_NAMED) for (const index of selection) query.append("select", model.ids[index]);
+  else query.set("selected", `${mark(model)}.${packed(model, selection)}`);
+}
+
+/** The selection that an address names; shapes that are no longer there are left out. */
+export function readSelection(query, model) {
+  const named = query.getAll("select").map((id) => model.indexOfId.get(id)).filter((index) => index !== undefined);
+  const [whose, bits] = (query.get("selected") ?? "").split(".");
+  return new Set(bits !== undefined && whose === mark(model) ? unpacked(model, bits) : named);
+}
+
+function packed(model, selection) {
+  const bytes = new Uint8Array(Math.ceil(model.count / 8));
+  for (const index of selection) bytes[index >> 3] |= 1 << (index & 7);
+  return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+}
+
+function unpacked(model, text) {
+  const bytes = /^[\w-]*$/.test(text) ? atob(text.replaceAll("-", "+").replaceAll("_", "/")) : "";
+  return [...Array(model.count).keys()].filter((index) => (bytes.charCodeAt(index >> 3) >> (index & 7)) & 1);
+}
+
+/** FNV-1a of all ids. */
+function mark(model) {
+  let hash = 0x811c9dc5;
+  for (const id of model.ids) for (const letter of `${id}\n`) hash = Math.imul(hash ^ letter.codePointAt(0), 0x01000193);
+  return (hash >>> 0).toString(36);
+}
