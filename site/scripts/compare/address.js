@@ -1,0 +1,63 @@
+// The two groups of the Compare page in its address, each by name: a link stays good when the database grows.
+
+import { pageAddress } from "../place.js";
+import { readSelection, writeSelection } from "../selection.js";
+
+/**
+ * The address of the Compare page with two groups beside each other. A group is one of
+ *
+ * - `{ kind: "class", group }`, a class by its number
+ * - `{ kind: "cluster", name }`
+ * - `{ kind: "search", text }`, the shapes that a search finds
+ * - `{ kind: "shapes", shapes }`, a set of shapes by their numbers
+ * - `{ kind: "rest" }`, all shapes that the other group does not have.
+ */
+export function compareAddress(model, a, b) {
+  const query = new URLSearchParams();
+  writeGroups(query, model, a, b);
+  return pageAddress("compare.html", query);
+}
+
+/** Add two groups to the parameters of an address. */
+export function writeGroups(query, model, a, b) {
+  writeGroup(query, model, "a", a);
+  writeGroup(query, model, "b", b);
+}
+
+/** The groups that an address names, `{ a, b }`; null for one that it does not name, or that is no longer there. */
+export function readCompareAddress(query, model) {
+  const [a, b] = [readGroup(query, model, "a"), readGroup(query, model, "b")];
+  if (a !== null || query.has("a")) return { a, b };
+  // The selection that came along from another page.
+  const shapes = readSelection(query, model);
+  return { a: shapes.size > 0 ? { kind: "shapes", shapes } : null, b };
+}
+
+function writeGroup(query, model, name, group) {
+  if (group.kind === "class") query.set(name, `class:${model.classes[group.group]}`);
+  else if (group.kind === "cluster") query.set(name, `cluster:${group.name}`);
+  else if (group.kind === "search") query.set(name, `search:${group.text}`);
+  else query.set(name, group.kind);
+  if (group.kind !== "shapes") return;
+  const own = new URLSearchParams();
+  writeSelection(own, model, group.shapes);
+  for (const [key, value] of own) query.append(`${name}-${key}`, value);
+}
+
+function readGroup(query, model, name) {
+  const text = query.get(name) ?? "";
+  const [kind, rest] = [text.split(":", 1)[0], text.slice(text.indexOf(":") + 1)];
+  if (kind === "rest") return { kind };
+  if (kind === "shapes") {
+    const own = new URLSearchParams();
+    for (const [key, value] of query) if (key.startsWith(`${name}-`)) own.append(key.slice(name.length + 1), value);
+    const shapes = readSelection(own, model);
+    return shapes.size > 0 ? { kind, shapes } : null;
+  }
+  if (kind === "class") {
+    const group = model.classes.indexOf(rest);
+    return group >= 0 ? { kind, group } : null;
+  }
+  if (kind === "cluster") return { kind, name: rest };
+  return kind === "search" && rest !== "" ? { kind, text: rest } : null;
+}
