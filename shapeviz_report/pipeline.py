@@ -33,7 +33,7 @@ from shapeviz_report.features import (
     quantile_edges,
     scale,
 )
-from shapeviz_report.mesh import collect_files, content_hash
+from shapeviz_report.mesh import collect_files
 from shapeviz_report.projections import PROJECTIONS, align, squared_distances
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
@@ -187,7 +187,7 @@ def build_report(
 
         def plan_preparing(shape: str) -> _Task:
             files = collect_files(paths[shape])
-            key = stages.PREPARE.key(_identity(paths[shape], files), config.edge_length)
+            key = stages.PREPARE.key(stages.identify(paths[shape], files), config.edge_length)
             return _Task(key, lambda: (files, config.edge_length))
 
         prepared = run("prepare", stages.PREPARE, paths, plan_preparing, stages.read_facts)
@@ -326,7 +326,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
 
         def plan(shape: str) -> _Task:
             files = collect_files(paths[shape])
-            return _Task(stages.EXAMINE.key(_identity(paths[shape], files)), lambda: (files,))
+            return _Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
 
         examined = run("check", stages.EXAMINE, paths, plan, stages.read_repairs)
     repairs = {shape: result.value for shape, result in examined.items()}
@@ -475,11 +475,6 @@ class _Runner:
                 take(name, key, outcome.value, outcome.cpu_seconds)
             else:
                 drop(name, outcome.reason, outcome.cpu_seconds)
-
-
-def _identity(path: Path, files: Mapping[str, bytes]) -> str:
-    """What of a mesh file decides how it is read: its format and its content."""
-    return f"{path.suffix.lower()} {content_hash(files)}"
 
 
 def _project(

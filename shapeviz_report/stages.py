@@ -22,8 +22,8 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report import demo
 from shapeviz_report.cache import code_version, make_key
 from shapeviz_report.errors import MeshError
-from shapeviz_report.features import describe, find_bins, measure, sample_values
-from shapeviz_report.mesh import clean, prepare, read_mesh
+from shapeviz_report.features import compute_histograms, describe, find_bins, measure, sample_values
+from shapeviz_report.mesh import clean, content_hash, prepare, read_mesh
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import (
@@ -109,6 +109,11 @@ def describe_shape(prepared: bytes, view: FloatArray, edges: FloatArray, by_area
     return _pack_arrays(features=features, model=np.frombuffer(packed, np.uint8))
 
 
+def measure_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
+    """The features of a prepared shape alone, for :func:`read_array`."""
+    return _pack_array(compute_histograms(_unpack(prepared), edges, by_area=by_area))
+
+
 def read_features(described: bytes) -> FloatArray:
     """The (1870,) features in a result of :func:`describe_shape`."""
     return _read_arrays(described)["features"]
@@ -120,7 +125,8 @@ def read_model(described: bytes) -> bytes:
 
 
 def read_array(content: bytes) -> FloatArray:
-    """The array in a result of :func:`sample_shape`, :func:`project_features` or :func:`score_bins`."""
+    """The array in a result of :func:`sample_shape`, :func:`measure_shape`, :func:`project_features` or
+    :func:`score_bins`."""
     return np.load(io.BytesIO(content), allow_pickle=False)
 
 
@@ -281,6 +287,11 @@ class Stage:
         return make_key(*inputs, self.version)
 
 
+def identify(path: Path, files: Mapping[str, bytes]) -> str:
+    """What of a mesh file decides how it is read: its format and its content."""
+    return f"{path.suffix.lower()} {content_hash(files)}"
+
+
 _READERS = ("numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml")
 
 EXAMINE = Stage("examined", examine_shape, ("mesh", "types.mesh"), _READERS)
@@ -292,6 +303,7 @@ DESCRIBE = Stage(
     ("descriptors", "features", "models"),
     ("numba", "numpy", "scipy", "fast-simplification"),
 )
+MEASURE = Stage("measured", measure_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
 _PAINTERS = ("pillow", "pyrender-maintained", "PyOpenGL", "numpy", "scipy", "numba")
 RENDER = Stage("rendered", render_shape, ("render",), _PAINTERS)
 PAINT = Stage("painted", paint_shape, ("render", "descriptors", "features"), _PAINTERS)
