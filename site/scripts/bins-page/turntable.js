@@ -1,22 +1,20 @@
-// Any bin on any shape, to be turned. The 3D data of a shape is loaded when first asked for.
+// Any bin on any shape, to be turned.
 
 import { modelBytes } from "../chunks.js";
 import { element } from "../dom.js";
-import { unpackModel } from "../viewer/model.js";
-import { canDraw, View } from "../viewer/view.js";
+import { Paint } from "../viewer/paint.js";
+import { Stage } from "../viewer/stage.js";
 import { Finder } from "./finder.js";
 import { dimensionOf, pictured, shapeLine } from "./look.js";
 import { Plot } from "./plot.js";
 
-const KEPT = 8;
-
 export class Turntable {
   constructor(model, bins, selection, state, { pointing, announce }) {
     Object.assign(this, { model, bins, selection, state, announce });
-    this.stage = document.getElementById("stage");
+    const load = selection.models && ((index) => modelBytes(selection.models[index]));
+    this.stage = new Stage(document.getElementById("stage"), { model, load, keys: "turn-keys" });
+    this.paint = new Paint(selection);
     this.name = document.getElementById("turn-name");
-    this.colors = { ramp: selection.ramp.map(linear), clay: selection.clay, marked: selection.marked };
-    this.asked = false;
     this.#watchReadings();
     this.#watchShapes();
     this.#makePick(pointing);
@@ -51,105 +49,16 @@ export class Turntable {
     this.name.replaceChildren(...shapeLine(model, bins, bin, shape), element("span", { class: "quiet which" }, model.labelled ? model.names[shape] : ""));
     for (const end of ["most", "least"]) document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
     this.pick.draw();
-    const reason = this.#impossible(bin);
-    if (reason !== null) this.#say(shape, reason);
-    else if (this.asked) await this.#show(shape, bin);
-    else this.#offer(shape);
-  }
-
-  /** Why nothing can be painted, or null. */
-  #impossible(bin) {
-    if (!this.bins.isShare(bin)) return "This feature has no values on the surface.";
-    if (this.selection.models === null) return "This site was built without 3D data of its shapes (--no-meshes).";
-    this.capable ??= canDraw();
-    return this.capable ? null : "This browser cannot draw in 3D: WebGL 2 is missing or switched off.";
-  }
-
-  #say(shape, text) {
-    this.#clear(element("img", { src: this.model.picture(shape), alt: "", width: 320, height: 320 }), element("p", { class: "empty", role: "status" }, text));
-  }
-
-  #offer(shape) {
-    const show = () => {
-      this.asked = true;
-      this.focusing = true;
-      this.render();
-    };
-    this.#clear(
-      element("img", { src: this.model.picture(shape), alt: "", width: 320, height: 320 }),
-      element("button", { type: "button", class: "plain strong", id: "show-3d", onclick: show }, "Turn it in 3D"),
-    );
-  }
-
-  #clear(...nodes) {
-    this.view?.close();
-    this.view = null;
-    this.stage.replaceChildren(...nodes);
-    this.stage.removeAttribute("aria-busy");
-  }
-
-  async #show(shape, bin) {
-    const asked = (this.latest = Symbol("asked"));
-    this.stage.setAttribute("aria-busy", "true");
-    let solid;
-    try {
-      solid = await this.#load(shape);
-    } catch {
-      if (asked === this.latest) this.#say(shape, `There is no 3D data of ${this.model.names[shape]} in this site.`);
-      return;
-    }
-    // Another shape, or another bin, may have been asked for meanwhile.
-    if (asked !== this.latest) return;
-    this.#prepare();
-    const colors = this.#paint(solid, bin);
-    if (solid === this.solid) this.view.paint(colors);
-    else this.view.show(solid, colors);
-    this.solid = solid;
-    const { names } = this.bins;
-    const reading = this.state.get("reading") === "inside" ? "which points fall into" : "values of";
-    this.canvas.setAttribute("aria-label", `${this.model.names[shape]} in 3D, ${reading} ${names[bin]}`);
-    this.stage.removeAttribute("aria-busy");
-    this.announce(`${this.model.names[shape]}, ${names[bin]}`);
-  }
-
-  #prepare() {
-    if (this.view) return;
-    this.canvas = element("canvas", { tabindex: "0", role: "application", "aria-describedby": "turn-keys" });
-    const back = element("button", { type: "button", class: "plain back", hidden: true, onclick: () => this.view.reset() }, "First view");
-    this.stage.replaceChildren(this.canvas, back);
-    this.solid = null;
-    this.view = new View(this.canvas, {
-      turned: () => {
-        back.hidden = !this.view || (this.view.zoom === 1 && this.view.turn.every((value, place) => value === this.view.model.view[place]));
+    const inside = state.get("reading") === "inside";
+    const shown = await this.stage.show(shape, {
+      label: `${model.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
+      paint: (solid) => {
+        const dimension = dimensionOf(bin, bins);
+        return inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension);
       },
+      reason: bins.isShare(bin) ? null : "This feature has no values on the surface.",
     });
-    if (this.focusing) this.canvas.focus({ preventScroll: true });
-    this.focusing = false;
-  }
-
-  #models = new Map();
-
-  /** The models used last are kept; the others are loaded anew. */
-  async #load(shape) {
-    const known = this.#models.get(shape);
-    this.#models.delete(shape);
-    const solid = known ?? unpackModel(await modelBytes(this.selection.models[shape]));
-    this.#models.set(shape, solid);
-    if (this.#models.size > KEPT) this.#models.delete(this.#models.keys().next().value);
-    return solid;
-  }
-
-  #paint(solid, column) {
-    const { ramp, clay, marked } = this.colors;
-    const inside = this.state.get("reading") === "inside";
-    const place = this.bins.binOf(column);
-    const bins = solid.bins(dimensionOf(column, this.bins));
-    const colors = new Float32Array(3 * solid.vertexCount);
-    for (let vertex = 0; vertex < solid.vertexCount; vertex += 1) {
-      const color = inside ? (bins[vertex] === place ? marked : clay) : ramp[bins[vertex]];
-      colors.set(color, 3 * vertex);
-    }
-    return colors;
+    if (shown) this.announce(`${model.names[shape]}, ${bins.names[bin]}`);
   }
 
   #watchReadings() {
@@ -219,12 +128,4 @@ export class Turntable {
     pen.arc(x * dense, y * dense, 9 * dense, 0, 7);
     pen.stroke();
   }
-}
-
-/** "#rrggbb" as linear light. */
-function linear(code) {
-  return [1, 3, 5].map((at) => {
-    const value = Number.parseInt(code.slice(at, at + 2), 16) / 255;
-    return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
-  });
 }
