@@ -126,23 +126,44 @@ def explain_bins(table: FeatureTable, edges: FloatArray, *, by_area: bool) -> tu
     by_area : bool
         Whether histograms count surface or vertices.
     """
-    whole = "the surface" if by_area else "the vertices"
-    sentences, row = [], 0
+    whole = word_whole(by_area)
+    return tuple(
+        f"The value of {column}, a feature that was brought along."
+        if condition is None
+        else f"What share of {whole} lies where {condition}."
+        for column, condition in zip(table.columns, word_conditions(table, edges))
+    )
+
+
+def word_whole(by_area: bool) -> str:
+    """What histograms count, as it stands in "a share of"."""
+    return "the surface" if by_area else "the vertices"
+
+
+def word_conditions(table: FeatureTable, edges: FloatArray) -> tuple[str | None, ...]:
+    """Where the surface lies that every column counts, as it stands after "where"; None for external features.
+
+    Parameters
+    ----------
+    table : FeatureTable
+    edges : (d, 11) float array
+        As in :class:`~shapeviz_report.types.Report`.
+    """
+    conditions: list[str | None] = []
+    row = 0
     for block in table.blocks:
         if block.bins == 1:
-            sentences += [
-                f"The value of {column}, a feature that was brought along." for column in block.columns
-            ]
+            conditions += [None] * block.width
             continue
         descriptor = _DESCRIPTORS.get(block.name)
         for dimension in range(block.dimensions):
             quantity = descriptor.quantities[dimension] if descriptor else block.name
             unit = descriptor.unit if descriptor else ""
-            for place in range(block.bins):
-                span = _word_range(edges[row], place, unit)
-                sentences.append(f"What share of {whole} lies where {quantity} is {span}.")
+            conditions += [
+                f"{quantity} is {_word_range(edges[row], place, unit)}" for place in range(block.bins)
+            ]
             row += 1
-    return tuple(sentences)
+    return tuple(conditions)
 
 
 def _word_range(edges: FloatArray, place: int, unit: str) -> str:

@@ -1,4 +1,4 @@
-"""The stages of a build: read, prepare, render, describe, project, search, bins, select, paint, score, write."""
+"""The stages of a build, from reading a database to writing its site."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ import numpy as np
 from shapeviz_report import demo, stages
 from shapeviz_report.bins import features_of, read_bins, scale_bins
 from shapeviz_report.cache import Cache, default_root, write_atomically
+from shapeviz_report.clusters import Partition, describe_clusters
 from shapeviz_report.config import SEARCHES, Config
 from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.database import read_database
@@ -45,6 +46,7 @@ from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import (
     BinScores,
     BinSearch,
+    Clusters,
     Database,
     Failure,
     FeatureBlock,
@@ -69,6 +71,9 @@ SUBSETS_A_TASK = 16
 SHUFFLES = 2
 """Folds that also meet labels dealt out at random. With labels without meaning the search takes twice the time, and two
 folds of 56 shapes tell NH_s to 0.01."""
+
+CLUSTERS = "clusters"
+"""What the labeling is called that stands in for labels."""
 
 PAINTING_SIZE = 320
 """Width and height of a picture of a bin, in pixels."""
@@ -235,6 +240,11 @@ def build_report(
         scaled = scale(features, preset)
         labeling = database.labelings[0] if database.labelings else None
         labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)
+        stand_in = not any(label is not None for label in labels)
+        clusters = _cluster(run, shapes, features, scaled, edges, config, stand_in=stand_in)
+        if stand_in and clusters is not None:
+            labeling = CLUSTERS
+            labels = tuple(clusters.clusters[code].name for code in clusters.of)
         space = make_space(features, scaled, labels, seed=config.seed)
         mapped = scaled if bins is None else scale_bins(features, preset, bins)
         projections = _project(run, space, features, bins, mapped, config.seed)
@@ -282,6 +292,7 @@ def build_report(
         bins=found,
         paintings=paintings,
         models=models,
+        clusters=clusters,
     )
     with clock.stage("write"):
         write_site(report, destination)
@@ -475,6 +486,41 @@ class _Runner:
                 take(name, key, outcome.value, outcome.cpu_seconds)
             else:
                 drop(name, outcome.reason, outcome.cpu_seconds)
+
+
+def _cluster(
+    run: _Runner,
+    shapes: Sequence[ShapeEntry],
+    features: FeatureTable,
+    scaled: FloatArray,
+    edges: FloatArray,
+    config: Config,
+    *,
+    stand_in: bool,
+) -> Clusters | None:
+    """Groups of the shapes by their features alone, with names."""
+    found: list[Partition | None] = []
+    with run.clock.stage("cluster", 1) as step:
+
+        def plan(_: str) -> _Task:
+            content = sha256(scaled.tobytes()).hexdigest()
+            return _Task(
+                stages.CLUSTER.key(scaled.shape, content, config.seed), lambda: (scaled, config.seed)
+            )
+
+        def take(_: str, __: str, content: bytes, cpu_seconds: float) -> None:
+            found.append(stages.read_partition(content))
+            step(cpu_seconds)
+
+        def drop(_: str, reason: str, __: float) -> None:
+            raise DatabaseError(f"Clustering the shapes failed: {reason}. A larger time_limit may help.")
+
+        run.find(stages.CLUSTER, ["all"], plan, take, drop)
+    (partition,) = found
+    if partition is None:
+        return None
+    preset = PRESETS[config.preset]
+    return describe_clusters(partition, shapes, features, scaled, edges, preset, stand_in=stand_in)
 
 
 def _project(

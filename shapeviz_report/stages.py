@@ -21,6 +21,7 @@ from threadpoolctl import threadpool_limits
 
 from shapeviz_report import demo
 from shapeviz_report.cache import code_version, make_key
+from shapeviz_report.clusters import Partition, part
 from shapeviz_report.errors import MeshError
 from shapeviz_report.features import compute_histograms, describe, find_bins, measure, sample_values
 from shapeviz_report.mesh import clean, content_hash, prepare, read_mesh
@@ -195,6 +196,20 @@ def project_features(method: str, values: FloatArray, seed: int) -> bytes:
     return _pack_array(project(next(m for m in PROJECTIONS if m.name == method), values, (), seed).xy)
 
 
+def cluster_features(values: FloatArray, seed: int) -> bytes:
+    """The rows of ``values`` in groups, for :func:`read_partition`; see :func:`shapeviz_report.clusters.part`."""
+    found = part(values, seed=seed)
+    if found is None:
+        return _pack_arrays()
+    return _pack_arrays(of=found.of, silhouette=np.array(found.silhouette))
+
+
+def read_partition(content: bytes) -> Partition | None:
+    """The groups in a result of :func:`cluster_features`; None where there are none."""
+    arrays = _read_arrays(content)
+    return Partition(arrays["of"], float(arrays["silhouette"])) if arrays else None
+
+
 def map_features(squared: FloatArray, method: str, seed: int, subsets: tuple[int, ...]) -> bytes:
     """Maps of some subsets of the features, for :func:`read_maps`; see :func:`~shapeviz_report.search.map_subsets`."""
     maps = map_subsets(squared, method, seed, subsets)
@@ -309,6 +324,7 @@ RENDER = Stage("rendered", render_shape, ("render",), _PAINTERS)
 PAINT = Stage("painted", paint_shape, ("render", "descriptors", "features"), _PAINTERS)
 _PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
 PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
+CLUSTER = Stage("clustered", cluster_features, ("clusters",), ("numpy", "scipy"))
 SEARCH = Stage("searched", map_features, ("search.space", "projections"), _PROJECTORS)
 SELECT = Stage("selected", search_bins, ("search.bins", "projections", "quality", "types.bins"), _PROJECTORS)
 SCORE = Stage("scored", score_bins, ("scorers",), ("numba", "numpy", "scipy", "scikit-learn"))
@@ -317,7 +333,7 @@ GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "sci
 
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
-    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PAINT, PROJECT, SEARCH, SCORE, SELECT, GENERATE)
+    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PAINT, CLUSTER, PROJECT, SEARCH, SCORE, SELECT, GENERATE)
     libraries = {library for stage in stages for library in stage.libraries}
     return code_version(("shapeviz_report",), tuple(sorted(libraries)))
 

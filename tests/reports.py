@@ -15,6 +15,7 @@ from solids import ball
 
 from shapeviz_report import quality
 from shapeviz_report.bins import features_of
+from shapeviz_report.clusters import describe_clusters, part
 from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.models import pack_model, simplify
@@ -127,6 +128,29 @@ def make_report(
         seconds={"read": 0.1, "prepare": 12.5, "project": 3.25},
         cpu_seconds={"read": 0.1, "prepare": 24.0, "project": 3.0},
     )
+
+
+def with_clusters(report: Report) -> Report:
+    """The report with its real clusters, which stand in for labels where it has none; to be called before all else that
+    looks at labels."""
+    preset = PRESETS["default"]
+    scaled = scale(report.features, preset)
+    partition = part(scaled)
+    if partition is None:
+        return report
+    stand_in = not any(label is not None for label in report.labels)
+    clusters = describe_clusters(
+        partition, report.shapes, report.features, scaled, report.edges, preset, stand_in=stand_in
+    )
+    report = replace(report, clusters=clusters)
+    if not stand_in:
+        return report
+    labels = tuple(clusters.clusters[code].name for code in clusters.of)
+    projections = {
+        method: (projection, quality.score(projection.xy, labels))
+        for method, (projection, _) in report.projections.items()
+    }
+    return replace(report, labeling="clusters", labels=labels, projections=projections)
 
 
 def with_search(report: Report, *, limit: int = 1000) -> Report:

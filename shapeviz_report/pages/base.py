@@ -67,6 +67,28 @@ def class_names(report: Report) -> tuple[str, ...]:
     return tuple(sorted({label for label in report.labels if label is not None}))
 
 
+def clusters_chunk(report: Report) -> dict[str, object] | None:
+    """The chunk "clusters": the groups that the features alone make; None where there are too few shapes."""
+    found = report.clusters
+    if found is None:
+        return None
+    return {
+        # Whether they are the active labels, because the database has none.
+        "standIn": found.stand_in,
+        "of": found.of.tolist(),
+        "clusters": [
+            {
+                "name": cluster.name,
+                "central": cluster.central,
+                "size": cluster.size,
+                "typical": list(cluster.typical),
+            }
+            for cluster in found.clusters
+        ],
+        "quality": round(found.silhouette, 6),
+    }
+
+
 def bins_note(projection: Projection) -> str:
     """A sentence on what a map compares where that is a choice of bins; empty for all bins."""
     if projection.bins is None:

@@ -7,7 +7,14 @@ from hashlib import sha256
 import numpy as np
 
 from shapeviz_report import charts
-from shapeviz_report.pages.base import METHODS, PageContent, bins_note, class_names, rounded
+from shapeviz_report.pages.base import (
+    METHODS,
+    PageContent,
+    bins_note,
+    class_names,
+    clusters_chunk,
+    rounded,
+)
 from shapeviz_report.types import Projection, Quality, Report
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
@@ -49,6 +56,7 @@ class OverviewPage:
                     "marks": _marks(len(classes)),
                 },
                 "details": _details(report),
+                "clusters": clusters_chunk(report),
             },
         )
 

@@ -266,6 +266,7 @@ def _check_report(report: Report) -> None:
         require(_is_webp(painting.value) and _is_webp(painting.inside), "a painting is not a WebP image")
     if report.models is not None:
         require(len(report.models) == count, "models do not match the shapes")
+        "stand_in": report.clusters is not None and report.clusters.stand_in,
         require(all(model[:2] == b"\x1f\x8b" for model in report.models), "a model is not gzipped")
     require(report.labeling is not None or not any(report.labels), "labels without a labeling")
     require(bool(report.projections), "no projection")
@@ -274,3 +275,12 @@ def _check_report(report: Report) -> None:
         require(projection.xy.shape == (count, 2), f"projection {method} has another number of points")
         require(bool(np.isfinite(projection.xy).all()), f"projection {method} has a point that is not finite")
         require(quality.nh.shape == (count,), f"quality of {method} has another number of shapes")
+    if report.clusters is not None:
+        clusters = report.clusters
+        require(clusters.of.shape == (count,), "clusters do not match the shapes")
+        sizes = np.bincount(clusters.of, minlength=len(clusters.clusters)).tolist()
+        require(sizes == [cluster.size for cluster in clusters.clusters], "a cluster of another size")
+        for number, cluster in enumerate(clusters.clusters):
+            require(clusters.of[cluster.central] == number, "the centre of a cluster is not in it")
+        names = [clusters.clusters[number].name for number in clusters.of]
+        require(not clusters.stand_in or list(report.labels) == names, "labels are not the clusters")

@@ -15,6 +15,7 @@ from shapeviz_report.types.bins import (
     MinimalSet,
     Painting,
 )
+from shapeviz_report.types.clusters import Cluster, Clusters
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
@@ -36,6 +37,8 @@ __all__ = [
     "BinSearch",
     "BinSelection",
     "BinStep",
+    "Cluster",
+    "Clusters",
     "Database",
     "Failure",
     "FeatureBlock",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from shapeviz_report.types.arrays import FloatArray
 from shapeviz_report.types.bins import BinScores, BinSearch, Painting
+from shapeviz_report.types.clusters import Clusters
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
@@ -24,7 +25,7 @@ class Report:
     Attributes
     ----------
     labeling : str or None
-        The active labeling; None for a database without labels.
+        The active labeling; ``clusters`` where these stand in for labels; None with neither.
     labels : tuple of (str or None)
         The active class of each shape.
     thumbnails : tuple of bytes
@@ -51,6 +52,8 @@ class Report:
     models : tuple of bytes, or None
         The 3D model of each shape as :func:`shapeviz_report.models.pack_model` packs it, gzipped. None if they were
         left out.
+    clusters : Clusters or None
+        None where there are too few shapes.
     """
 
     database: Database
@@ -72,3 +75,4 @@ class Report:
     bins: BinSearch | None = None
     paintings: tuple[Painting, ...] = ()
     models: tuple[bytes, ...] | None = None
+    clusters: Clusters | None = None
