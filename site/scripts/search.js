@@ -28,11 +28,9 @@ export class Search {
       this.state.set({ matches: null });
       return;
     }
-    this.texts ??= await this.#texts();
+    this.texts ??= await searchTexts(this.model);
     if (this.state.get("query") !== query) return;
-    const words = query.toLocaleLowerCase().split(/\s+/);
-    const found = [];
-    for (const [index, text] of this.texts.entries()) if (words.every((word) => text.includes(word))) found.push(index);
+    const found = findWords(this.texts, query);
     this.select.hidden = false;
     this.select.disabled = found.length === 0;
     this.select.textContent = found.length === 0 ? "none found" : `Select ${found.length}`;
@@ -45,12 +43,25 @@ export class Search {
     if (!matches?.size) return;
     this.state.set({ selection: new Set(matches), query: "" });
   }
+}
 
-  /** One searchable text a shape. */
-  async #texts() {
-    const { shapes } = await chunk("details");
-    return shapes.map(({ labels, metadata }, index) =>
-      [this.model.ids[index], this.model.names[index], ...labels.filter(Boolean), ...metadata.map(([, value]) => value)].join("\n").toLocaleLowerCase(),
-    );
-  }
+/** One searchable text a shape: its id, name, labels and metadata. */
+export async function searchTexts(model) {
+  const { shapes } = await chunk("details");
+  return shapes.map(({ labels, metadata }, index) =>
+    plain([model.ids[index], model.names[index], ...labels.filter(Boolean), ...metadata.map(([, value]) => value)].join("\n")),
+  );
+}
+
+/** The numbers of the texts that hold all words of a query, parts of words included. */
+export function findWords(texts, query) {
+  const words = plain(query).split(/\s+/);
+  const found = [];
+  for (const [index, text] of texts.entries()) if (words.every((word) => text.includes(word))) found.push(index);
+  return found;
+}
+
+/** Small letters without accents: who types "munze" means "Münze". */
+function plain(text) {
+  return text.toLocaleLowerCase().normalize("NFD").replace(/[\u0300-\u036f]/g, "");
 }
