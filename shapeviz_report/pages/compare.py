@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from shapeviz_report.pages.base import PageContent
-from shapeviz_report.types import Report
+import numpy as np
+import numpy.typing as npt
+
+from shapeviz_report.bins import scale_bins, word_conditions, word_whole
+from shapeviz_report.features import PRESETS, compared_values, scale
+from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
+from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
+from shapeviz_report.similarity import feature_weight
+from shapeviz_report.types import FloatArray, Report
+
+#: Decimals of a shape's fit, in [-1, 1].
+FIT_DECIMALS = 4
+
+#: What all features span, before any map of it.
+SPACE = "features"
 
 
 class ComparePage:
-    """Two groups of shapes beside each other."""
+    """Two groups of shapes beside each other; shapes that fit their class least; classes that are alike."""
 
     name = "compare"
     title = "Compare"
@@ -15,4 +28,62 @@ class ComparePage:
     within = None
 
     def content(self, report: Report) -> PageContent:
-        return PageContent(context={})
+        points = _points(report)
+        spaces = {SPACE: points, **{method: shown.xy for method, (shown, _) in report.projections.items()}}
+        _, hits = next(iter(report.projections.values()))
+        codes = _codes(report)
+        return PageContent(
+            context={
+                "classes": len(class_names(report)),
+                "spaces": [{"key": key, "title": _title(key)} for key in spaces],
+                "k": hits.k,
+            },
+            chunks={
+                "compare": _compare(report, points, codes, hits.k, list(spaces)),
+                "neighbours": b"".join(
+                    find_nearest(place, hits.k).astype("<u4").tobytes() for place in spaces.values()
+                ),
+            },
+        )
+
+
+def _points(report: Report) -> FloatArray:
+    """What the maps of the site compare."""
+    projection, _ = next(iter(report.projections.values()))
+    preset = PRESETS[str(report.parameters["preset"])]
+    if projection.bins is None:
+        return scale(report.features, preset)
+    return scale_bins(report.features, preset, projection.bins)
+
+
+def _codes(report: Report) -> npt.NDArray[np.int_]:
+    number = {name: index for index, name in enumerate(class_names(report))}
+    return np.array([-1 if label is None else number[label] for label in report.labels])
+
+
+def _title(space: str) -> str:
+    return "all features" if space == SPACE else METHODS[space].title
+
+
+def _compare(
+    report: Report, points: FloatArray, codes: npt.NDArray[np.int_], k: int, spaces: list[str]
+) -> dict[str, object]:
+    """How well shapes fit their classes, in which order classes stand, and what a comparison needs beside the bins."""
+    preset = PRESETS[str(report.parameters["preset"])]
+    compared = compared_values(report.features, preset)
+    fits = find_fits(points, codes)
+    return {
+        "k": k,
+        # The order of the parts of the chunk "neighbours", each with k numbers a shape.
+        "spaces": spaces,
+        "order": order_classes(points, codes),
+        "fit": rounded(fits.fit, FIT_DECIMALS),
+        "rival": fits.rival.tolist(),
+        # What a squared difference in a feature's compared values counts.
+        "weights": [
+            feature_weight(preset, compared[:, report.features.slice_of(block.name)])
+            for block in report.features.blocks
+        ],
+        "whole": word_whole(preset.by_area),
+        "where": list(word_conditions(report.features, report.edges)),
+    }

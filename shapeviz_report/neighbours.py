@@ -1,0 +1,146 @@
+"""Which shapes are each other's nearest, and how well each fits its class.
+
+``docs/compare.md`` says how the measure of fit was chosen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.cluster.hierarchy import leaves_list, linkage
+from scipy.spatial import KDTree
+from scipy.spatial.distance import pdist
+
+from shapeviz_report.types import FloatArray, IntArray
+
+KIN = 5
+"""Nearest shapes of a class that say how far one is from it. Three to five find swapped labels best."""
+
+_BLOCK = 8_000_000
+"""Distances at a time."""
+
+
+@dataclass(frozen=True)
+class Fits:
+    """How well every shape fits its class.
+
+    Attributes
+    ----------
+    fit : (n,) float64 array
+        In [-1, 1]: ``(b - a) / max(a, b)``, where a is the mean distance to the ``KIN`` nearest other shapes of its own
+        class, and b that to the ``KIN`` nearest of the other class that is nearest in this sense. Below 0 another class
+        is nearer than its own. A silhouette (Rousseeuw 1987) of the nearest instead of all, because classes are seldom
+        round. NaN for a shape without a label, alone in its class, or without another class.
+    rival : (n,) int32 array
+        That other class; -1 where there is none.
+    """
+
+    fit: FloatArray
+    rival: IntArray
+
+
+def find_nearest(points: FloatArray, k: int) -> IntArray:
+    """The k nearest other rows of every row, nearest first.
+
+    Parameters
+    ----------
+    points : (n, d) float array
+        Of a map (d = 2) or of all features.
+    k : int
+        From 0 to n - 1.
+
+    Returns
+    -------
+    (n, k) int32 array
+    """
+    count, dimensions = points.shape
+    nearest = np.empty((count, k), np.int32)
+    if k == 0:
+        return nearest
+    if dimensions == 2:
+        # One more, because a row finds itself; among equal points not always first.
+        _, found = KDTree(points).query(points, k + 1)
+        own = found == np.arange(count)[:, None]
+        own[~own.any(axis=1), k] = True
+        return found[~own].reshape(count, k).astype(np.int32)
+    for rows, squared in _squared_blocks(points):
+        candidates = np.argpartition(squared, k - 1, axis=1)[:, :k]
+        candidates.sort(axis=1)
+        order = np.argsort(np.take_along_axis(squared, candidates, axis=1), axis=1, kind="stable")
+        nearest[rows] = np.take_along_axis(candidates, order, axis=1)
+    return nearest
+
+
+def find_fits(points: FloatArray, codes: npt.NDArray[np.int_]) -> Fits:
+    """How well every shape fits its class, by the distances of points.
+
+    Parameters
+    ----------
+    points : (n, d) float array
+    codes : (n,) int array
+        The class of each, from 0; -1 without a label.
+    """
+    count, classes = len(points), int(codes.max(initial=-1)) + 1
+    fit, rival = np.full(count, np.nan), np.full(count, -1, np.int32)
+    members = [np.flatnonzero(codes == code) for code in range(classes)]
+    if classes < 2:
+        return Fits(fit, rival)
+    for rows, squared in _squared_blocks(points):
+        means = np.full((len(squared), classes), np.inf)
+        for code, own in enumerate(members):
+            distances = np.sort(_smallest(squared[:, own], KIN), axis=1)
+            # A row's distance to itself is infinite, so that the last place of a small class may hold no shape.
+            found = np.isfinite(distances)
+            with np.errstate(invalid="ignore"):
+                means[:, code] = np.where(found, np.sqrt(distances), 0).sum(axis=1) / found.sum(axis=1)
+        chosen = codes[rows]
+        here = np.arange(len(squared))
+        own = means[here, chosen]
+        means[here, chosen] = np.inf
+        nearest = means.argmin(axis=1)
+        other = means[here, nearest]
+        known = (chosen >= 0) & np.isfinite(own)
+        larger = np.maximum(own, other)
+        with np.errstate(invalid="ignore"):
+            fit[rows] = np.where(known, np.where(larger > 0, (other - own) / larger, 0.0), np.nan)
+        rival[rows] = np.where(known, nearest, -1)
+    return Fits(fit, rival)
+
+
+def order_classes(points: FloatArray, codes: npt.NDArray[np.int_]) -> list[int]:
+    """The classes in an order that puts those beside each other whose means are near.
+
+    Average linkage of the means; of the orders that its tree allows, the one with the shortest way from class to class
+    (Bar-Joseph et al. 2001).
+
+    Parameters
+    ----------
+    points, codes
+        As for :func:`find_fits`; every class has a shape.
+    """
+    classes = int(codes.max(initial=-1)) + 1
+    if classes < 3:
+        return list(range(classes))
+    means = np.stack([points[codes == code].mean(axis=0) for code in range(classes)])
+    return leaves_list(linkage(pdist(means), "average", optimal_ordering=True)).tolist()
+
+
+def _smallest(squared: FloatArray, count: int) -> FloatArray:
+    if squared.shape[1] <= count:
+        return squared
+    return np.partition(squared, count - 1, axis=1)[:, :count]
+
+
+def _squared_blocks(points: FloatArray):
+    """Squared distances of a slice of rows to all rows at a time, infinite to themselves."""
+    centred = points - points.mean(axis=0)
+    norms = np.einsum("ij,ij->i", centred, centred)
+    step = max(1, _BLOCK // len(points))
+    for start in range(0, len(points), step):
+        rows = slice(start, min(start + step, len(points)))
+        squared = norms[rows, None] + norms - 2 * centred[rows] @ centred.T
+        np.maximum(squared, 0, out=squared)
+        squared[np.arange(len(squared)), np.arange(rows.start, rows.stop)] = np.inf
+        yield rows, squared
