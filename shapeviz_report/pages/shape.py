@@ -15,4 +15,4 @@ class ShapePage:
     within = "shapes"
 
     def content(self, report: Report) -> PageContent:
-        return PageContent(context={})
+        return PageContent(context={"models": report.models is not None})

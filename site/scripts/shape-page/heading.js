@@ -1,0 +1,71 @@
+// Which shape it is, the way back to all shapes, and those before and after it in its class.
+
+import { Finder } from "../bins-page/finder.js";
+import { classLine } from "../card.js";
+import { element } from "../dom.js";
+import { pageAddress } from "../place.js";
+import { writeSelection } from "../selection.js";
+import { grouped } from "../words.js";
+
+export class Heading {
+  constructor(model, state, { links, go, site }) {
+    Object.assign(this, { model, state, links, site });
+    const texts = model.ids.map((id, index) => `${id}\n${model.names[index]}\n${model.className(model.groups[index])}`.toLocaleLowerCase());
+    new Finder("shape", {
+      find: (text) => {
+        const words = text.toLocaleLowerCase().split(/\s+/);
+        return [...texts.keys()].filter((index) => words.every((word) => texts[index].includes(word)));
+      },
+      label: (index) => [element("bdi", {}, model.names[index]), " ", model.labelled && element("span", { class: "quiet" }, element("bdi", {}, model.className(model.groups[index])))].filter(Boolean),
+      choose: go,
+    });
+    state.listen((changed) => {
+      if (["shape", "unknown", "theme", "selection"].some((name) => changed.has(name))) this.render();
+    });
+  }
+
+  render() {
+    const { model, state } = this;
+    const shape = state.get("shape");
+    const name = shape === null ? "No such shape" : model.names[shape];
+    document.title = `${name} · ${this.site}`;
+    document.getElementById("name").textContent = name;
+    document.getElementById("of-class").replaceChildren(...(shape !== null && model.labelled ? [classLine(model, model.groups[shape])] : []));
+    document.getElementById("way-back").replaceChildren(element("a", { href: this.#gallery() }, "All shapes"));
+    document.getElementById("turn-over").replaceChildren(...(shape === null ? [] : this.#turnOver(shape)));
+    document.getElementById("known").hidden = shape === null;
+    const nowhere = document.getElementById("nowhere");
+    nowhere.hidden = shape !== null;
+    nowhere.replaceChildren(...(shape === null ? this.#nowhere(state.get("unknown")) : []));
+  }
+
+  #gallery() {
+    const query = new URLSearchParams();
+    writeSelection(query, this.model, this.state.get("selection"));
+    return pageAddress("shapes.html", query);
+  }
+
+  #nowhere(id) {
+    const offer = ["Find one by its name above, or choose one in the ", element("a", { href: this.#gallery() }, "gallery"), "."];
+    if (id === null) return [element("p", {}, "The address names no shape. ", offer)];
+    return [
+      element("p", {}, "There is no shape ", element("b", {}, element("bdi", {}, id)), " in this database. ", offer),
+      element("p", {}, "Files that could not be used are listed on the page ", element("a", { href: pageAddress("about.html") }, "About"), "."),
+    ];
+  }
+
+  /** Links to the shapes before and after in the class; the last is followed by the first. */
+  #turnOver(shape) {
+    const { model, links } = this;
+    const own = model.groups[shape];
+    const fellows = [...model.groups.keys()].filter((index) => model.groups[index] === own);
+    if (fellows.length < 2) return [];
+    const place = fellows.indexOf(shape);
+    const step = (by, words, rel, said) => links.link(fellows.at((place + by) % fellows.length), { rel, "aria-label": said }, words);
+    return [
+      step(-1, "‹ Previous", "prev", "Previous shape"),
+      element("span", { class: "quiet" }, `${grouped(place + 1)} of ${grouped(fellows.length)}`, model.labelled && [own < 0 ? " without label" : [" in ", element("bdi", {}, model.className(own))]]),
+      step(1, "Next ›", "next", "Next shape"),
+    ];
+  }
+}
