@@ -171,6 +171,7 @@ def _site_context(report: Report) -> dict[str, object]:
         "shapes": len(report.shapes),
         "classes": len(class_names(report)),
         "version": version("shapeviz-report"),
+        "stand_in": report.clusters is not None and report.clusters.stand_in,
     }
 
 
@@ -266,7 +267,6 @@ def _check_report(report: Report) -> None:
         require(_is_webp(painting.value) and _is_webp(painting.inside), "a painting is not a WebP image")
     if report.models is not None:
         require(len(report.models) == count, "models do not match the shapes")
-        "stand_in": report.clusters is not None and report.clusters.stand_in,
         require(all(model[:2] == b"\x1f\x8b" for model in report.models), "a model is not gzipped")
     require(report.labeling is not None or not any(report.labels), "labels without a labeling")
     require(bool(report.projections), "no projection")
