@@ -166,13 +166,47 @@ def word_conditions(table: FeatureTable, edges: FloatArray) -> tuple[str | None,
     return tuple(conditions)
 
 
+def word_side(block: FeatureBlock, dimension: int, edge: float, *, above: bool) -> str:
+    """That a histogram's values lie on one side of an edge, as in "the thickness ... is below 0.2 ...".
+
+    Parameters
+    ----------
+    block : FeatureBlock
+        Of histograms.
+    dimension : int
+        From 0.
+    edge : float
+        Between two bins.
+    above : bool
+        The upper side.
+    """
+    descriptor = _DESCRIPTORS.get(block.name)
+    quantity = descriptor.quantities[dimension] if descriptor else block.name
+    value = _word_value(edge, descriptor.unit if descriptor else "")
+    return f"{quantity} is {value} or more" if above else f"{quantity} is below {value}"
+
+
+def word_places(block: FeatureBlock, *, above: bool) -> str | None:
+    """Where on a shape large or small values are found; None where one word does not fit all dimensions."""
+    descriptor = _DESCRIPTORS.get(block.name)
+    if descriptor is None or descriptor.dimensions > 1:
+        return None
+    return descriptor.high if above else descriptor.low
+
+
 def _word_range(edges: FloatArray, place: int, unit: str) -> str:
     """The values that fall into a bin; the outer bins also take what lies beyond."""
-    factor = 100 if unit == "%" else 1
-    low, high = (f"{factor * edge:.3g}".replace("-", "−") for edge in edges[place : place + 2])
-    after = f" {unit}" if unit else ""
+    low, high = edges[place : place + 2]
     if place == 0:
-        return f"below {high}{after}"
+        return f"below {_word_value(high, unit)}"
     if place == len(edges) - 2:
-        return f"{low}{after} or more"
-    return f"from {low} to {high}{after}"
+        return f"{_word_value(low, unit)} or more"
+    return f"from {_word_number(low, unit)} to {_word_value(high, unit)}"
+
+
+def _word_value(value: float, unit: str) -> str:
+    return f"{_word_number(value, unit)} {unit}".rstrip()
+
+
+def _word_number(value: float, unit: str) -> str:
+    return f"{100 * value if unit == '%' else value:.3g}".replace("-", "−")
