@@ -1,6 +1,6 @@
 // The two groups of the Compare page in its address, each by name: a link stays good when the database grows.
 
-import { pageAddress } from "../place.js";
+import { pageAddress, readHash, replaceHash } from "../place.js";
 import { readSelection, writeSelection } from "../selection.js";
 
 /**
@@ -60,4 +60,48 @@ function readGroup(query, model, name) {
   }
   if (kind === "cluster") return { kind, name: rest };
   return kind === "search" && rest !== "" ? { kind, text: rest } : null;
+}
+
+const VIEWS = ["groups", "outliers", "classes"];
+const READINGS = ["value", "inside"];
+
+/** What the page shows: the two groups and what is looked at. */
+export function readView(model, data, neighbours) {
+  const query = readHash();
+  const groups = readCompareAddress(query, model);
+  const group = (name) => {
+    const place = model.classes.indexOf(query.get(name));
+    return place < 0 ? null : place;
+  };
+  return {
+    view: VIEWS.includes(query.get("view")) ? query.get("view") : VIEWS[0],
+    ...(groups.a === null && groups.b === null ? firstGroups(model, neighbours) : { a: groups.a, b: groups.b ?? { kind: "rest" } }),
+    bin: query.get("bin"),
+    reading: READINGS.includes(query.get("reading")) ? query.get("reading") : READINGS[0],
+    of: group("of"),
+    space: data.spaces.includes(query.get("by")) ? query.get("by") : data.spaces[0],
+    row: group("row"),
+    column: group("column"),
+  };
+}
+
+export function writeView(model, state) {
+  const query = new URLSearchParams();
+  if (state.get("view") !== VIEWS[0]) query.set("view", state.get("view"));
+  const [a, b] = [state.get("a"), state.get("b")];
+  if (a !== null && b !== null) writeGroups(query, model, a, b);
+  if (state.get("bin") !== null) query.set("bin", state.get("bin"));
+  if (state.get("reading") !== READINGS[0]) query.set("reading", state.get("reading"));
+  for (const name of ["of", "row", "column"]) if (state.get(name) !== null) query.set(name, model.classes[state.get(name)]);
+  if (state.get("space") !== "features") query.set("by", state.get("space"));
+  replaceHash(query);
+}
+
+/** The groups that a page opens with: the two classes that are most alike, which are the hardest to tell apart. */
+function firstGroups(model, neighbours) {
+  if (model.classes.length === 0) return { a: null, b: null };
+  const single = { a: { kind: "class", group: 0 }, b: { kind: "rest" } };
+  if (model.classes.length === 1) return single;
+  const [pair] = neighbours.likest();
+  return pair ? { a: { kind: "class", group: pair.group }, b: { kind: "class", group: pair.other } } : { a: single.a, b: { kind: "class", group: 1 } };
 }

@@ -1,13 +1,35 @@
 // The Compare page: what sets two groups apart, what they share, outliers, and classes that are alike.
 
+import { Bins } from "../bins.js";
 import { chunk } from "../chunks.js";
+import { readView, writeView } from "../compare/address.js";
+import { GroupsView } from "../compare/groups-view.js";
+import { Neighbours } from "../compare/neighbours.js";
 import { Model } from "../model.js";
+import { State } from "../state.js";
 import { currentTheme, watchTheme } from "../theme.js";
 
 async function main() {
-  const model = new Model(await chunk("overview"), currentTheme);
-  document.getElementById("live").textContent = `${model.count} shapes`;
-  watchTheme(() => {});
+  const [overview, data, bytes, clusters] = await Promise.all(["overview", "compare", "neighbours", "clusters"].map(chunk));
+  const model = new Model(overview, currentTheme);
+  const neighbours = new Neighbours(model, data, bytes);
+  const live = document.getElementById("live");
+  const announce = (text) => {
+    live.textContent = text;
+  };
+  // The values of all bins are large where shapes are many: they come when they are first needed.
+  let loaded = null;
+  const bins = () => (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
+  const read = () => readView(model, data, neighbours);
+  const state = new State({ ...read(), theme: currentTheme() });
+  const views = { groups: new GroupsView(model, data, clusters, neighbours, state, { bins, announce }) };
+  views.groups.compare();
+  state.listen((changed) => {
+    if (changed.has("theme") && changed.size === 1) return;
+    writeView(model, state);
+  });
+  window.addEventListener("hashchange", () => state.set(read()));
+  watchTheme(() => state.set({ theme: currentTheme() }));
   document.documentElement.dataset.ready = "";
 }
 

@@ -1,0 +1,47 @@
+// Bins as cards: what it says in a sentence, and how much of it both groups have.
+
+import { element } from "../dom.js";
+import { distribution, mean, toldAs } from "./distribution.js";
+import { called, meaning, pairs, statement } from "./words.js";
+
+/** A card a bin; a click on its name shows it on shapes. */
+export function binCard(column, view, { shared = false } = {}) {
+  const { contrast, a, b, bins, data, rest } = view;
+  const hue = element("i", { class: "hued" });
+  hue.style.background = bins.color(column);
+  const { title, name } = bins.features[bins.featureOf(column)];
+  const share = bins.isShare(column);
+  const row = (group, rows) => ({ mark: group.mark(), name: group.name, color: group.color(), values: rows.map((index) => bins.share(column, index)) });
+  const rows = [row(a, contrast.sample.a), row(b, contrast.sample.b)];
+  if (shared) rows.push(row(rest, contrast.sample.rest));
+  const means = rows.map(({ values }) => mean(values));
+  return element(
+    "li",
+    { class: "bin-of-two" },
+    element(
+      "p",
+      { class: "which" },
+      element("button", { type: "button", class: "bin-chip", "data-column": column, "aria-pressed": String(column === view.bin), title: "Show it on shapes", onclick: () => view.look(column) }, hue, element("bdi", {}, bins.shortName(column, 18))),
+      title !== name && element("span", { class: "quiet" }, title),
+    ),
+    element("p", { class: "says" }, shared ? common(column, view, means) : statement(column, contrast, a, b, data)),
+    distribution(rows, share),
+    element("p", { class: "quiet" }, shared ? null : ahead(column, contrast, a, b), " ", meaning(column, bins)),
+  );
+}
+
+/** What two groups have in common against the rest. */
+function common(column, { a, b, bins, data, rest }, [first, second, others]) {
+  const told = toldAs(bins.isShare(column));
+  const more = (first + second) / 2 > others;
+  const figures = [told(first), " and ", told(second), " on average, in ", called(rest), " ", told(others)];
+  if (!bins.isShare(column)) return ["In ", called(a), " and ", called(b), ", ", element("bdi", {}, bins.names[column]), ` is ${more ? "higher" : "lower"} than in other shapes: `, ...figures, "."];
+  return ["In both ", called(a), " and ", called(b), `, ${more ? "more" : "less"} of ${data.whole} than in other shapes lies where ${data.where[column]}: `, ...figures, "."];
+}
+
+/** How sure one may be for two single shapes. */
+function ahead(column, contrast, a, b) {
+  const share = contrast.ahead(column);
+  const [more, less] = share >= 0.5 ? [a, b] : [b, a];
+  return ["A shape of ", element("bdi", {}, more.name), ` has more of it than one of `, element("bdi", {}, less.name), ` ${pairs(Math.max(share, 1 - share))}.`];
+}

@@ -1,0 +1,78 @@
+// Where a reader chooses the two groups: a list of what there is on each side, and a field to find shapes by words.
+
+import { element } from "../dom.js";
+import { count } from "../words.js";
+import { isSame, nameOf } from "./groups.js";
+
+const SIDES = ["a", "b"];
+
+export class Chooser {
+  constructor(model, clusters, state) {
+    Object.assign(this, { model, state });
+    this.lists = new Map(SIDES.map((side) => [side, document.getElementById(`group-${side}`)]));
+    this.offers = this.#offers(clusters);
+    for (const side of SIDES) {
+      this.lists.get(side).addEventListener("change", (event) => this.choose(side, this.shown.get(side)[Number(event.target.value)]));
+      document.getElementById(`find-${side}`).addEventListener("submit", (event) => {
+        event.preventDefault();
+        const text = event.target.elements.find.value.trim();
+        event.target.reset();
+        if (text !== "") this.choose(side, { kind: "search", text });
+      });
+    }
+    document.getElementById("swap").addEventListener("click", () => state.set({ a: state.get("b"), b: state.get("a") }));
+    state.listen((changed) => {
+      if (changed.has("a") || changed.has("b")) this.render();
+    });
+    this.shown = new Map();
+  }
+
+  /** What every database offers: its classes and clusters with their sizes. */
+  #offers(clusters) {
+    const { model } = this;
+    const classes = model.classes.map((name, group) => ({ spec: { kind: "class", group }, text: `${name} (${model.sizes.get(group) ?? 0})` }));
+    const found = clusters === null || clusters.standIn ? [] : clusters.clusters;
+    return [
+      [clusters?.standIn ? "Clusters" : "Classes", classes],
+      ["Clusters, made from the features alone", found.map(({ name, size }) => ({ spec: { kind: "cluster", name }, text: `${name} (${size})` }))],
+    ];
+  }
+
+  choose(side, spec) {
+    const other = side === "a" ? "b" : "a";
+    const patch = { [side]: spec };
+    // Two rests are no question; the other side has then to be chosen anew.
+    if (spec !== null && isSame(spec, this.state.get(other))) patch[other] = spec.kind === "rest" ? null : { kind: "rest" };
+    this.state.set(patch);
+  }
+
+  render() {
+    for (const side of SIDES) {
+      const spec = this.state.get(side);
+      const other = this.state.get(side === "a" ? "b" : "a");
+      const own = [{ spec: { kind: "rest" }, text: "all other shapes" }];
+      // The set of shapes that came along can be chosen on both sides.
+      for (const known of [spec, other]) {
+        if (known?.kind === "shapes" || known?.kind === "search") {
+          if (!own.some((offer) => isSame(offer.spec, known))) own.push({ spec: known, text: textOf(known, this.model) });
+        }
+      }
+      const lists = [...this.offers, ["Other groups", own]].filter(([, offers]) => offers.length > 0);
+      const flat = lists.flatMap(([, offers]) => offers);
+      this.shown.set(side, flat.map((offer) => offer.spec));
+      let number = 0;
+      const list = this.lists.get(side);
+      list.replaceChildren(
+        element("option", { value: "", disabled: true, hidden: true }, "Choose a group"),
+        ...lists.map(([label, offers]) => element("optgroup", { label }, offers.map(({ text }) => element("option", { value: number++ }, text)))),
+      );
+      const place = flat.findIndex((offer) => spec !== null && isSame(offer.spec, spec));
+      list.value = place < 0 ? "" : String(place);
+    }
+  }
+}
+
+function textOf(spec, model) {
+  if (spec.kind === "search") return `found by ${nameOf(spec, model)}`;
+  return spec.shapes.size === 1 ? nameOf(spec, model) : `${count(spec.shapes.size, "selected shape")}`;
+}

@@ -1,0 +1,173 @@
+// What sets two groups apart and what they share, worked out by the engine.
+
+import { startEngine } from "../engine/client.js";
+import { sampled } from "../workbench/sample.js";
+
+/** Of a larger group a sample speaks: enough to know a share to two parts in a hundred. */
+export const MOST_COMPARED = 500;
+
+const SHUFFLES = 499;
+const SEED = 0;
+
+/** A standardised difference of this size is told apart by the eye; larger ones are no clearer. */
+const NO_SPREAD = 50;
+
+export class Contrasts {
+  #engine = null;
+
+  /** `bins` is a promise of the Bins, which are loaded when two groups are first compared. */
+  constructor(model, data, bins) {
+    Object.assign(this, { model, data, bins });
+  }
+
+  /** The rows of a group that speak for it, rising. */
+  #sample(shapes) {
+    return [...sampled(Int32Array.from(shapes), this.model.groups, MOST_COMPARED)];
+  }
+
+  /** Begin to compare: { done, cancel }. */
+  start(a, b, report) {
+    let job = null;
+    let cancelled = false;
+    const done = (async () => {
+      const bins = await this.bins();
+      const taken = new Set([...a, ...b]);
+      const outside = [...this.model.ids.keys()].filter((index) => !taken.has(index));
+      const sample = { a: this.#sample(a), b: this.#sample(b), rest: this.#sample(outside) };
+      const rows = [...sample.a, ...sample.b, ...sample.rest];
+      const numbers = (from, count) => Int32Array.from({ length: count }, (_, place) => from + place);
+      const own = numbers(0, sample.a.length);
+      const others = numbers(own.length, sample.b.length);
+      const rest = numbers(own.length + others.length, sample.rest.length);
+      const contests = [{ first: own, second: others, shuffles: SHUFFLES }];
+      if (rest.length > 1) {
+        contests.push({ first: Int32Array.from([...own, ...others]), second: rest, shuffles: SHUFFLES });
+        contests.push({ first: own, second: rest, shuffles: 0 }, { first: others, second: rest, shuffles: 0 });
+      }
+      const values = valuesOf(bins, rows);
+      const blocks = Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column));
+      this.#engine ??= await startEngine(null);
+      job = this.#engine.run("contrast", { rows: rows.length, values, blocks, weights: this.data.weights, contests, seed: SEED }, report);
+      if (cancelled) job.cancel();
+      const [apart, both, ownRest, othersRest] = await job.done;
+      return new Contrast(bins, sample, contests, { apart, both, ownRest, othersRest });
+    })();
+    return {
+      done,
+      cancel: () => {
+        cancelled = true;
+        job?.cancel();
+      },
+    };
+  }
+}
+
+/** The compared values of some rows, column after column. */
+function valuesOf(bins, rows) {
+  const values = new Float32Array(bins.count * rows.length);
+  for (let column = 0; column < bins.count; column += 1) {
+    for (let place = 0; place < rows.length; place += 1) values[column * rows.length + place] = bins.value(column, rows[place]);
+  }
+  return values;
+}
+
+/** What came out of a comparison. */
+export class Contrast {
+  constructor(bins, sample, contests, { apart, both, ownRest, othersRest }) {
+    Object.assign(this, { bins, sample, apart, both });
+    const [{ first, second }] = contests;
+    this.difference = Array.from(apart.effect, (effect) => standardised(effect, first.length, second.length));
+    this.ranked = [...this.difference.keys()].filter((column) => apart.effect[column] !== 0);
+    this.ranked.sort((one, other) => Math.abs(apart.effect[other]) - Math.abs(apart.effect[one]) || one - other);
+    this.beyond = this.ranked.filter((column) => this.isBeyond(column));
+    this.shared = both === undefined ? [] : this.#findShared(contests, ownRest, othersRest);
+    this.central = {
+      a: nearest(sample.a, apart.away),
+      b: nearest(sample.b, apart.away.subarray(sample.a.length)),
+    };
+  }
+
+  /** Whether a bin differs more than shuffled groups let any bin differ, in all but one of a hundred shuffles. */
+  isBeyond(column) {
+    return Math.abs(this.apart.effect[column]) > this.apart.limit * (1 + 1e-9);
+  }
+
+  /** Whether the groups differ at all: as wholes, or in some bin. */
+  get differ() {
+    return this.apart.all.exceeding <= 0.01 || this.beyond.length > 0;
+  }
+
+  /**
+   * Bins that both groups have more of than the other shapes, or both less, beyond chance, and in which they are closer
+   * to each other than either is to those; the clearest first.
+   */
+  #findShared(contests, ownRest, othersRest) {
+    const { both, difference } = this;
+    const [own, others] = [2, 3].map((number) => {
+      const { first, second } = contests[number];
+      const { effect } = number === 2 ? ownRest : othersRest;
+      return Array.from(effect, (value) => standardised(value, first.length, second.length));
+    });
+    const clear = (column) => Math.min(Math.abs(own[column]), Math.abs(others[column])) - Math.abs(difference[column]);
+    this.against = { a: own, b: others };
+    return [...difference.keys()]
+      .filter((column) => Math.abs(both.effect[column]) > both.limit * (1 + 1e-9) && own[column] * others[column] > 0 && !this.isBeyond(column) && clear(column) > 0)
+      .sort((one, other) => clear(other) - clear(one) || one - other);
+  }
+
+  /** Of all pairs of a shape of the first group and one of the second, the share in which the first has more of a bin. */
+  ahead(column) {
+    const { bins, sample } = this;
+    const others = sample.b.map((row) => bins.value(column, row)).sort((a, b) => a - b);
+    let total = 0;
+    for (const row of sample.a) {
+      const value = bins.value(column, row);
+      const [below, upTo] = [lower(others, value), lower(others, value, true)];
+      total += below + (upTo - below) / 2;
+    }
+    return total / (sample.a.length * sample.b.length);
+  }
+}
+
+/** A difference of means in standard deviations within the groups, from its share of the spread. */
+function standardised(effect, first, second) {
+  const share = Math.abs(effect);
+  if (share >= 1 - 1e-9) return Math.sign(effect) * NO_SPREAD;
+  const count = first + second;
+  return Math.sign(effect) * Math.min(Math.sqrt(((share / (1 - share)) * Math.max(count - 2, 1) * count) / (first * second)), NO_SPREAD);
+}
+
+/** Rows by rising distance from the mean of their group: the most central first. */
+function nearest(rows, away) {
+  return [...rows.keys()].sort((one, other) => away[one] - away[other] || one - other).map((place) => rows[place]);
+}
+
+/** How many of rising values are below a value, or up to it. */
+function lower(rising, value, including = false) {
+  let [from, to] = [0, rising.length];
+  while (from < to) {
+    const middle = (from + to) >> 1;
+    if (rising[middle] < value || (including && rising[middle] === value)) from = middle + 1;
+    else to = middle;
+  }
+  return from;
+}
+
+/**
+ * The first of some bins that do not say the same: one a dimension, and two a feature at most.
+ */
+export function varied(columns, bins, most) {
+  const [dimensions, features] = [new Set(), new Map()];
+  const chosen = [];
+  for (const column of columns) {
+    const feature = bins.featureOf(column);
+    const dimension = column - bins.binOf(column);
+    const told = features.get(feature) ?? 0;
+    if (dimensions.has(dimension) || told >= 2) continue;
+    dimensions.add(dimension);
+    features.set(feature, told + 1);
+    chosen.push(column);
+    if (chosen.length === most) break;
+  }
+  return chosen;
+}

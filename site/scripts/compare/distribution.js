@@ -1,0 +1,75 @@
+// How much of a bin each of some groups has: a row a group, all on one axis.
+
+import { axisEnd } from "../bin-bars.js";
+import { percent } from "../bin-card.js";
+import { element, svg } from "../dom.js";
+
+/** Above so many shapes in a group, dots would only be a smear: then bars say how many lie where. */
+const MOST_DOTS = 60;
+const BARS = 28;
+const ROW = 22;
+
+/**
+ * `rows` are `{ mark, name, color, values }`; `share` says whether values are shares of a surface. A row may have `at`,
+ * one value that stands out.
+ */
+export function distribution(rows, share) {
+  const all = rows.flatMap(({ values, at }) => (at === undefined ? values : [...values, at]));
+  const [lowest, highest] = [Math.min(...all), Math.max(...all)];
+  const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest > lowest ? highest : lowest + 1];
+  const place = (value) => 2 + (96 * (value - least)) / (most - least);
+  const told = toldAs(share);
+  return element(
+    "div",
+    { class: "spread" },
+    rows.map((row) => [
+      element("span", { class: "whose" }, row.mark, element("bdi", {}, row.name)),
+      strip(row, place),
+      element("span", { class: "mean" }, told(mean(row.values))),
+    ]),
+    element("span", { class: "whose" }),
+    element("span", { class: "scale", "aria-hidden": "true" }, [least, (least + most) / 2, most].map((value) => element("i", {}, told(value)))),
+    element("span", { class: "mean quiet" }, "mean"),
+  );
+}
+
+function strip({ values, color, at }, place) {
+  const rising = [...values].sort((a, b) => a - b);
+  const parts = rising.length <= MOST_DOTS ? dots(rising, color, place) : bars(rising, color, place);
+  const line = svg("rect", { x: `${place(mean(values))}%`, y: 2, width: 2, height: ROW - 4, class: "at-mean" });
+  const outstanding = at !== undefined && svg("circle", { cx: `${place(at)}%`, cy: ROW / 2, r: 5, class: "outstanding" });
+  return svg("svg", { class: "strip-of", height: ROW, width: "100%", "aria-hidden": "true" }, parts, line, outstanding);
+}
+
+function dots(rising, color, place) {
+  const quantile = (share) => rising[Math.round(share * (rising.length - 1))];
+  const [low, high] = [place(quantile(0.25)), place(quantile(0.75))];
+  const band = svg("rect", { x: `${low}%`, y: 5, width: `${Math.max(high - low, 0.4)}%`, height: ROW - 10, class: "band" });
+  const marks = rising.map((value) => svg("circle", { cx: `${place(value)}%`, cy: ROW / 2, r: 2.2 }));
+  const group = svg("g", {}, band, marks);
+  group.style.fill = color;
+  return group;
+}
+
+function bars(rising, color, place) {
+  const counts = new Array(BARS).fill(0);
+  for (const value of rising) counts[Math.min(Math.floor(((place(value) - 2) / 96) * BARS), BARS - 1)] += 1;
+  const most = Math.max(...counts);
+  const width = 96 / BARS;
+  const marks = counts.map((count, bar) => {
+    const height = count === 0 ? 0 : Math.max((count / most) * (ROW - 4), 1);
+    return svg("rect", { x: `${2 + bar * width}%`, y: ROW - 2 - height, width: `${width * 0.92}%`, height });
+  });
+  const group = svg("g", {}, marks);
+  group.style.fill = color;
+  return group;
+}
+
+export function mean(values) {
+  return values.reduce((sum, value) => sum + value, 0) / values.length;
+}
+
+/** How a value is told: a share in percent, any other as a short number. */
+export function toldAs(share) {
+  return share ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
+}

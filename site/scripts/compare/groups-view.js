@@ -1,0 +1,208 @@
+// Two groups beside each other: the answer in sentences, then bins, features and shapes.
+
+import { element, picture } from "../dom.js";
+import { writeSelection } from "../selection.js";
+import { pageAddress } from "../place.js";
+import { shortNames } from "../workbench/bin-names.js";
+import { Inquiry } from "../workbench/inquiry.js";
+import { count, grouped } from "../words.js";
+import { answer, kinship } from "./answer.js";
+import { binCard } from "./bin-cards.js";
+import { Chooser } from "./chooser.js";
+import { Contrasts, MOST_COMPARED, varied } from "./contrasts.js";
+import { featureRows } from "./feature-rows.js";
+import { Groups } from "./groups.js";
+import { OnShapes } from "./on-shapes.js";
+import { called } from "./words.js";
+
+const FIRST = 6;
+const MORE = 12;
+const SHARED = 4;
+const FACES = 5;
+const SIDES = ["a", "b"];
+
+export class GroupsView {
+  constructor(model, data, clusters, neighbours, state, { bins, announce }) {
+    Object.assign(this, { model, data, neighbours, state, announce });
+    this.groups = new Groups(model, clusters);
+    this.chooser = new Chooser(model, clusters, state);
+    this.contrasts = new Contrasts(model, data, bins);
+    this.seen = new OnShapes(model, state, announce);
+    this.status = document.getElementById("status");
+    this.result = document.getElementById("result");
+    this.inquiry = new Inquiry((told) => this.#tell(told));
+    document.getElementById("more-bins").addEventListener("click", () => {
+      this.shown += MORE;
+      this.#bins();
+    });
+    state.listen((changed) => {
+      if (changed.has("theme") && this.view) this.#render();
+      else if (changed.has("a") || changed.has("b") || changed.has("view")) this.compare();
+      else if ((changed.has("bin") || changed.has("reading")) && this.view) this.#look();
+    });
+  }
+
+  /** Compare the groups that are chosen, if they are in view. */
+  async compare() {
+    const { state } = this;
+    if (state.get("view") !== "groups") return;
+    this.chooser.render();
+    const asked = (this.latest = Symbol("asked"));
+    const pair = await this.groups.resolve(state.get("a"), state.get("b"));
+    if (asked !== this.latest) return;
+    this.#heads(pair);
+    const problem = this.#problem(pair);
+    if (problem !== null) {
+      this.inquiry.rest();
+      this.#blank(problem);
+      return;
+    }
+    const key = JSON.stringify([pair.a.shapes, pair.b.shapes]);
+    this.pair = pair;
+    this.inquiry.ask(key, (report) => this.contrasts.start(pair.a.shapes, pair.b.shapes, report), (contrast) => this.#answered(contrast, pair));
+  }
+
+  /** Why these groups cannot be compared, in words; or null. */
+  #problem({ a, b }) {
+    const { model } = this;
+    if (model.count < 2) return ["This database has one shape: there is nothing to compare it with yet."];
+    if (a === null || b === null) {
+      return model.labelled
+        ? ["Choose a group on each side: a class, shapes that a search finds, or all other shapes."]
+        : ["This database has no labels. Find shapes by words above, or select some on the ", element("a", { href: pageAddress("index.html") }, "Overview"), " and choose “Compare with the rest” there."];
+    }
+    for (const group of [a, b]) {
+      if (group.shapes.length > 0) continue;
+      if (group.spec.kind === "search") return ["No shape is found by ", called(group), ": try another word."];
+      if (group.spec.kind === "rest") return ["All shapes are in ", called(group === a ? b : a), ": there is no rest."];
+      return ["There is no shape in ", called(group), " that the other group does not have."];
+    }
+    if (a.shapes.length + b.shapes.length < 3) return ["Two single shapes: the page of a shape shows how they differ. Here at least one group needs two."];
+    return null;
+  }
+
+  #blank(words) {
+    this.view = null;
+    this.result.hidden = true;
+    this.status.replaceChildren(element("p", { class: "notice" }, words));
+    this.announce(this.status.textContent);
+  }
+
+  /** Counts and faces of both groups. */
+  #heads({ a, b, common }) {
+    const { model } = this;
+    for (const [side, group] of [["a", a], ["b", b]]) {
+      const node = document.getElementById(`head-${side}`);
+      node.replaceChildren();
+      if (!group || group.shapes.length === 0) continue;
+      const query = new URLSearchParams();
+      writeSelection(query, model, new Set(group.shapes));
+      node.replaceChildren(
+        element("p", {}, group.mark(), element("b", {}, count(group.shapes.length, "shape")), " ", element("a", { href: pageAddress("shapes.html", query) }, "Show in Shapes"), " ", element("a", { href: pageAddress("index.html", query) }, "on the map")),
+        element("div", { class: "faces" }, faces(group.shapes).map((index) => picture(model, index, 64))),
+      );
+    }
+    document.getElementById("common").textContent = common > 0 ? `${count(common, "shape")} would be in both groups; the smaller one keeps ${common === 1 ? "it" : "them"}.` : "";
+  }
+
+  #tell({ kind, progress, message }) {
+    const { model, status } = this;
+    document.getElementById("groups").setAttribute("aria-busy", String(kind === "working"));
+    if (kind === "working") {
+      const words = progress > 0 ? "Dealing the shapes out at random, to know what chance does …" : `Reading the bins of ${count(model.count, "shape")} …`;
+      if (!this.bar) {
+        this.bar = { words: element("p", {}), progress: element("progress", { max: 1, "aria-label": "Comparing" }) };
+        status.replaceChildren(element("div", { class: "working" }, this.bar.words, this.bar.progress));
+      }
+      this.bar.words.textContent = words;
+      this.bar.progress.value = progress;
+      return;
+    }
+    this.bar = null;
+    if (kind === "failed") this.#blank([`The comparison failed: ${message}`]);
+    else if (kind === "answered") status.replaceChildren();
+  }
+
+  #answered(contrast, { a, b }) {
+    const { model } = this;
+    const { bins } = contrast;
+    const named = this.state.get("bin");
+    const best = contrast.ranked[0] ?? 0;
+    const rest = { side: "rest", name: "the rest", color: () => "var(--quiet)", mark: () => null };
+    const look = (column) => this.state.set({ bin: bins.names[column] });
+    this.view = { contrast, a, b, bins, data: this.data, rest, look, best, bin: bins.names.indexOf(named) >= 0 ? bins.names.indexOf(named) : best };
+    this.shown = FIRST;
+    this.result.hidden = false;
+    this.#render();
+    this.announce(`${model.count > 0 ? document.querySelector("#answer h2").textContent : ""}`);
+    this.seen.show(this.view);
+  }
+
+  #render() {
+    const { view, data, neighbours } = this;
+    const { contrast, a, b, bins } = view;
+    const kin = neighbours === null ? null : kinship(a, b, neighbours);
+    const sampled = [a, b].filter(({ shapes }) => shapes.length > MOST_COMPARED).map((group) => [called(group), ` by a sample of ${grouped(MOST_COMPARED)}`]);
+    document.getElementById("answer").replaceChildren(
+      ...answer(contrast, a, b, data, kin),
+      ...(sampled.length > 0 ? [element("p", { class: "quiet" }, sampled.flatMap((words, place) => [place > 0 ? ", " : "", words].flat()), ".")] : []),
+    );
+    this.#bins();
+    this.#shared();
+    document.getElementById("feature-rows").replaceChildren(...featureRows(view));
+    const classes = [a, b].every(({ spec }) => spec.kind === "class") ? [a, b].map(({ spec }) => ["class", this.model.classes[spec.group]]) : [];
+    const columns = varied(contrast.ranked, bins, FIRST);
+    document.getElementById("to-workbench").href = pageAddress("workbench.html", [...classes, ["bins", shortNames(columns, bins.features)]]);
+    if (this.seen.view === view) this.seen.draw();
+  }
+
+  #bins() {
+    const { view } = this;
+    const { contrast, bins } = view;
+    const columns = this.shown === FIRST ? varied(contrast.ranked, bins, FIRST) : oneOfDimension(contrast.ranked, bins, this.shown);
+    const within = contrast.beyond.length === 0;
+    document.getElementById("apart-words").textContent = within
+      ? "These bins differ most between the two groups, but no more than bins do when the shapes are dealt out at random."
+      : `Ranked by the difference of the means in relation to the spread within the groups. Each mark is a shape${contrast.sample.a.length > 60 || contrast.sample.b.length > 60 ? ", or each bar how many shapes of a large group lie there" : ""}; the line is the mean.`;
+    const list = document.getElementById("apart-bins");
+    list.classList.toggle("within", within);
+    list.replaceChildren(...columns.map((column) => binCard(column, view)));
+    document.getElementById("more-bins").hidden = columns.length < this.shown;
+  }
+
+  #shared() {
+    const { view } = this;
+    const { contrast, bins, a, b } = view;
+    const columns = varied(contrast.shared, bins, SHARED);
+    const nobody = contrast.sample.rest.length < 2;
+    document.getElementById("shared-words").replaceChildren(
+      ...(nobody
+        ? ["Every shape is in one of the two groups, so there are no others that they could be alike against."]
+        : columns.length === 0
+          ? ["No bin sets ", called(a), " and ", called(b), " together apart from the other shapes: what they have in common, others have too."]
+          : ["Here both are unlike the other shapes of the database, and like each other."]),
+    );
+    document.getElementById("shared-bins").replaceChildren(...columns.map((column) => binCard(column, view, { shared: true })));
+  }
+
+  #look() {
+    const { view } = this;
+    const place = view.bins.names.indexOf(this.state.get("bin"));
+    view.bin = place >= 0 ? place : view.best;
+    for (const chip of this.result.querySelectorAll(".bin-chip")) chip.setAttribute("aria-pressed", String(Number(chip.dataset.column) === view.bin));
+    this.seen.draw();
+    if (place >= 0 && document.activeElement?.matches("#result .bin-chip")) document.getElementById("seen").scrollIntoView({ block: "nearest" });
+  }
+}
+
+/** The best bin of each dimension. */
+function oneOfDimension(columns, bins, most) {
+  const dimensions = new Set();
+  return columns.filter((column) => !dimensions.has(column - bins.binOf(column)) && dimensions.add(column - bins.binOf(column))).slice(0, most);
+}
+
+/** A few shapes from all over a group. */
+function faces(shapes) {
+  if (shapes.length <= FACES) return shapes;
+  return Array.from({ length: FACES }, (_, place) => shapes[Math.floor(((place + 0.5) * shapes.length) / FACES)]);
+}

@@ -1,0 +1,97 @@
+// The two groups: who belongs to them, what they are called, and how they are marked.
+
+import { swatch } from "../dom.js";
+import { findWords, searchTexts } from "../search.js";
+import { shortened } from "../words.js";
+
+const LONGEST = 40;
+
+export class Groups {
+  constructor(model, clusters) {
+    this.model = model;
+    // Clusters that stand in for labels are the classes already.
+    this.clusters = clusters !== null && !clusters.standIn ? clusters : null;
+  }
+
+  /**
+   * Two groups with their shapes: `{ a, b, common }`, where `common` is the number of shapes that both would have had;
+   * the smaller group keeps them. A group is null where the address names none.
+   */
+  async resolve(a, b) {
+    const [first, second] = await Promise.all([this.#shapes(a), this.#shapes(b)]);
+    const known = (shapes, other) => shapes ?? this.#rest(other);
+    let own = a && known(first, b?.kind === "rest" ? null : second);
+    let others = b && known(second, a?.kind === "rest" ? null : first);
+    let common = 0;
+    if (own && others) {
+      const theirs = new Set(others);
+      const shared = new Set(own.filter((shape) => theirs.has(shape)));
+      common = shared.size;
+      if (common > 0 && own.length <= others.length) others = others.filter((shape) => !shared.has(shape));
+      else if (common > 0) own = own.filter((shape) => !shared.has(shape));
+    }
+    return {
+      a: a && { ...this.#look(a, "a", b), shapes: own },
+      b: b && { ...this.#look(b, "b", a), shapes: others },
+      common,
+    };
+  }
+
+  /** The shapes of a group, rising; null for the rest. */
+  async #shapes(spec) {
+    const { model } = this;
+    const where = (holds) => [...model.ids.keys()].filter(holds);
+    switch (spec?.kind) {
+      case "class":
+        return where((index) => model.groups[index] === spec.group);
+      case "cluster": {
+        const place = this.clusters?.clusters.findIndex(({ name }) => name === spec.name) ?? -1;
+        return place < 0 ? [] : where((index) => this.clusters.of[index] === place);
+      }
+      case "search":
+        this.texts ??= await searchTexts(model);
+        return findWords(this.texts, spec.text);
+      case "shapes":
+        return [...spec.shapes].sort((one, other) => one - other);
+      default:
+        return null;
+    }
+  }
+
+  #rest(other) {
+    const taken = new Set(other ?? []);
+    return [...this.model.ids.keys()].filter((index) => !taken.has(index));
+  }
+
+  /** Name and mark of a group. A class keeps its colour; other groups have that of their side. */
+  #look(spec, side, other) {
+    const { model } = this;
+    const own = spec.kind === "class";
+    const color = () => (own ? model.color(spec.group) : spec.kind === "rest" ? "var(--quiet)" : `var(--${side === "a" ? "accent" : "warn"})`);
+    return {
+      spec,
+      side,
+      name: nameOf(spec, model, other),
+      color,
+      mark: () => swatch(own ? model.symbol(spec.group) : model.data.marks.plain, color()),
+    };
+  }
+}
+
+export function nameOf(spec, model, other = null) {
+  if (spec.kind === "class") return shortened(model.className(spec.group), LONGEST);
+  if (spec.kind === "cluster") return shortened(spec.name, LONGEST);
+  if (spec.kind === "search") return `“${shortened(spec.text, LONGEST)}”`;
+  if (spec.kind === "rest") return "the rest";
+  if (spec.shapes.size === 1) return shortened(model.names[[...spec.shapes][0]], LONGEST);
+  return other?.kind === "shapes" ? `${spec.shapes.size} selected shapes` : "the selected shapes";
+}
+
+/** Whether two descriptions mean the same group. */
+export function isSame(one, other) {
+  return key(one) === key(other);
+}
+
+function key(spec) {
+  return spec === null ? "" : JSON.stringify({ ...spec, shapes: spec.shapes && [...spec.shapes].sort((a, b) => a - b) });
+}

@@ -1,0 +1,64 @@
+// The nearest neighbours of every shape, in the space of all features and on every map.
+
+export class Neighbours {
+  /** `data` is the chunk "compare", `bytes` the ArrayBuffer of the chunk "neighbours". */
+  constructor(model, { k, spaces }, bytes) {
+    Object.assign(this, { model, k, spaces });
+    this.rows = new Uint32Array(bytes);
+  }
+
+  /** Of one shape, nearest first. */
+  of(index, space = this.spaces[0]) {
+    const start = (this.spaces.indexOf(space) * this.model.count + index) * this.k;
+    return this.rows.subarray(start, start + this.k);
+  }
+
+  /** Of the neighbours of some shapes, the share that belongs to others; null without neighbours. */
+  between(shapes, others, space = this.spaces[0]) {
+    if (this.k === 0 || shapes.length === 0) return null;
+    const wanted = new Set(others);
+    let found = 0;
+    for (const index of shapes) for (const other of this.of(index, space)) if (wanted.has(other)) found += 1;
+    return found / (shapes.length * this.k);
+  }
+
+  /** How many neighbours of a shape of each class (rows) belong to each class (columns). */
+  matrix(space) {
+    const { model } = this;
+    const counts = model.classes.map(() => new Array(model.classes.length).fill(0));
+    for (const [index, group] of model.groups.entries()) {
+      if (group < 0) continue;
+      for (const other of this.of(index, space)) if (model.groups[other] >= 0) counts[group][model.groups[other]] += 1;
+    }
+    return counts;
+  }
+
+  /**
+   * Pairs of classes whose shapes are each other's neighbours, the most alike first: `share` is the mean of the shares
+   * of the neighbours of the one that belong to the other, and the other way round.
+   */
+  likest(space = this.spaces[0]) {
+    const counts = this.matrix(space);
+    const shares = counts.map((row, group) => row.map((number) => number / (this.model.sizes.get(group) * this.k)));
+    const pairs = [];
+    for (let group = 0; group < counts.length; group += 1) {
+      for (let other = group + 1; other < counts.length; other += 1) {
+        const [there, back] = [shares[group][other], shares[other][group]];
+        if (there + back > 0) pairs.push({ group, other, there, back, share: (there + back) / 2 });
+      }
+    }
+    return pairs.sort((a, b) => b.share - a.share || a.group - b.group || a.other - b.other);
+  }
+
+  /** The pairs behind a cell: shapes of a class with those of their neighbours that belong to another. */
+  pairs(group, other, space) {
+    const { model } = this;
+    const found = [];
+    for (const [index, own] of model.groups.entries()) {
+      if (own !== group) continue;
+      const near = [...this.of(index, space)].filter((neighbour) => model.groups[neighbour] === other);
+      if (near.length > 0) found.push({ index, near });
+    }
+    return found.sort((a, b) => b.near.length - a.near.length || a.index - b.index);
+  }
+}

@@ -1,0 +1,118 @@
+// A bin on the most central shapes of both groups: pictures first, and 3D where a reader asks for it.
+
+import { percent } from "../bin-card.js";
+import { dimensionOf } from "../bins-page/look.js";
+import { Legend } from "../bins-page/legend.js";
+import { chunk, modelBytes } from "../chunks.js";
+import { element, picture } from "../dom.js";
+import { pageAddress, resource } from "../place.js";
+import { Paint } from "../viewer/paint.js";
+import { Stage } from "../viewer/stage.js";
+
+const EXAMPLES = 6;
+const SIDES = ["a", "b"];
+
+export class OnShapes {
+  constructor(model, state, announce) {
+    Object.assign(this, { model, state, announce });
+    this.asked = false;
+    const inputs = document.querySelectorAll("#readings input");
+    this.check = () => {
+      for (const input of inputs) input.checked = input.value === state.get("reading");
+    };
+    for (const input of inputs) input.addEventListener("change", () => state.set({ reading: input.value }));
+    document.getElementById("turn-both").addEventListener("click", () => {
+      this.asked = true;
+      this.draw();
+      document.getElementById("stage-a").focus({ preventScroll: true });
+    });
+  }
+
+  async show(view) {
+    this.view = view;
+    this.chosen = Object.fromEntries(SIDES.map((side) => [side, view.contrast.central[side][0]]));
+    await this.draw();
+  }
+
+  async draw() {
+    const { view, state } = this;
+    if (!view) return;
+    this.selection ??= await chunk("selection");
+    if (view !== this.view) return;
+    this.stages ??= this.#makeStages();
+    const { bins, bin } = view;
+    this.check();
+    const share = bins.isShare(bin);
+    document.getElementById("readings").hidden = !share;
+    document.getElementById("turn-both").hidden = this.asked || !share || this.selection.models === null;
+    const hue = element("i", { class: "hued" });
+    hue.style.background = bins.color(bin);
+    document.getElementById("seen-bin").replaceChildren(hue, element("b", {}, element("bdi", {}, bins.names[bin])), " ", bins.sentence(bin));
+    if (share) this.legend.show(this.selection.dimensions[dimensionOf(bin, bins)], bins.binOf(bin));
+    else this.legend.clear();
+    for (const side of SIDES) this.#side(side, share);
+    const reading = state.get("reading") === "inside" ? "which points fall into" : "values of";
+    if (this.asked && share) this.announce(`${reading} ${bins.names[bin]}`);
+  }
+
+  #makeStages() {
+    const { selection, model } = this;
+    this.legend = new Legend(selection);
+    this.paint = new Paint(selection);
+    const load = selection.models && ((index) => modelBytes(selection.models[index]));
+    return Object.fromEntries(SIDES.map((side) => [side, new Stage(document.getElementById(`stage-${side}`), { model, load, keys: "turn-keys" })]));
+  }
+
+  #side(side, share) {
+    const { view, model } = this;
+    const { bins, bin } = view;
+    const shape = this.chosen[side];
+    const group = view[side];
+    const told = (index) => (share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3))));
+    document.getElementById(`seen-${side}`).replaceChildren(
+      element("p", { class: "of" }, group.mark(), element("b", {}, element("bdi", {}, group.name))),
+      element("p", {}, element("a", { href: pageAddress("shape.html", { id: model.ids[shape] }) }, element("bdi", {}, model.names[shape])), " ", element("span", { class: "quiet" }, told(shape))),
+    );
+    document.getElementById(`examples-${side}`).replaceChildren(
+      ...view.contrast.central[side].slice(0, EXAMPLES).map((index) =>
+        element(
+          "button",
+          {
+            type: "button",
+            class: "example",
+            "aria-pressed": String(index === shape),
+            "aria-label": `${model.names[index]}, ${told(index)}`,
+            title: model.names[index],
+            onclick: () => {
+              this.chosen[side] = index;
+              this.#side(side, share);
+              document.querySelector(`#examples-${side} [aria-pressed="true"]`)?.focus();
+            },
+          },
+          picture(model, index, 56),
+        ),
+      ),
+    );
+    this.#stage(side, shape, share);
+  }
+
+  #stage(side, shape, share) {
+    const { bins, bin } = this.view;
+    const stage = this.stages[side];
+    const inside = this.state.get("reading") === "inside";
+    if (!this.asked && share) {
+      const painting = this.selection.paintings.find((painted) => painted.column === bin && painted.shape === shape);
+      stage.node.replaceChildren(painting === undefined
+        ? picture(this.model, shape, 320)
+        : element("img", { src: resource(inside ? painting.inside : painting.value), alt: `${this.model.names[shape]}, ${inside ? "what falls into the bin" : "its values in colours"}`, width: 320, height: 320 }));
+      return;
+    }
+    stage.asked = true;
+    const dimension = share ? dimensionOf(bin, bins) : null;
+    stage.show(shape, {
+      label: `${this.model.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
+      paint: (solid) => (inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension)),
+      reason: share ? null : "This feature has no values on the surface.",
+    });
+  }
+}
