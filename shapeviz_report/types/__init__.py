@@ -21,6 +21,7 @@ from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
 from shapeviz_report.types.mesh import Mesh, ShapeFacts
 from shapeviz_report.types.report import Report
+from shapeviz_report.types.retrieval import Rating, Retrieval
 from shapeviz_report.types.search import (
     FeatureEffect,
     FeatureSearch,
@@ -57,7 +58,9 @@ __all__ = [
     "Painting",
     "Projection",
     "Quality",
+    "Rating",
     "Report",
+    "Retrieval",
     "SearchRow",
     "SeedSpread",
     "ShapeEntry",
