@@ -3,8 +3,8 @@
 Twenty class colours share their hues between the two themes, so that a class stays recognisable when the
 theme changes; only lightness moves. They are ordered so that the first few, which small databases use, lie
 farthest apart, with the two common colour-vision deficiencies simulated. Colour alone cannot carry more than
-about eight classes for every reader, so beyond that a symbol joins it: colours that some readers confuse never
-share a symbol, and a hundred classes keep a pair of their own.
+about eight classes for every reader, so beyond that a symbol joins it: up to some fifty classes, colours that
+some readers confuse never share a symbol, and a hundred classes keep a pair of their own.
 """
 
 from __future__ import annotations
@@ -22,6 +22,24 @@ SYMBOLS: tuple[str, ...] = (
     "M0,-1L1,0L0,1L-1,0Z",
     "M-0.32,-0.95L0.32,-0.95L0.32,-0.32L0.95,-0.32L0.95,0.32L0.32,0.32L0.32,0.95L-0.32,0.95L-0.32,0.32"
     "L-0.95,0.32L-0.95,-0.32L-0.32,-0.32Z",
+    "M0,1L-0.98,-0.72L0.98,-0.72Z",
+    "M-0.445,-0.898L0,-0.453L0.445,-0.898L0.898,-0.445L0.453,0L0.898,0.445L0.445,0.898L0,0.453L-0.445,0.898"
+    "L-0.898,0.445L-0.453,0L-0.898,-0.445Z",
+)
+
+#: Colour and symbol of a hundred classes. The first twenty take the colours in order. A search dealt out the rest so
+#: that the colours of one symbol lie as far apart as can be in both themes, to readers of each kind of colour vision:
+#: 0.085 in OKLab up to twenty classes, 0.065 up to forty-five, 0.055 up to fifty; one just sees a difference of 0.02.
+_MARKS = tuple(
+    divmod(int(mark), 10)
+    for marks in (
+        "000 011 022 033 044 055 066 075 081 096 102 111 120 133 144 153 162 174 180 196",
+        "053 015 116 110 025 052 003 171 050 014 151 005 106 071 164 115 062 192 112 086",
+        "002 043 084 065 070 006 026 024 064 020 166 023 021 141 074 165 161 103 054 051",
+        "085 083 082 080 056 095 093 092 090 094 091 076 072 190 073 060 186 185 184 182",
+        "146 145 143 142 140 125 124 121 160 136 132 130 193 135 134 131 010 195 194 191",
+    )
+    for mark in marks.split()
 )
 
 
@@ -159,7 +177,7 @@ THEMES: tuple[Theme, ...] = (LIGHT, DARK)
 
 def class_color_indices(count: int) -> tuple[int, ...]:
     """Index into :attr:`Theme.classes` for each of ``count`` classes in sorted order."""
-    return tuple(index % len(LIGHT.classes) for index in range(count))
+    return tuple(_MARKS[index % len(_MARKS)][0] for index in range(count))
 
 
 def feature_color_indices(count: int) -> tuple[int, ...]:
@@ -168,12 +186,7 @@ def feature_color_indices(count: int) -> tuple[int, ...]:
 
 
 def class_symbol_indices(count: int) -> tuple[int, ...]:
-    """Index into :data:`SYMBOLS` for each of ``count`` classes in sorted order.
-
-    Each further round through the colours shifts the symbols by one, so that pairs repeat only after
-    ``len(classes) * len(SYMBOLS)`` classes.
-    """
+    """Index into :data:`SYMBOLS` for each of ``count`` classes in sorted order: all circles where colours suffice."""
     if count <= PLAIN_CLASSES:
         return (0,) * count
-    rounds = len(LIGHT.classes)
-    return tuple((index + index // rounds) % len(SYMBOLS) for index in range(count))
+    return tuple(_MARKS[index % len(_MARKS)][1] for index in range(count))

@@ -71,19 +71,16 @@ class TestTheme:
         for one, other in itertools.combinations(lab, 2):
             assert np.linalg.norm(one - other) >= 0.055
 
-    @pytest.mark.parametrize("deficiency", DEFICIENCIES)
-    def test_colors_that_look_alike_to_some_have_different_symbols(self, theme, deficiency):
-        lab = seen(theme, deficiency)
-        symbols = class_symbol_indices(len(theme.classes))
-        for one, other in itertools.combinations(range(len(lab)), 2):
+    @pytest.mark.parametrize("deficiency", [None, *DEFICIENCIES])
+    @pytest.mark.parametrize(
+        ("count", "least"), [(8, 0.06), (10, 0.085), (20, 0.085), (45, 0.065), (50, 0.055)]
+    )
+    def test_classes_that_share_a_symbol_differ_in_color(self, theme, deficiency, count, least):
+        lab = seen(theme, deficiency)[list(class_color_indices(count))]
+        symbols = class_symbol_indices(count)
+        for one, other in itertools.combinations(range(count), 2):
             if symbols[one] == symbols[other]:
-                assert np.linalg.norm(lab[one] - lab[other]) >= 0.06
-
-    @pytest.mark.parametrize("deficiency", ["protanopia", "deuteranopia"])
-    def test_the_first_colors_need_no_symbol(self, theme, deficiency):
-        lab = seen(theme, deficiency)[:PLAIN_CLASSES]
-        for one, other in itertools.combinations(lab, 2):
-            assert np.linalg.norm(one - other) >= 0.06
+                assert np.linalg.norm(lab[one] - lab[other]) >= least
 
     def test_every_feature_color_stands_out_from_the_ground(self, theme):
         assert contrast(theme.features, theme.ground).min() >= 2.2
@@ -117,9 +114,14 @@ def test_few_classes_are_all_circles():
 
 
 def test_a_hundred_classes_have_a_mark_of_their_own():
-    count = 20 * len(SYMBOLS)
+    count = 100
     marks = set(zip(class_color_indices(count), class_symbol_indices(count), strict=True))
     assert len(marks) == count
+
+
+def test_the_first_twenty_classes_have_colors_of_their_own_and_all_symbols_are_used():
+    assert class_color_indices(20) == tuple(range(20))
+    assert set(class_symbol_indices(20)) == set(range(len(SYMBOLS)))
 
 
 def test_a_class_keeps_its_mark_when_classes_are_added_behind_it():
