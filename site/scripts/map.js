@@ -15,7 +15,7 @@ export class MapView {
     this.figure = figure;
     this.name = figure.dataset.view;
     this.surface = figure.querySelector(".surface");
-    this.node = element("div", { class: "chart" });
+    this.node = element("div", { class: "chart", "aria-hidden": "true" });
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
     this.labels = new Labels(this.model, this.overlay);
     this.ties = this.overlay.insertBefore(svg("path", { class: "ties" }), this.overlay.firstChild);
