@@ -158,7 +158,7 @@ function strips(rows, edge, x) {
 }
 
 /** A quantile of sorted values. */
-function quantile(values, share) {
+export function quantile(values, share) {
   const place = share * (values.length - 1);
   const below = Math.floor(place);
   const above = Math.min(below + 1, values.length - 1);

@@ -50,6 +50,12 @@ export class Bins {
     return low + ((high - low) * this.steps[column * this.rows + row]) / STEPS;
   }
 
+  /** What one step of `steps` is worth in a column. */
+  stepOf(column) {
+    const { low, high } = this.features[this.#featureOf[column]];
+    return (high - low) / STEPS;
+  }
+
   /** The compared values of all shapes in one column. */
   column(column) {
     return Float32Array.from({ length: this.rows }, (_, row) => this.value(column, row));

@@ -1,16 +1,27 @@
 // The page of one shape: what it is, where it lies, and which shapes are most like it.
 
 import { Pointing } from "../bins-page/pointing.js";
+import { Bins } from "../bins.js";
 import { chunk } from "../chunks.js";
 import { Model } from "../model.js";
+import { Similarity } from "../similar.js";
 import { Facts } from "../shape-page/facts.js";
 import { goToShape, readShapeAddress, writeShapeAddress } from "../shape-page/address.js";
+import { Comparison } from "../shape-page/comparison.js";
 import { Heading } from "../shape-page/heading.js";
+import { Histograms } from "../shape-page/histograms.js";
 import { ShapeLinks } from "../shape-page/links.js";
 import { Portrait } from "../shape-page/portrait.js";
+import { SimilarShapes } from "../shape-page/similar-shapes.js";
+import { Spread } from "../shape-page/spread.js";
 import { Surroundings } from "../shape-page/surroundings.js";
+import { ValueCard } from "../shape-page/value-card.js";
 import { State } from "../state.js";
 import { currentTheme, watchTheme } from "../theme.js";
+import { grouped } from "../words.js";
+
+/** How far below the window the features may be when they are loaded. */
+const AHEAD = "200px";
 
 async function main() {
   const model = new Model(await chunk("overview"), currentTheme);
@@ -23,9 +34,10 @@ async function main() {
     opened = true;
     goToShape(model, state, shape);
   };
+  const portrait = new Portrait(model, state, { models: page.dataset.models !== undefined });
   const views = [
     new Heading(model, state, { links, go, site: page.dataset.site }),
-    new Portrait(model, state, { models: page.dataset.models !== undefined }),
+    portrait,
     new Facts(model, state),
     new Surroundings(model, state, { links, pointing: new Pointing(model), go }),
   ];
@@ -39,11 +51,41 @@ async function main() {
         page.focus({ preventScroll: true });
       }
       opened = false;
-    } else if (["method", "features", "bins", "bin", "selection"].some((name) => changed.has(name))) writeShapeAddress(model, state);
+    } else if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name))) writeShapeAddress(model, state);
   });
   window.addEventListener("hashchange", () => state.set(readShapeAddress(model)));
   watchTheme(() => state.set({ theme: currentTheme() }));
+  whenSeen(document.getElementById("by-features"), () => showFeatures(model, state, { links, portrait }));
   document.documentElement.dataset.ready = "";
+}
+
+/** The features of all shapes are by far the largest data of a site: they come when a reader gets to them. */
+function whenSeen(node, then) {
+  const observer = new IntersectionObserver(
+    ([{ isIntersecting }]) => {
+      if (!isIntersecting) return;
+      observer.disconnect();
+      then();
+    },
+    { rootMargin: AHEAD },
+  );
+  observer.observe(node);
+}
+
+async function showFeatures(model, state, { links, portrait }) {
+  const section = document.getElementById("by-features");
+  const waiting = document.getElementById("waiting");
+  waiting.textContent = model.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(model.count)} shapes …`;
+  const [data, bytes, selection] = await Promise.all(["workbench", "bins", "selection"].map(chunk));
+  const bins = new Bins(data, bytes);
+  const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, state);
+  const histograms = new Histograms(model, bins, state, { spread: new Spread(model, bins), dimensions: selection.dimensions, card: new ValueCard(bins) });
+  const similar = new SimilarShapes(model, bins, state, { links, comparison, similarity: new Similarity(bins) });
+  waiting.hidden = true;
+  section.removeAttribute("aria-busy");
+  document.getElementById("featured").hidden = false;
+  for (const view of [similar, histograms]) view.render();
+  portrait.know(bins, selection, comparison);
 }
 
 main();

@@ -1,5 +1,5 @@
-// What the page of a shape shows, in its address: the shape by its id, what similar means, the map, the painted bin, and
-// the selection that came along.
+// What the page of a shape shows, in its address: the shape by its id, what similar means, the map, the painted bin, the
+// parts of features in sight, and the selection that came along.
 
 import { pageAddress, pushHash, readHash, replaceHash } from "../place.js";
 import { readSelection, writeSelection } from "../selection.js";
@@ -19,6 +19,7 @@ export function readShapeAddress(model) {
     features: query.get("features") ?? "",
     bins: query.get("bins") ?? "",
     bin: query.get("bin"),
+    parts: query.get("parts") ?? "",
     selection: readSelection(query, model),
   };
 }
@@ -44,7 +45,7 @@ function shapeQuery(model, state, shape) {
   const id = shape === null ? state.get("unknown") : model.ids[shape];
   if (id !== null) query.set("id", id);
   if (state.get("method") > 0) query.set("map", model.methods[state.get("method")].key);
-  for (const name of ["features", "bins", "bin"]) if (state.get(name)) query.set(name, state.get(name));
+  for (const name of ["features", "bins", "bin", "parts"]) if (state.get(name)) query.set(name, state.get(name));
   writeSelection(query, model, state.get("selection"));
   return query;
 }

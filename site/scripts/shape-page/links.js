@@ -8,7 +8,7 @@ export class ShapeLinks {
   constructor(model, state, { opened }) {
     Object.assign(this, { model, state });
     state.listen((changed) => {
-      if (["method", "features", "bins", "bin", "selection"].some((name) => changed.has(name))) this.#follow();
+      if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name))) this.#follow();
     });
     document.getElementById("content").addEventListener("click", (event) => {
       if (event.target.closest("a[data-shape]") && !event.ctrlKey && !event.metaKey && !event.shiftKey) opened();

@@ -1,0 +1,144 @@
+// Which shapes are most similar to one, and which features make them so: what shapeviz_report/similarity.py is in Python.
+//
+// The distance of two shapes is the Euclidean distance of the values that projections compare: every feature divided by
+// its root mean square norm over the database, or every chosen bin by its standard deviation; "plain" tables as they are.
+
+/** Distances whose squares differ by less than this fraction are equal. */
+const TIE = 1e-9;
+
+/** A spread below this is rounding: the column or feature is the same for all shapes, and tells nothing. */
+const NOTHING = 1e-12;
+
+export class Similarity {
+  /** `bins` is a Bins. */
+  constructor(bins) {
+    this.bins = bins;
+  }
+
+  /** What a squared difference counts, in each column that was asked for, and in each feature. */
+  #columnWeights = new Map();
+  #featureWeights = new Map();
+
+  /** The squares of the last shape that was asked for: readers try several choices on one. */
+  #last = { row: null };
+
+  /**
+   * The shapes most similar to the one of a row, by `{ features }`, numbers of features, or `{ columns }`: the first
+   * `count` with their `row`, their `distance`, and how much `closer` they are than others in each feature alone: the
+   * share of all other shapes that are farther from the one of the row, those equally far counted half; 0.5 where a
+   * feature tells nothing.
+   */
+  rank(row, choice, count) {
+    const squared = this.#choose(row, choice);
+    const rows = [...squared.keys()].filter((other) => other !== row);
+    const found = rows.sort((a, b) => squared[a] - squared[b] || a - b).slice(0, count);
+    const { byFeature, sorted } = this.#know(row);
+    return found.map((other) => ({
+      row: other,
+      distance: Math.sqrt(squared[other]),
+      closer: byFeature.map((own, feature) => shareFarther(sorted[feature], own[other])),
+    }));
+  }
+
+  /** How far two shapes are apart, as a root mean square over all pairs. */
+  typical({ features, columns }) {
+    const { bins } = this;
+    const spread = columns
+      ? columns.reduce((sum, column) => sum + this.#variance(column) * this.#columnWeight(column), 0)
+      : features.reduce((sum, feature) => sum + this.#size(feature) * this.#featureWeight(feature), 0);
+    return Math.sqrt((2 * spread * bins.rows) / Math.max(bins.rows - 1, 1));
+  }
+
+  #choose(row, { features, columns }) {
+    const total = new Float64Array(this.bins.rows);
+    if (columns) for (const column of columns) this.#addSquares(total, row, column, this.#columnWeight(column));
+    else for (const feature of features) this.#know(row).byFeature[feature].forEach((value, other) => (total[other] += value));
+    return total;
+  }
+
+  /** Squared distances from a row in each feature alone, and those of the other rows rising. */
+  #know(row) {
+    if (this.#last.row !== row) {
+      const byFeature = [...this.bins.features.keys()].map((feature) => this.#byFeature(row, feature));
+      this.#last = { row, byFeature, sorted: byFeature.map((squared) => squared.filter((_, other) => other !== row).sort()) };
+    }
+    return this.#last;
+  }
+
+  #byFeature(row, feature) {
+    const total = new Float64Array(this.bins.rows);
+    for (const column of this.#columns(feature)) this.#addSquares(total, row, column, 1);
+    const weight = this.#featureWeight(feature);
+    return total.map((value) => value * weight);
+  }
+
+  #addSquares(total, row, column, weight) {
+    const { steps, rows } = this.bins;
+    const start = column * rows;
+    const own = steps[start + row];
+    const unit = this.bins.stepOf(column) ** 2 * weight;
+    for (let other = 0; other < rows; other += 1) {
+      const difference = steps[start + other] - own;
+      total[other] += difference * difference * unit;
+    }
+  }
+
+  #columns(feature) {
+    const { start, dimensions, bins } = this.bins.features[feature];
+    return Array.from({ length: dimensions * bins }, (_, place) => start + place);
+  }
+
+  #columnWeight(column) {
+    if (!this.bins.balanced) return 1;
+    if (!this.#columnWeights.has(column)) {
+      const variance = this.#variance(column);
+      this.#columnWeights.set(column, Math.sqrt(variance) > NOTHING ? 1 / variance : 0);
+    }
+    return this.#columnWeights.get(column);
+  }
+
+  #featureWeight(feature) {
+    if (!this.bins.balanced) return 1;
+    if (!this.#featureWeights.has(feature)) {
+      const size = this.#size(feature);
+      this.#featureWeights.set(feature, size > NOTHING ** 2 ? 1 / size : 0);
+    }
+    return this.#featureWeights.get(feature);
+  }
+
+  /** The mean squared distance of all shapes from their mean in one feature. */
+  #size(feature) {
+    return this.#columns(feature).reduce((sum, column) => sum + this.#variance(column), 0);
+  }
+
+  #variance(column) {
+    const { steps, rows } = this.bins;
+    const start = column * rows;
+    let total = 0;
+    for (let row = 0; row < rows; row += 1) total += steps[start + row];
+    const mean = total / rows;
+    let squares = 0;
+    for (let row = 0; row < rows; row += 1) squares += (steps[start + row] - mean) ** 2;
+    return (squares / rows) * this.bins.stepOf(column) ** 2;
+  }
+}
+
+/** The share of rising squared distances that exceed one of them, equal ones counted half. */
+function shareFarther(sorted, squared) {
+  const others = sorted.length - 1;
+  if (others === 0) return 0.5;
+  const below = countBelow(sorted, squared * (1 - TIE), false);
+  const above = sorted.length - countBelow(sorted, squared * (1 + TIE), true);
+  return (above + (sorted.length - below - above - 1) / 2) / others;
+}
+
+/** How many of some rising values are less than a limit, or at most that. */
+function countBelow(sorted, limit, included) {
+  let [low, high] = [0, sorted.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (sorted[middle] < limit || (included && sorted[middle] === limit)) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
