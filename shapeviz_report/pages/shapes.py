@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from shapeviz_report.pages.base import PageContent
+from shapeviz_report.pages.fields import describe_fields, natural
+from shapeviz_report.pages.hierarchy import describe_hierarchy
 from shapeviz_report.types import Report
 
 
@@ -15,4 +17,16 @@ class ShapesPage:
     within = None
 
     def content(self, report: Report) -> PageContent:
-        return PageContent(context={})
+        fields = describe_fields(report)
+        names = [shape.name for shape in report.shapes]
+        return PageContent(
+            context={},
+            chunks={
+                "fields": {
+                    # The rows in the order of their names; those of one name by id, as the shapes stand.
+                    "byName": sorted(range(len(names)), key=lambda row: natural(names[row])),
+                    "fields": fields,
+                },
+                "hierarchy": describe_hierarchy(report, fields),
+            },
+        )

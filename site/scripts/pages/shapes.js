@@ -1,14 +1,144 @@
-// The Shapes page: all shapes as pictures, to search, filter, group and sort.
+// The Shapes page: all shapes as pictures, to search, filter, group, sort, and select.
 
 import { chunk } from "../chunks.js";
+import { element } from "../dom.js";
+import { readGalleryAddress, writeGalleryAddress } from "../gallery/address.js";
+import { Arrangement } from "../gallery/arrangement.js";
+import { Cells } from "../gallery/cells.js";
+import { Chips } from "../gallery/chips.js";
+import { Controls } from "../gallery/controls.js";
+import { Facets } from "../gallery/facets.js";
+import { Fields } from "../gallery/fields.js";
+import { Grid } from "../gallery/grid.js";
+import { Keys } from "../gallery/keys.js";
+import { Sieve } from "../gallery/sieve.js";
+import { watchActions } from "../gallery/actions.js";
+import { Panel } from "../gallery/panel.js";
 import { Model } from "../model.js";
+import { pageAddress } from "../place.js";
+import { findWords, searchTexts } from "../search.js";
+import { State } from "../state.js";
 import { currentTheme, watchTheme } from "../theme.js";
+import { Tray } from "../tray.js";
+import { count } from "../words.js";
+
+const WRITE_AFTER = 250;
+const SAY_AFTER = 500;
 
 async function main() {
-  const model = new Model(await chunk("overview"), currentTheme);
-  document.getElementById("live").textContent = `${model.count} shapes`;
-  watchTheme(() => {});
+  const [overview, described, hierarchy] = await Promise.all(["overview", "fields", "hierarchy"].map(chunk));
+  const model = new Model(overview, currentTheme);
+  const fields = new Fields(model, described, hierarchy);
+  const state = new State({ ...readGalleryAddress(model, fields), matches: null, theme: currentTheme(), opened: null, brushing: false });
+  const sieve = new Sieve(model, fields);
+  const arrangement = new Arrangement(model, fields);
+  const grid = new Grid(model, state);
+  const chips = new Chips(fields, sieve, state);
+  const facets = new Facets(model, fields, sieve, state);
+  const panel = new Panel(sieve, state);
+  const showActions = watchActions(model, sieve, grid, state);
+  new Controls(fields, state);
+
+  let cells = null;
+  const arrange = (fromTop) => {
+    const how = { group: state.get("group"), sort: state.get("sort"), down: state.get("down") };
+    if (cells === null || cells.how !== JSON.stringify([how, state.get("theme")])) {
+      cells = new Cells(model, fields, how);
+      cells.how = JSON.stringify([how, state.get("theme")]);
+    }
+    grid.show(arrangement.arrange((row) => sieve.passes(row), how), cells, fromTop);
+    grid.mark();
+  };
+  const sift = () => {
+    sieve.sift(state.get("matches"), state.get("filters"));
+    chips.show();
+    facets.show();
+    panel.show();
+    showActions();
+  };
+  const write = () => writeGalleryAddress(model, fields, state);
+  const later = delayed(write, WRITE_AFTER);
+  const say = delayed(() => {
+    document.getElementById("live").textContent = `${count(sieve.size, "shape")} shown`;
+  }, SAY_AFTER);
+
+  state.listen((changed) => {
+    const has = (...names) => names.some((name) => changed.has(name));
+    if (has("query")) search(model, state);
+    if (has("matches", "filters")) {
+      sift();
+      say();
+    }
+    if (has("matches", "filters", "group", "sort", "down")) arrange(true);
+    else if (has("theme")) arrange(false);
+    else if (has("size", "closed")) grid.rearrange();
+    if (has("selection")) grid.mark();
+    if (has("query", "filters", "group", "sort", "down", "size", "closed", "selection", "at")) later();
+  });
+  new Keys(grid, state, {
+    leave: (at) => {
+      // Whoever comes back finds the shape where it was.
+      state.set({ at });
+      write();
+    },
+  });
+  const open = (index) => element("a", { href: pageAddress("shape.html", { id: model.ids[index] }) }).click();
+  new Tray(model, state, { cover: () => {} }, { open, point: () => {} });
+  watchSearch(state);
+  window.addEventListener("hashchange", () => state.set(readGalleryAddress(model, fields)));
+  watchTheme(() => state.set({ theme: currentTheme() }));
+
+  if (state.get("query") !== "") await search(model, state);
+  sift();
+  arrange(false);
+  if (state.get("at") !== null) grid.start(state.get("at"));
   document.documentElement.dataset.ready = "";
+}
+
+/** The shapes that the words of the search find; null without words. */
+async function search(model, state) {
+  const query = state.get("query");
+  if (query === "") {
+    state.set({ matches: null });
+    return;
+  }
+  search.texts ??= searchTexts(model);
+  const texts = await search.texts;
+  if (state.get("query") === query) state.set({ matches: new Set(findWords(texts, query)) });
+}
+
+function watchSearch(state) {
+  const field = document.getElementById("search");
+  const show = () => {
+    if (field.value.trim() !== state.get("query")) field.value = state.get("query");
+  };
+  field.addEventListener("input", () => state.set({ query: field.value.trim() }));
+  state.listen((changed) => {
+    if (changed.has("query")) show();
+  });
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+    if (event.key === "Escape") escape(state);
+    else if (event.key === "/" && !event.target.matches("input[type=search]")) {
+      field.focus();
+      event.preventDefault();
+    }
+  });
+  show();
+}
+
+/** One press takes back the last thing: the search, then the selection. */
+function escape(state) {
+  if (state.get("query") !== "") state.set({ query: "" });
+  else state.set({ selection: new Set() });
+}
+
+function delayed(work, wait) {
+  let timer = null;
+  return () => {
+    clearTimeout(timer);
+    timer = setTimeout(work, wait);
+  };
 }
 
 main();

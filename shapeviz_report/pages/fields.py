@@ -1,0 +1,193 @@
+"""What the shapes of a database can be grouped, filtered and sorted by: labels, metadata, and facts of the meshes."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+from shapeviz_report.types import Report, ShapeFacts
+
+#: Most values of a column that still says what kind of shape one is; beyond, it names them, and is only searched.
+MOST_VALUES = 1000
+
+#: Shapes that a value of such a column stands for, on average, at the least.
+FEWEST_SHAPES_A_VALUE = 1.5
+
+#: Different numbers up to which a reader picks single ones; more of them are a range.
+FEW_NUMBERS = 8
+
+#: Most intervals that a range is cut into.
+MOST_INTERVALS = 24
+
+#: High over low from which a range of positive numbers is cut by factors and no longer by differences.
+WIDE = 200
+
+#: Digits of a number. More than a reader compares, and few enough to load quickly.
+DIGITS = 6
+
+#: What is measured of every mesh: key, title, unit.
+_FACTS: tuple[tuple[str, str, str, Callable[[ShapeFacts], float | None]], ...] = (
+    ("faces", "Faces", "", lambda facts: facts.faces_read),
+    ("area", "Area", "file’s units²", lambda facts: facts.area),
+    ("volume", "Volume", "file’s units³", lambda facts: facts.volume),
+    ("side", "Longest side", "file’s units", lambda facts: max(facts.extents)),
+    ("parts", "Parts", "", lambda facts: facts.components),
+)
+
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+
+
+def natural(text: str) -> tuple[object, ...]:
+    """A key that sorts as people do: ``cup 2`` before ``cup 10``, capitals among small letters.
+
+    The text itself comes last, so that only equal texts are equal.
+    """
+    parts = re.split(r"(\d+)", text.casefold(), flags=re.ASCII)
+    # Split at numbers, every second part is one: text is compared with text, numbers with numbers. A number is
+    # compared by its length before its digits, because Python turns no text of thousands of digits into one.
+    key = tuple(
+        (len(part.lstrip("0")), part.lstrip("0")) if place % 2 else part for place, part in enumerate(parts)
+    )
+    return key, text
+
+
+def describe_fields(report: Report) -> list[dict[str, object]]:
+    """Everything that shapes can be grouped, filtered or sorted by.
+
+    Returns
+    -------
+    list of dict
+        One a field: the labelings, the active one first; the columns of metadata; what was measured. Its keys:
+
+        key : str
+            Names the field in an address.
+        title, unit : str
+        active : bool
+            Whether it is the active labeling.
+        names, of
+            The values in their order, and the number of each shape's value, -1 without one; None for a field that has
+            no few values.
+        numbers, edges
+            The number of each shape, None without one, and the edges of intervals, which rise and hold all of them;
+            None for a field that is no number, and for one of a few numbers ``edges`` alone.
+    """
+    labelings = report.database.labelings
+    columns = {name: [shape.labels.get(name) for shape in report.shapes] for name in labelings}
+    if report.labeling is not None:
+        columns = {report.labeling: list(report.labels), **columns}
+    found = [
+        _column(f"label:{name}", name, values, active=name == report.labeling)
+        for name, values in columns.items()
+    ]
+    for name in dict.fromkeys(name for shape in report.shapes for name in shape.metadata):
+        values = [shape.metadata.get(name) for shape in report.shapes]
+        if values != columns.get(name):
+            found.append(_column(f"column:{name}", name, values))
+    for key, title, unit, measure in _FACTS:
+        found.append(_numbers(f"fact:{key}", title, [measure(facts) for facts in report.facts], unit))
+    tight = ["watertight" if facts.watertight else "open" for facts in report.facts]
+    found.append(_column("fact:watertight", "Surface", tight))
+    return [field for field in found if field is not None]
+
+
+def _column(
+    key: str, title: str, values: Sequence[str | None], *, active: bool = False
+) -> dict[str, object] | None:
+    """A column of text as a field; None where it tells no shapes apart, or every shape from all others."""
+    counts = Counter(value for value in values if value)
+    differs = len(counts) > 1 or (len(counts) == 1 and counts.total() < len(values))
+    few = len(counts) <= MOST_VALUES and counts.total() >= FEWEST_SHAPES_A_VALUE * len(counts)
+    numbers = None if active or len(counts) < 2 else _as_numbers(values)
+    if not active and not (differs and (few or numbers is not None)):
+        return None
+    field = _field(key, title, active=active)
+    if numbers is not None:
+        edges = _edges([number for number in numbers if number is not None])
+        field |= {"numbers": _rounded(numbers), "edges": edges if len(counts) > FEW_NUMBERS else None}
+    if few or active:
+        names = sorted(counts, key=natural if numbers is None else lambda name: (float(name), name))
+        number = {name: index for index, name in enumerate(names)}
+        field |= {"names": names, "of": [number[value] if value else -1 for value in values]}
+    return field
+
+
+def _numbers(key: str, title: str, values: Sequence[float | None], unit: str) -> dict[str, object] | None:
+    """A measured number as a field; None where it is the same for all shapes."""
+    different = {value for value in values if value is not None}
+    if len(different) < 2:
+        return None
+    return _field(key, title, unit) | {"numbers": _rounded(values), "edges": _edges(sorted(different))}
+
+
+def _field(key: str, title: str, unit: str = "", *, active: bool = False) -> dict[str, object]:
+    return {
+        "key": key,
+        "title": title,
+        "unit": unit,
+        "active": active,
+        "names": None,
+        "of": None,
+        "numbers": None,
+        "edges": None,
+    }
+
+
+def _as_numbers(values: Sequence[str | None]) -> list[float | None] | None:
+    """A column's numbers; None if one of its values is none."""
+    if any(value and not _NUMBER.fullmatch(value) for value in values):
+        return None
+    numbers = [float(value) if value else None for value in values]
+    return None if any(number is not None and math.isinf(number) for number in numbers) else numbers
+
+
+def _rounded(numbers: Sequence[float | None]) -> list[float | None]:
+    return [None if number is None else float(f"{number:.{DIGITS}g}") for number in numbers]
+
+
+def _edges(numbers: Sequence[float]) -> list[float] | None:
+    """Round numbers that cut a range into at most ``MOST_INTERVALS`` intervals.
+
+    Returns
+    -------
+    list of float, or None
+        They rise, and the first and last enclose all numbers as they are rounded. None where no round numbers do:
+        far from 0, and close together.
+    """
+    rounded = _rounded(numbers)
+    low, high = min(rounded), max(rounded)
+    edges = _factors(low, high) if low > 0 and high / WIDE >= low else _steps(low, high)
+    rises = all(left < right for left, right in pairwise(edges))
+    return edges if len(edges) > 2 and rises and edges[0] <= low and edges[-1] >= high else None
+
+
+def _steps(low: float, high: float) -> list[float]:
+    """Edges at multiples of 1, 2 or 5 times a power of ten."""
+    least = high / MOST_INTERVALS - low / MOST_INTERVALS
+    if least <= 0 or math.isinf(least):
+        return []
+    power = 10.0 ** math.floor(math.log10(least))
+    # One interval may be lost at each end to rounding outwards.
+    for step in (power, 2 * power, 5 * power, 10 * power, 20 * power):
+        first, last = math.floor(low / step), math.ceil(high / step)
+        if last - first <= MOST_INTERVALS:
+            return [float(f"{number * step:.12g}") for number in range(first, last + 1)]
+    return []
+
+
+def _factors(low: float, high: float) -> list[float]:
+    """Edges at 1, 2 and 5 times the powers of ten, at the powers alone, or at every second, third, ... power."""
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    stride = math.ceil((last - first) / MOST_INTERVALS)
+    for digits in ((1, 1.5, 2, 3, 5, 7), (1, 2, 5), (1, 3), (1,)):
+        edges = [
+            float(f"{digit}e{power}") for power in range(first, last + stride, stride) for digit in digits
+        ]
+        below = [edge for edge in edges if edge <= low]
+        above = [edge for edge in edges if edge >= high]
+        inner = [edge for edge in edges if low < edge < high]
+        if below and above and len(inner) < MOST_INTERVALS:
+            return [below[-1], *inner, above[0]]
+    return []

@@ -1,0 +1,77 @@
+// What shapes can be grouped, filtered and sorted by: the database's own fields, and the neighbourhood hit on each map.
+
+const HIT_EDGES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
+
+/** What stands for "no value" among the numbers of values. */
+export const NONE = -1;
+
+export class Fields {
+  constructor(model, { byName, fields }, { trees }) {
+    this.byName = byName;
+    // A tree of one level is a list.
+    const deep = trees.filter(({ key, nodes }) => key === "folders" || nodes.some(({ parent }) => parent >= 0));
+    const own = fields.map((field) => ({ ...field, tree: deep.find(({ key }) => key === field.key) ?? null }));
+    const folders = deep
+      .filter(({ key }) => key === "folders")
+      .map((tree) => ({ ...NOTHING, key: tree.key, title: tree.title, tree }));
+    this.all = [...own, ...folders, ...hits(model)];
+    for (const field of this.all) if (field.tree) field.tree.ways = ways(field.tree.nodes);
+    this.byKey = new Map(this.all.map((field) => [field.key, field]));
+    this.active = this.all.find(({ active }) => active) ?? null;
+  }
+
+  /** Those that make groups: few values, or intervals. */
+  get groupable() {
+    return this.all.filter(({ names, edges }) => names !== null || edges !== null);
+  }
+
+  /** Those that put shapes in an order, beside their names. */
+  get sortable() {
+    return this.all.filter(({ active, numbers }) => active || numbers !== null);
+  }
+
+  /** Those that a reader can filter by, trees first. */
+  get filters() {
+    const all = this.all.filter(({ tree, names, edges }) => tree !== null || names !== null || edges !== null);
+    return [...all.filter(first), ...all.filter((field) => !first(field))];
+  }
+}
+
+const first = ({ active, tree }) => active || tree !== null;
+
+const NOTHING = { unit: "", active: false, names: null, of: null, numbers: null, edges: null, tree: null };
+
+function hits(model) {
+  if (!model.separable) return [];
+  return model.methods.map(({ key, title, hit }) => ({ ...NOTHING, key: `nh:${key}`, title: `NH on the ${title} map`, numbers: hit, edges: HIT_EDGES, hit: true }));
+}
+
+/** The names from the top of a tree down to each of its nodes. */
+function ways(nodes) {
+  const found = [];
+  for (const { name, parent } of nodes) found.push(parent < 0 ? [name] : [...found[parent], name]);
+  return found;
+}
+
+/** A field as a reader knows it: the active labels are the classes. */
+export function fieldTitle({ active, key, title }) {
+  if (!active) return title;
+  return key === "label:clusters" ? "Cluster" : "Class";
+}
+
+/** The words for a value of a field of names. */
+export function valueName(field, value) {
+  if (value !== NONE) return field.names[value];
+  return field.active || field.key.startsWith("label:") ? "no label" : `no ${field.title}`;
+}
+
+/** A number with as many digits as tell shapes apart. */
+export function numberText(number, { hit } = {}) {
+  if (number === null || number === undefined) return "–";
+  if (hit) return number.toFixed(3);
+  const size = Math.abs(number);
+  if (size !== 0 && (size >= 1e7 || size < 1e-3)) return number.toExponential(2).replace(/\.?0+e/, "e").replace("e+", "e");
+  if (Number.isInteger(number) && size < 10000) return String(number);
+  const rounded = size >= 1000 ? Math.round(number) : Number(number.toPrecision(4));
+  return size >= 10000 ? String(rounded).replace(/\B(?=(\d{3})+$)/g, "\u2009") : String(rounded);
+}

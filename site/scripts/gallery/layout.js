@@ -1,0 +1,55 @@
+// Where every row of the gallery lies. Numbers only: nothing is drawn here.
+
+export const GAP = 12;
+export const HEAD = 40;
+const LINE = 19;
+
+/** The width from which on there is room for a caption below a picture. */
+export const CAPTIONED = 92;
+
+/**
+ * Lay groups of shapes out in rows below each other.
+ *
+ * `rows` holds, from top to bottom, heads `{ block, head: true, top, height }` and rows of shapes
+ * `{ block, head: false, top, height, start, end }`; `start` and `end` count within `sequence`, all shapes that are not
+ * folded away; `rowOf` has the row of each of them. `blocks` holds a group each, with its `top` and `height`.
+ */
+export function layOut(groups, closed, { width, size, lines }) {
+  const gap = size < CAPTIONED ? GAP / 2 : GAP;
+  const columns = Math.max(Math.floor((width + gap) / (size + gap)), 1);
+  const cell = Math.floor((width - gap * (columns - 1)) / columns);
+  const pitch = cell + (size < CAPTIONED ? 0 : lines * LINE + 4) + gap;
+  const [rows, blocks, sequence, rowOf] = [[], [], [], []];
+  let top = 0;
+  for (const [block, { key, title, rows: members }] of groups.entries()) {
+    const start = top;
+    const folded = title !== null && closed.has(key);
+    if (title !== null) {
+      rows.push({ block, head: true, top, height: HEAD });
+      top += HEAD;
+    }
+    for (let first = 0; first < members.length && !folded; first += columns) {
+      const next = members.slice(first, first + columns);
+      rows.push({ block, head: false, top, height: pitch, start: sequence.length, end: sequence.length + next.length });
+      for (const member of next) {
+        sequence.push(member);
+        rowOf.push(rows.length - 1);
+      }
+      top += pitch;
+    }
+    if (title !== null && !folded) top += GAP;
+    blocks.push({ top: start, height: top - start, folded });
+  }
+  return { rows, blocks, sequence, rowOf, columns, cell, gap, captioned: size >= CAPTIONED, height: top };
+}
+
+/** The first row that ends below a place. */
+export function rowAt(rows, place) {
+  let [low, high] = [0, rows.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (rows[middle].top + rows[middle].height > place) high = middle;
+    else low = middle + 1;
+  }
+  return low;
+}
