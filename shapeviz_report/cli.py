@@ -103,7 +103,9 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     _add_destination(demo)
-    _add_options(demo, ["preset", "bins", "search", "meshes", "seed", "jobs", "scheduler", "cache"])
+    _add_options(
+        demo, ["preset", "bins", "search", "meshes", "single_file", "seed", "jobs", "scheduler", "cache"]
+    )
     demo.set_defaults(command=_demo)
 
     check = commands.add_parser(
@@ -137,7 +139,8 @@ def _add_destination(parser: argparse.ArgumentParser) -> None:
         metavar="OUT",
         type=Path,
         required=True,
-        help="folder of the site; an earlier site there is replaced when the new one is complete",
+        help="folder of the site, or its file with --single-file; an earlier site there is replaced when the new one "
+        "is complete",
     )
 
 
@@ -251,7 +254,8 @@ def _print_summary(report: Report, destination: Path) -> None:
     _print_failures(report.failures[:10])
     if len(report.failures) > 10:
         print(f"  ... and {len(report.failures) - 10} more: see the About page")
-    print(f"\nThe site is ready. Open {(destination / 'index.html').absolute()}")
+    page = destination if destination.is_file() else destination / "index.html"
+    print(f"\nThe site is ready. Open {page.absolute()}")
 
 
 def _one_line(text: str) -> str:

@@ -65,6 +65,10 @@ class Config:
         True,
         "whether the site holds a 3D model of every shape, to be turned in the browser: some 80 kB a shape",
     )
+    single_file: bool = _option(
+        False,
+        "write one HTML file, to be mailed, instead of a folder: OUT is its name; it holds no 3D models",
+    )
     edge_length: float = _option(
         0.01, "edge length after remeshing, as a fraction of the shape's size", "FRACTION"
     )
@@ -115,7 +119,7 @@ class Config:
 
     def as_parameters(self) -> dict[str, object]:
         """The options that shape the result, as JSON values; not where and how fast it was computed."""
-        left_out = {"title", "jobs", "scheduler", "cache", "time_limit"}
+        left_out = {"title", "single_file", "jobs", "scheduler", "cache", "time_limit"}
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
         return values | {
             "external": [path.name for path in self.external],

@@ -172,7 +172,7 @@ def build_report(
     ShapevizError
         Nothing could be built; an existing site is left as it is.
     """
-    check_destination(destination)
+    check_destination(destination, single_file=config.single_file)
     check_renderer()
     clock = Clock(progress or QuietProgress())
     with clock.stage("read"):
@@ -295,13 +295,13 @@ def build_report(
         clusters=clusters,
     )
     with clock.stage("write"):
-        write_site(report, destination)
+        write_site(report, destination, single_file=config.single_file)
     return report
 
 
 def build_demo(destination: Path, config: Config, progress: Progress | None = None) -> Report:
     """Generate the demo database below the cache and build its site; see :func:`build_report`."""
-    check_destination(destination)
+    check_destination(destination, single_file=config.single_file)
     check_renderer()
     progress = progress or QuietProgress()
     root = (config.cache or default_root()).absolute() / "demo" / f"{stages.GENERATE.version}-{config.seed}"

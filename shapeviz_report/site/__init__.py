@@ -6,14 +6,17 @@ import base64
 import gzip
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
 
 import jinja2
 import numpy as np
+from markupsafe import Markup
 
+from shapeviz_report.cache import write_atomically
 from shapeviz_report.errors import SiteError
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
@@ -22,6 +25,14 @@ from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.site.data_files import GENERATOR, data_files, json_text
 from shapeviz_report.site.joiner import join
 from shapeviz_report.site.resources import site_folder, templates_folder
+from shapeviz_report.site.single_file import (
+    Inline,
+    base64_text,
+    data_address,
+    handed_over,
+    media_type,
+    split_large,
+)
 from shapeviz_report.site.swap import replaced_folder
 from shapeviz_report.types import Report
 
@@ -58,17 +69,34 @@ STYLES = (
 )
 
 
-def check_destination(destination: Path) -> None:
+#: Data of more bytes than this is left out of a site in one file; the About page says so.
+MOST_EMBEDDED = 2_000_000
+
+#: Tells a file that this package wrote from one that it must not replace; it stands among its first bytes.
+MARK = f'<meta name="generator" content="{GENERATOR} '.encode()
+MARK_WITHIN = 8192
+
+
+def check_destination(destination: Path, *, single_file: bool = False) -> None:
     """Refuse a place where a site cannot be written, or would replace something that is not a site of ours.
+
+    Parameters
+    ----------
+    destination : Path
+    single_file : bool
+        Whether the site is to be one file, and not a folder.
 
     Raises
     ------
     SiteError
-        If ``destination`` is a file, a folder with other content, or cannot be written.
+        If ``destination`` is a file where a folder is wanted or the other way round, holds something else, or cannot
+        be written.
     """
-    if destination.exists() and not destination.is_dir():
+    if single_file:
+        _check_file(destination)
+    elif destination.exists() and not destination.is_dir():
         raise SiteError(f"{destination} is a file: choose a folder for the site")
-    if destination.is_dir() and any(destination.iterdir()) and not _is_site(destination):
+    elif destination.is_dir() and any(destination.iterdir()) and not _is_site(destination):
         raise SiteError(
             f"{destination} holds files that are not a site of shapeviz-report, and would be replaced: "
             "choose another folder, or empty this one"
@@ -80,7 +108,7 @@ def check_destination(destination: Path) -> None:
         raise SiteError(f"{destination} cannot be made: {ancestor} is not a folder that you may write to")
 
 
-def write_site(report: Report, destination: Path) -> None:
+def write_site(report: Report, destination: Path, *, single_file: bool = False) -> None:
     """Write the site of ``report`` into the folder ``destination``, which changes in one step at the end.
 
     Parameters
@@ -88,6 +116,8 @@ def write_site(report: Report, destination: Path) -> None:
     report : Report
     destination : Path
         A folder that is not there yet, is empty, or holds an earlier site, which is replaced.
+    single_file : bool
+        Write one HTML file instead, without 3D models; ``destination`` is its path.
 
     Raises
     ------
@@ -97,10 +127,13 @@ def write_site(report: Report, destination: Path) -> None:
         If the parts of the report do not fit together: an error of the caller.
     """
     destination = Path(destination)
-    check_destination(destination)
+    check_destination(destination, single_file=single_file)
     _check_report(report)
-    files = _files(report)
     try:
+        if single_file:
+            write_atomically(destination, _whole(report))
+            return
+        files = _files(report)
         with replaced_folder(destination) as folder:
             for name, content in files.items():
                 path = folder / name
@@ -112,47 +145,16 @@ def write_site(report: Report, destination: Path) -> None:
 
 def _files(report: Report) -> dict[str, bytes]:
     """Every file of the site: path below its folder -> content."""
-    contents = [(page, page.content(report)) for page in PAGES]
+    contents = _contents(report)
     assets = {
-        **_scripts_and_styles([page for page, _ in contents]),
-        **{f"chunk-{name}.js": _chunk(name, value) for name, value in _chunks(contents).items()},
-        "chunk-engine.js": _chunk("engine", join(site_folder() / "scripts" / "engine" / "worker.js")),
+        **{name: text.encode() for name, text in _scripts().items()},
+        **_other_assets(),
+        "style.css": _style().encode(),
+        **{f"chunk-{name}.js": _handing_over(name, *packed) for name, packed in _chunks(contents).items()},
     }
-    environment = _environment(assets)
-    pages = {
-        page.file: environment.get_template(f"{page.name}.html")
-        .render(page=page, pages=PAGES, site=_site_context(report), **content.context)
-        .encode("utf-8", "backslashreplace")
-        for page, content in contents
-    }
-    data = data_files(report, version("shapeviz-report"))
-    return {
-        **pages,
-        **{f"assets/{name}": content for name, content in assets.items()},
-        **{f"thumbnails/{thumbnail_name(thumbnail)}": thumbnail for thumbnail in report.thumbnails},
-        **{
-            f"paintings/{painting_name(picture)}": picture
-            for painting in report.paintings
-            for picture in (painting.value, painting.inside)
-        },
-        **{
-            f"models/{model_name(model)}.js": _handing_over(f"model-{model_name(model)}", "bytes", model)
-            for model in report.models or ()
-        },
-        **{f"data/{name}": content for name, content in data.items()},
-    }
-
-
-def _environment(assets: Mapping[str, bytes]) -> jinja2.Environment:
     # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
     addresses = {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(templates_folder()),
-        autoescape=True,
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
+    environment = _environment()
     environment.globals["asset"] = addresses.__getitem__
     environment.globals["content_security_policy"] = CONTENT_SECURITY_POLICY
     environment.globals["chunk_addresses"] = json.dumps(
@@ -162,6 +164,99 @@ def _environment(assets: Mapping[str, bytes]) -> jinja2.Environment:
             if name.startswith("chunk-")
         }
     )
+    return {
+        **{page.file: _encode(text) for page, text in _pages(environment, report, contents)},
+        **{f"assets/{name}": content for name, content in assets.items()},
+        **_pictures(report),
+        **{
+            f"models/{model_name(model)}.js": _handing_over(f"model-{model_name(model)}", "bytes", model)
+            for model in report.models or ()
+        },
+        **_data(report),
+    }
+
+
+def _whole(report: Report) -> bytes:
+    """The site as one HTML file. It holds no 3D models: these would be most of it."""
+    report = replace(report, models=None)
+    contents = _contents(report)
+    scripts = _scripts()
+    inline = Inline(
+        _style(),
+        (
+            scripts.pop("first.js"),
+            *(handed_over(f"assets/{name}", text) for name, text in scripts.items()),
+            join(site_folder() / "scripts" / "single-file.js"),
+        ),
+    )
+    assets = {f"assets/{name}": content for name, content in _other_assets().items()}
+    data, left_out = split_large(_data(report), MOST_EMBEDDED)
+    environment = _environment(single_file=True, left_out=left_out)
+    environment.globals["asset"] = "assets/".__add__
+    environment.globals["content_security_policy"] = inline.policy
+    *scripts_before, opening = map(Markup, inline.scripts)
+    text = environment.get_template("single-file.html").render(
+        site=_site_context(report),
+        icon=data_address("icon.svg", assets["assets/icon.svg"]),
+        style=Markup(inline.style),
+        scripts=scripts_before,
+        opening=opening,
+        pages=[Markup(text) for _, text in _pages(environment, report, contents)],
+        chunks=[(name, kind, base64_text(packed)) for name, (kind, packed) in _chunks(contents).items()],
+        files=[
+            (path, media_type(path), base64_text(content))
+            for path, content in {**assets, **_pictures(report), **data}.items()
+        ],
+    )
+    return _encode(text)
+
+
+def _contents(report: Report) -> list[tuple[Page, PageContent]]:
+    return [(page, page.content(report)) for page in PAGES]
+
+
+def _pages(
+    environment: jinja2.Environment, report: Report, contents: Sequence[tuple[Page, PageContent]]
+) -> Iterator[tuple[Page, str]]:
+    """Every page in HTML."""
+    site = _site_context(report)
+    for page, content in contents:
+        template = environment.get_template(f"{page.name}.html")
+        yield page, template.render(page=page, pages=PAGES, site=site, **content.context)
+
+
+def _encode(text: str) -> bytes:
+    # A file name that is no text may stand in one.
+    return text.encode("utf-8", "backslashreplace")
+
+
+def _pictures(report: Report) -> dict[str, bytes]:
+    return {
+        **{f"thumbnails/{thumbnail_name(thumbnail)}": thumbnail for thumbnail in report.thumbnails},
+        **{
+            f"paintings/{painting_name(picture)}": picture
+            for painting in report.paintings
+            for picture in (painting.value, painting.inside)
+        },
+    }
+
+
+def _data(report: Report) -> dict[str, bytes]:
+    return {
+        f"data/{name}": content for name, content in data_files(report, version("shapeviz-report")).items()
+    }
+
+
+def _environment(*, single_file: bool = False, left_out: Sequence[str] = ()) -> jinja2.Environment:
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates_folder()),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.globals["single_file"] = single_file
+    environment.globals["left_out"] = left_out
     return environment
 
 
@@ -175,38 +270,48 @@ def _site_context(report: Report) -> dict[str, object]:
     }
 
 
-def _scripts_and_styles(pages: list[Page]) -> dict[str, bytes]:
+def _style() -> str:
+    return "\n".join((site_folder() / "styles" / name).read_text(encoding="utf-8") for name in STYLES)
+
+
+def _scripts() -> dict[str, str]:
+    """The scripts by their file below ``assets/``; ``first.js`` is the one that runs before anything is painted."""
     source = site_folder()
-    styles = "\n".join((source / "styles" / name).read_text(encoding="utf-8") for name in STYLES)
-    files = {
-        "style.css": styles.encode(),
-        "icon.svg": (source / "icon.svg").read_bytes(),
-        "first.js": join(source / "scripts" / "first.js").encode(),
+    scripts = {
+        "first.js": join(source / "scripts" / "first.js"),
         # Unwrapped, Vega would leave thousands of names on the window.
-        "vega.js": b"(() => {\n" + (source / "vendor" / "vega.js").read_bytes() + b"\n})();\n",
-        "vega-licenses.txt": (source / "vendor" / "LICENSES.txt").read_bytes(),
+        "vega.js": f"(() => {{\n{(source / 'vendor' / 'vega.js').read_text(encoding='utf-8')}\n}})();\n",
     }
-    for page in pages:
+    for page in PAGES:
         entry = source / "scripts" / "pages" / f"{page.name}.js"
         if entry.exists():
-            files[f"{page.name}.js"] = join(entry).encode()
-    return files
+            scripts[f"{page.name}.js"] = join(entry)
+    return scripts
 
 
-def _chunks(contents: list[tuple[Page, PageContent]]) -> dict[str, object]:
+def _other_assets() -> dict[str, bytes]:
+    source = site_folder()
+    return {
+        "icon.svg": (source / "icon.svg").read_bytes(),
+        "vega-licenses.txt": (source / "vendor" / "LICENSES.txt").read_bytes(),
+    }
+
+
+def _chunks(contents: Sequence[tuple[Page, PageContent]]) -> dict[str, tuple[str, bytes]]:
+    """The data of all pages by name: its kind, ``json`` or ``bytes``, and gzipped content."""
     chunks: dict[str, object] = {}
     for page, content in contents:
         for name, value in content.chunks.items():
             if name in chunks and chunks[name] != value:
                 raise ValueError(f"page {page.name!r} disagrees with an earlier page on chunk {name!r}")
             chunks[name] = value
-    return chunks
+    chunks["engine"] = join(site_folder() / "scripts" / "engine" / "worker.js")
+    return {name: _packed(value) for name, value in chunks.items()}
 
 
-def _chunk(name: str, value: object) -> bytes:
-    """JSON or bytes in a script for the page."""
+def _packed(value: object) -> tuple[str, bytes]:
     kind, content = ("bytes", value) if isinstance(value, bytes) else ("json", json_text(value).encode())
-    return _handing_over(name, kind, gzip.compress(content, compresslevel=9, mtime=0))
+    return kind, gzip.compress(content, compresslevel=9, mtime=0)
 
 
 def _handing_over(name: str, kind: str, packed: bytes) -> bytes:
@@ -217,6 +322,17 @@ def _handing_over(name: str, kind: str, packed: bytes) -> bytes:
 
 def _is_webp(picture: bytes) -> bool:
     return picture[:4] == b"RIFF" and picture[8:12] == b"WEBP"
+
+
+def _check_file(destination: Path) -> None:
+    if destination.suffix.lower() not in (".html", ".htm"):
+        raise SiteError(f"a site in a single file needs a name that ends in .html, unlike {destination}")
+    if destination.is_dir():
+        raise SiteError(f"{destination} is a folder: name a file for a site in a single file")
+    if destination.exists() and MARK not in destination.read_bytes()[:MARK_WITHIN]:
+        raise SiteError(
+            f"{destination} is not a site of shapeviz-report, and would be replaced: choose another name"
+        )
 
 
 def _is_site(folder: Path) -> bool:
@@ -265,6 +381,15 @@ def _check_report(report: Report) -> None:
         require(painting.column in report.features.columns, "a painting of a bin that is not there")
         require(0 <= painting.shape < count, "a painting of a shape that is not there")
         require(_is_webp(painting.value) and _is_webp(painting.inside), "a painting is not a WebP image")
+    if report.clusters is not None:
+        clusters = report.clusters
+        require(clusters.of.shape == (count,), "clusters do not match the shapes")
+        sizes = np.bincount(clusters.of, minlength=len(clusters.clusters)).tolist()
+        require(sizes == [cluster.size for cluster in clusters.clusters], "a cluster of another size")
+        for number, cluster in enumerate(clusters.clusters):
+            require(clusters.of[cluster.central] == number, "the centre of a cluster is not in it")
+        names = [clusters.clusters[number].name for number in clusters.of]
+        require(not clusters.stand_in or list(report.labels) == names, "labels are not the clusters")
     if report.models is not None:
         require(len(report.models) == count, "models do not match the shapes")
         require(all(model[:2] == b"\x1f\x8b" for model in report.models), "a model is not gzipped")
@@ -275,12 +400,3 @@ def _check_report(report: Report) -> None:
         require(projection.xy.shape == (count, 2), f"projection {method} has another number of points")
         require(bool(np.isfinite(projection.xy).all()), f"projection {method} has a point that is not finite")
         require(quality.nh.shape == (count,), f"quality of {method} has another number of shapes")
-    if report.clusters is not None:
-        clusters = report.clusters
-        require(clusters.of.shape == (count,), "clusters do not match the shapes")
-        sizes = np.bincount(clusters.of, minlength=len(clusters.clusters)).tolist()
-        require(sizes == [cluster.size for cluster in clusters.clusters], "a cluster of another size")
-        for number, cluster in enumerate(clusters.clusters):
-            require(clusters.of[cluster.central] == number, "the centre of a cluster is not in it")
-        names = [clusters.clusters[number].name for number in clusters.of]
-        require(not clusters.stand_in or list(report.labels) == names, "labels are not the clusters")

@@ -5,6 +5,8 @@ export function openReception() {
   const packed = new Map();
   window.shapeviz = {
     packed,
+    // In a site of one file: what its scripts do, by their address in a folder.
+    scripts: new Map(),
     receive: (name, kind, text) => packed.set(name, { kind, text }),
   };
 }
@@ -13,24 +15,35 @@ const loaded = new Map();
 
 /** The content of a chunk, loaded when first asked for: an ArrayBuffer where it holds bytes. */
 export function chunk(name) {
-  if (!loaded.has(name)) loaded.set(name, load(name, JSON.parse(document.body.dataset.chunks)[name]));
+  if (!loaded.has(name)) loaded.set(name, load(name, () => JSON.parse(document.body.dataset.chunks)[name]));
   return loaded.get(name);
 }
 
 /** The 3D model of a shape by its name in the chunk "selection", an ArrayBuffer; loaded anew each time. */
 export function modelBytes(name) {
-  return load(`model-${name}`, `models/${name}.js`);
+  return load(`model-${name}`, () => `models/${name}.js`);
 }
 
 async function load(name, address) {
-  const { packed } = window.shapeviz;
-  if (!packed.has(name)) await addScript(address);
-  const { kind, text } = packed.get(name);
-  packed.delete(name);
+  const { kind, text } = standing(name) ?? (await received(name, address));
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const response = new Response(stream);
   return kind === "bytes" ? response.arrayBuffer() : response.json();
+}
+
+/** Data that stands in the document, where the site is one file. */
+function standing(name) {
+  const block = document.getElementById(`chunk-${name}`);
+  return block && { kind: block.dataset.kind, text: block.textContent };
+}
+
+async function received(name, address) {
+  const { packed } = window.shapeviz;
+  if (!packed.has(name)) await addScript(address());
+  const handed = packed.get(name);
+  packed.delete(name);
+  return handed;
 }
 
 function addScript(address) {

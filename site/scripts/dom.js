@@ -1,5 +1,7 @@
 // Elements from data. Text is only ever set as text.
 
+import { resource } from "./place.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 
 /** An HTML element with attributes and children (strings become text; null and false are left out). */
@@ -40,6 +42,11 @@ export function picture(model, index, size, name = "") {
     decoding: "async",
     draggable: "false",
   });
+}
+
+/** A link to a file of the site's data, by its path. */
+export function dataLink(path) {
+  return element("a", { href: resource(path), download: path.split("/").at(-1) }, path);
 }
 
 /** Whether the reader asked for less movement. */

@@ -1,5 +1,6 @@
 // Runs in the head of every page, before anything is painted.
 
+import { watchAnchors } from "./anchors.js";
 import { applyStoredTheme } from "./theme.js";
 import { openReception } from "./chunks.js";
 import { startWorker, trustOnlyOurselves } from "./trusted.js";
@@ -7,5 +8,6 @@ import { startWorker, trustOnlyOurselves } from "./trusted.js";
 trustOnlyOurselves();
 applyStoredTheme();
 openReception();
+watchAnchors();
 // Only the script in the head may make a worker; pages ask it to.
 window.shapeviz.startWorker = startWorker;

@@ -1,6 +1,6 @@
 // The maps of the Overview as tables.
 
-import { element } from "./dom.js";
+import { dataLink, element } from "./dom.js";
 import { table } from "./tables.js";
 import { count, figure } from "./words.js";
 
@@ -32,7 +32,7 @@ export function mapTables(model, state) {
         figure(method.y[index]),
       ]),
     ),
-    shown.length > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(shown.length, "shape")}. All are in `, element("a", { href: "data/shapes.csv" }, "data/shapes.csv"), "."),
+    shown.length > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(shown.length, "shape")}. All are in `, dataLink("data/shapes.csv"), "."),
   ].filter(Boolean);
   return { title: `The ${method.title} map in figures`, tables };
 }

@@ -1,32 +1,68 @@
 // Where things are: the state of a view in the address, the other pages, and the files of the site.
+//
+// A site is a folder, or it is one file. In one file all pages and files stand in the document, and an address names
+// the page before the state of its view: `#/shapes?find=x` where a folder has `shapes.html#find=x`. Only this module
+// knows the difference.
+
+const singleFile = document.documentElement.hasAttribute("data-single-file");
+const PAGE = /^#\/([a-z-]*)\??/;
+const LINK = /^([a-z-]+\.html)(?:#(.*))?$/;
+
+/** The page that a site of one file was opened on: one load of the document shows one page. */
+const opened = addressedFile();
+
+/** In a site of one file: the file that the page in the address would be in a folder. */
+export function addressedFile() {
+  return `${PAGE.exec(window.location.hash)?.[1] || "index"}.html`;
+}
 
 /** The state of the view, as the address has it. */
 export function readHash() {
-  return new URLSearchParams(window.location.hash.slice(1));
+  const { hash } = window.location;
+  return new URLSearchParams((singleFile ? hash.replace(PAGE, "") : hash).replace(/^#/, ""));
 }
 
 /** Write the state of the view into the address, in place of what was there. */
 export function replaceHash(query) {
-  window.history.replaceState(null, "", hashAddress(query));
+  if (!leaving()) window.history.replaceState(null, "", hashAddress(query));
 }
 
 /** The same as a new place, from which the browser's way back leads to the last one. */
 export function pushHash(query) {
-  window.history.pushState(null, "", hashAddress(query));
+  if (!leaving()) window.history.pushState(null, "", hashAddress(query));
 }
 
 /** The address of a page of this site, by its file, in some state: parameters, or pairs of name and value. */
 export function pageAddress(file, query = []) {
-  const hash = new URLSearchParams(query).toString();
-  return hash === "" ? file : `${file}#${hash}`;
+  const state = new URLSearchParams(query).toString();
+  if (singleFile) return `#/${file.replace(/\.html$/, "")}${state === "" ? "" : `?${state}`}`;
+  return state === "" ? file : `${file}#${state}`;
 }
 
 /** The address of a file of this site, by its path. */
 export function resource(path) {
-  return path;
+  const block = singleFile ? document.getElementById(path) : null;
+  return block === null ? path : `data:${block.dataset.type};base64,${block.textContent}`;
+}
+
+/** Make the links and pictures of a template lead where they do in a site of one file. */
+export function settle(content) {
+  for (const link of content.querySelectorAll("a[href]")) {
+    const path = link.getAttribute("href");
+    const [, file, state] = LINK.exec(path) ?? [];
+    link.href = file === undefined ? resource(path) : pageAddress(file, state);
+    if (link.hasAttribute("download")) link.download = path.split("/").at(-1);
+  }
+  for (const picture of content.querySelectorAll("img[src]")) picture.src = resource(picture.getAttribute("src"));
+}
+
+/** Whether the address names another page already, which is about to be loaded. */
+function leaving() {
+  return singleFile && addressedFile() !== opened;
 }
 
 function hashAddress(query) {
+  if (singleFile) return pageAddress(opened, query);
   const hash = query.toString();
   return hash === "" ? window.location.pathname + window.location.search : `#${hash}`;
 }

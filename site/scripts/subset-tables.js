@@ -1,6 +1,6 @@
 // The charts of the Features page as tables.
 
-import { element } from "./dom.js";
+import { dataLink, element } from "./dom.js";
 import { table } from "./tables.js";
 import { count, figure } from "./words.js";
 
@@ -28,7 +28,7 @@ export function subsetTables(model, subsets, state) {
       subsets.labelled ? ["Rank", "NH", "Features"] : ["Number", "Features"],
       places.map((place) => [String(place + 1), subsets.labelled && figure(data.hit[place]), names(place)].filter(Boolean)),
     ),
-    subsets.count > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `, element("a", { href: "data/subsets.csv" }, "data/subsets.csv"), "."),
+    subsets.count > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `, dataLink("data/subsets.csv"), "."),
   ].filter(Boolean);
   return { title: "Subsets of the features in figures", tables };
 }

@@ -108,6 +108,19 @@ def site(tmp_path_factory) -> Callable[[str], Path]:
     return folder
 
 
+@pytest.fixture(scope="session")
+def single_file(tmp_path_factory) -> Callable[[str], Path]:
+    """A site of ``SITES`` in one file, written when first asked for."""
+
+    @functools.cache
+    def file(name: str) -> Path:
+        destination = tmp_path_factory.mktemp("single") / f"{name.replace(' ', '-')}.html"
+        write_site(SITES[name](), destination, single_file=True)
+        return destination
+
+    return file
+
+
 @pytest.fixture
 def open_page(browser, site) -> Iterator[Callable[..., Page]]:
     """Open a page of a site from ``file://`` and wait until it is drawn.

@@ -6,11 +6,11 @@ import gzip
 import json
 import re
 from functools import cache
-from html.parser import HTMLParser
 
 import numpy as np
 import pytest
 from packed_models import unpack
+from page_markup import Markup
 from reports import NASTY_LABELS, make_report, with_bin_search, with_models, with_paintings, with_scores
 
 from shapeviz_report.errors import SiteError
@@ -35,18 +35,6 @@ def chunk(folder, name):
 def whole_report():
     """A report with all parts that may be missing."""
     return with_models(with_paintings(with_bin_search(with_scores(make_report()))))
-
-
-class Markup(HTMLParser):
-    """Tags and attributes of a page."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.tags = []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        self.tags.append((tag, dict(attributes)))
 
 
 def test_a_site_has_its_pages_pictures_and_data(tmp_path):
