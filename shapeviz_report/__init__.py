@@ -13,6 +13,7 @@ The stages can be used on their own: ``database.read_database``, ``mesh.prepare`
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,10 +22,11 @@ from shapeviz_report.errors import ShapevizError
 
 if TYPE_CHECKING:
     from shapeviz_report.pipeline import CheckResult
+    from shapeviz_report.querying import QueryResult
     from shapeviz_report.types import Report
 
 __version__ = version("shapeviz-report")
-__all__ = ["ShapevizError", "__version__", "build", "check", "demo_site"]
+__all__ = ["ShapevizError", "__version__", "build", "check", "demo_site", "query"]
 
 
 def build(database: str | os.PathLike[str], destination: str | os.PathLike[str], **options: Any) -> Report:
@@ -70,3 +72,49 @@ def check(database: str | os.PathLike[str], **options: Any) -> CheckResult:
     from shapeviz_report.pipeline import check_database
 
     return check_database(Path(database), load_config(Path(database), options))
+
+
+def query(
+    site: str | os.PathLike[str],
+    mesh: str | os.PathLike[str],
+    *,
+    features: Sequence[str] | None = None,
+    bins: str | os.PathLike[str] | None = None,
+    count: int = 10,
+    cache: str | os.PathLike[str] | None = None,
+) -> QueryResult:
+    """The shapes of a built site that are most similar to a mesh, with the reasons.
+
+    Parameters
+    ----------
+    site : path
+        The folder of a site that this version has built.
+    mesh : path
+        A mesh file; it need not be in the database.
+    features : sequence of str, optional
+        What to compare, such as ``["PFH", "FPFH"]``; by default what the maps of the site compare.
+    bins : path, optional
+        Compare the bins that this file names instead: one name a line, or what the Workbench saves.
+    count : int
+        Most shapes to find.
+    cache : path, optional
+        Where results are kept, as for :func:`build`.
+
+    Raises
+    ------
+    ShapevizError
+        The folder is not a site of this version, the mesh cannot be used, or a feature or bin is not there.
+    """
+    from shapeviz_report.cache import default_root
+    from shapeviz_report.config import Config
+    from shapeviz_report.querying import find_similar
+
+    return find_similar(
+        Path(site),
+        Path(mesh),
+        features=features,
+        bins=None if bins is None else Path(bins),
+        count=count,
+        cache=default_root() if cache is None else Path(cache),
+        time_limit=Config.time_limit,
+    )

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tqdm import tqdm
 
@@ -20,6 +20,9 @@ from shapeviz_report import __version__
 from shapeviz_report.config import FILE_NAME, Config, load_config
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.types import Database, Failure, Report
+
+if TYPE_CHECKING:
+    from shapeviz_report.querying import QueryResult
 
 EXIT_CODES = """\
 exit codes:
@@ -41,6 +44,7 @@ STAGES = {
     "search": "Searching features",
     "bins": "Scoring bins",
     "select": "Searching bins",
+    "retrieve": "Rating retrieval",
     "paint": "Painting bins",
     "score": "Scoring maps",
     "write": "Writing the site",
@@ -120,6 +124,34 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_options(check, ["layout", "labeling", "external", "bins", "time_limit", "jobs", "cache"])
     check.set_defaults(command=_check)
+
+    query = commands.add_parser(
+        "query",
+        help="find the shapes of a site that are most similar to a mesh",
+        description="Find the shapes of a built site that are most similar to a mesh, which need not be among them, "
+        "and say which features make them alike.",
+    )
+    query.add_argument("site", metavar="SITE", type=Path, help="folder of a site that this version has built")
+    query.add_argument("mesh", metavar="MESH", type=Path, help="a mesh file")
+    compared = query.add_mutually_exclusive_group()
+    compared.add_argument(
+        "--features",
+        metavar="A,B",
+        type=lambda text: tuple(part.strip() for part in text.split(",")),
+        help="what to compare, such as PFH,FPFH; by default what the maps of the site compare",
+    )
+    compared.add_argument(
+        "--bins",
+        metavar="FILE",
+        type=Path,
+        help="compare the bins that FILE names instead: one name a line, or what the Workbench saves",
+    )
+    query.add_argument(
+        "-n", "--count", metavar="N", type=int, default=10, help="how many shapes to find (10)"
+    )
+    query.add_argument("--json", action="store_true", help="print everything that was found as JSON")
+    _add_options(query, ["time_limit", "cache"])
+    query.set_defaults(command=_query)
     return parser
 
 
@@ -207,6 +239,54 @@ def _check(options: argparse.Namespace) -> int:
     if not result.failures:
         print("\nAll files can be used.")
     return 1 if result.failures else 0
+
+
+def _query(options: argparse.Namespace) -> int:
+    from shapeviz_report.cache import default_root
+    from shapeviz_report.querying import find_similar
+    from shapeviz_report.site.data_files import json_text
+
+    config = load_config(None, {"time_limit": options.time_limit, "cache": options.cache})
+    result = find_similar(
+        options.site,
+        options.mesh,
+        features=options.features,
+        bins=options.bins,
+        count=options.count,
+        cache=(config.cache or default_root()).absolute(),
+        time_limit=config.time_limit,
+        progress=TerminalProgress(),
+    )
+    if options.json:
+        print(json_text(dataclasses.asdict(result), indent=1))
+    else:
+        _print_found(result, options.mesh)
+    return 0
+
+
+def _print_found(result: QueryResult, mesh: Path) -> None:
+    """A table of the shapes found: place, distance, class, the reasons feature by feature, and the shape's id."""
+    if result.bins is not None:
+        what = result.bins[0] if len(result.bins) == 1 else f"{len(result.bins)} bins"
+    else:
+        what = ", ".join(result.features or ())
+    among = f"{result.shapes:,} shapes of {_one_line(result.database)}"
+    print(f"{_one_line(str(mesh))}: the most similar of {among}, by {what}.")
+    if result.left_out:
+        print(f"Left out, for a mesh alone has no value for it: {_one_line(', '.join(result.left_out))}.")
+    print(
+        f"Two shapes of the database are typically {result.typical:.3f} apart. Below a feature: how many percent of\n"
+        "the database are farther from the mesh than this shape, by that feature alone.\n"
+    )
+    features = list(result.found[0].closer)
+    labels = [_one_line(found.label or "") for found in result.found]
+    width = max(len("class"), *map(len, labels)) if any(labels) else 0
+    heading = f"{'class':{width}}  " if width else ""
+    print(f"{'':4}  distance  {heading}{'  '.join(f'{name:>4}' for name in features)}  shape")
+    for place, (found, label) in enumerate(zip(result.found, labels), start=1):
+        shares = "  ".join(f"{100 * found.closer[name]:{max(4, len(name))}.0f}" for name in features)
+        said = f"{label:{width}}  " if width else ""
+        print(f"{place:4}  {found.distance:8.3f}  {said}{shares}  {_one_line(found.id)}")
 
 
 def _print_database(database: Database) -> None:

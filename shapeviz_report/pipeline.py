@@ -38,6 +38,7 @@ from shapeviz_report.mesh import collect_files
 from shapeviz_report.projections import PROJECTIONS, align, squared_distances
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
+from shapeviz_report.retrieval import query_classes, rate_chance
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, make_space, planned_runs, search_features
 from shapeviz_report.search.bins import encode, make_bin_space, shuffle_labels
@@ -56,7 +57,9 @@ from shapeviz_report.types import (
     Painting,
     Projection,
     Quality,
+    Rating,
     Report,
+    Retrieval,
     ShapeEntry,
 )
 
@@ -67,6 +70,10 @@ SAMPLED_VERTICES = 400_000
 
 SUBSETS_A_TASK = 16
 """Maps that a worker makes before it reports back: few enough to lose little, many enough to send distances seldom."""
+
+RATINGS_A_TASK = 64
+"""Subsets whose retrieval a worker rates before it reports back: each takes 2 to 150 milliseconds, by the number of
+shapes, against up to 32 MB of distances that are sent along."""
 
 SHUFFLES = 2
 """Folds that also meet labels dealt out at random. With labels without meaning the search takes twice the time, and two
@@ -251,6 +258,9 @@ def build_report(
         search = _search(run, space, labels, config)
         scores = _score_bins(run, compared_values(features, preset), labels, config.seed)
         found = _search_bins(run, features, scaled, labels, config)
+        chosen = bins if bins is not None else found.automatic.bins if found is not None else None
+        by_bins = scale_bins(features, preset, chosen) if chosen else None
+        retrieval = _rate_retrieval(run, space, labels, search, chosen or None, by_bins)
         paintings: tuple[Painting, ...] = ()
         if found is not None:
             contrasts = choose_contrasts(
@@ -290,6 +300,7 @@ def build_report(
         search=search,
         scores=scores,
         bins=found,
+        retrieval=retrieval,
         paintings=paintings,
         models=models,
         clusters=clusters,
@@ -690,6 +701,63 @@ def _search_bins(
         shuffled=tuple(held_out[len(folds) :]),
         chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
         minimal=tuple(stages.read_minimal(answers[i]) for i in range(honest, len(questions))),
+    )
+
+
+def _rate_retrieval(
+    run: _Runner,
+    space: SearchSpace,
+    labels: Sequence[str | None],
+    search: FeatureSearch | None,
+    bins: tuple[str, ...] | None,
+    by_bins: FloatArray | None,
+) -> Retrieval | None:
+    """How well shapes of a class are found by each feature alone, all of them, the subsets of the search, and by some
+    bins, whose scaled values of all shapes are ``by_bins``."""
+    classes, codes = query_classes([labels[row] for row in space.rows])
+    if not classes:
+        return None
+    features = range(len(space.features))
+    searched = () if search is None else (search.subsets.members @ [1 << f for f in features]).tolist()
+    subsets = sorted({*searched, *(1 << f for f in features), space.everything})
+    distances = {"subsets": (space.key, space.squared)}
+    questions = [
+        ("subsets", tuple(subsets[i : i + RATINGS_A_TASK])) for i in range(0, len(subsets), RATINGS_A_TASK)
+    ]
+    if by_bins is not None:
+        squared = squared_distances(by_bins[space.rows])[None]
+        distances["bins"] = (sha256(squared.tobytes()).hexdigest(), squared)
+        questions.append(("bins", (1,)))
+    found: dict[tuple[str, tuple[int, ...]], list[Rating]] = {}
+    with run.clock.stage("retrieve", len(questions)) as step:
+
+        def plan(question: tuple[str, tuple[int, ...]]) -> _Task:
+            key, squared = distances[question[0]]
+            return _Task(
+                stages.RETRIEVE.key(key, codes.tolist(), question[1]), lambda: (squared, codes, question[1])
+            )
+
+        def take(question: tuple[str, tuple[int, ...]], _: str, content: bytes, cpu_seconds: float) -> None:
+            found[question] = stages.read_ratings(content)
+            step(cpu_seconds)
+
+        def drop(_: tuple[str, tuple[int, ...]], reason: str, __: float) -> None:
+            raise DatabaseError(f"Rating the retrieval failed: {reason}. A larger time_limit may help.")
+
+        run.find(stages.RETRIEVE, questions, plan, take, drop)
+    return Retrieval(
+        features=space.features,
+        rows=space.rows,
+        shape_count=space.shape_count,
+        classes=classes,
+        queries=np.bincount(codes[codes >= 0]).astype(np.int32),
+        members=np.array([[bool(subset >> f & 1) for f in features] for subset in subsets]),
+        subsets=tuple(
+            rating for question in questions if question[0] == "subsets" for rating in found[question]
+        ),
+        bins=bins,
+        by_bins=None if by_bins is None else found["bins", (1,)][0],
+        chance=rate_chance(codes),
     )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.quality import TIE
-from shapeviz_report.types import FloatArray, IntArray, Rating
+from shapeviz_report.types import FloatArray, IntArray, Rating, Retrieval
 
 
 @dataclass(frozen=True)
@@ -140,6 +140,15 @@ def rate_subsets(squared: FloatArray, codes: IntArray, subsets: Sequence[int]) -
                 distances += squares
         ratings.append(rate(distances, codes))
     return ratings
+
+
+def best_subset(retrieval: Retrieval) -> int:
+    """The row of ``Retrieval.members`` with the highest mean average precision over shapes; of equal ones, the smallest
+    subset."""
+    place = [measure.name for measure in MEASURES].index("average_precision")
+    means = [retrieval.over_shapes(rating.scores)[place] for rating in retrieval.subsets]
+    sizes = retrieval.members.sum(axis=1)
+    return min(range(len(means)), key=lambda row: (-means[row], sizes[row]))
 
 
 @numba.njit(cache=True)

@@ -105,6 +105,31 @@ def rank_similar(
     )
 
 
+def typical_distance(
+    table: FeatureTable,
+    preset: Preset,
+    *,
+    features: Sequence[str] | None = None,
+    bins: Sequence[str] | None = None,
+) -> float:
+    """How far two shapes of a database are apart, as a root mean square over all pairs; 0 for one shape.
+
+    What to compare is chosen as for :func:`rank_similar`. Balanced values make it nearly the square root of twice the
+    number of features or bins, whatever the database.
+    """
+    compared = compared_values(table, preset)
+    if bins is not None:
+        place = {column: index for index, column in enumerate(table.columns)}
+        values = compared[:, [place[name] for name in bins]]
+        spread = float(values.var(axis=0) @ bin_weights(preset, values))
+    else:
+        names = [block.name for block in table.blocks] if features is None else features
+        blocks = (compared[:, table.slice_of(name)] for name in names)
+        spread = sum(float(values.var(axis=0).sum()) * feature_weight(preset, values) for values in blocks)
+    # The mean over pairs of different shapes: the spread over all pairs without the pairs of a shape with itself.
+    return float(np.sqrt(2 * spread * len(compared) / max(len(compared) - 1, 1)))
+
+
 def squared_by_feature(
     table: FeatureTable, preset: Preset, compared: FloatArray, wanted: FloatArray
 ) -> FloatArray:

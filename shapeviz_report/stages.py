@@ -35,6 +35,7 @@ from shapeviz_report.render import (
     render_thumbnail,
     value_colors,
 )
+from shapeviz_report.retrieval import rate_subsets
 from shapeviz_report.scorers import SCORERS, Contest, score_separation
 from shapeviz_report.search import SubsetMaps, map_subsets
 from shapeviz_report.search.bins import BinSpace, find_minimal_bins, hold_out, select_bins
@@ -43,9 +44,11 @@ from shapeviz_report.types import (
     BinStep,
     FloatArray,
     HeldOutBins,
+    IntArray,
     Mesh,
     MinimalBins,
     MinimalSet,
+    Rating,
     ShapeFacts,
 )
 
@@ -201,13 +204,13 @@ def cluster_features(values: FloatArray, seed: int) -> bytes:
     found = part(values, seed=seed)
     if found is None:
         return _pack_arrays()
-    return _pack_arrays(of=found.of, silhouette=np.array(found.silhouette))
+    return _pack_arrays(of=found.of, quality=np.array([found.silhouette, found.steadiness]))
 
 
 def read_partition(content: bytes) -> Partition | None:
     """The groups in a result of :func:`cluster_features`; None where there are none."""
     arrays = _read_arrays(content)
-    return Partition(arrays["of"], float(arrays["silhouette"])) if arrays else None
+    return Partition(arrays["of"], *arrays["quality"].tolist()) if arrays else None
 
 
 def map_features(squared: FloatArray, method: str, seed: int, subsets: tuple[int, ...]) -> bytes:
@@ -252,6 +255,22 @@ def search_bins(
     with threadpool_limits(limits=1):
         found = functions[task](space, labels, **options)
     return json.dumps(asdict(found), default=_array_to_json).encode()
+
+
+def retrieve(squared: FloatArray, codes: IntArray, subsets: tuple[int, ...]) -> bytes:
+    """How well some subsets of the features find shapes of a class, for :func:`read_ratings`; see
+    :func:`~shapeviz_report.retrieval.rate_subsets`."""
+    ratings = rate_subsets(squared, codes, subsets)
+    return _pack_arrays(
+        scores=np.array([rating.scores for rating in ratings]),
+        precision=np.array([rating.precision for rating in ratings]),
+    )
+
+
+def read_ratings(content: bytes) -> list[Rating]:
+    """The rating of each subset in a result of :func:`retrieve`."""
+    arrays = _read_arrays(content)
+    return [Rating(*parts) for parts in zip(arrays["scores"], arrays["precision"], strict=True)]
 
 
 def read_selection(content: bytes) -> BinSelection:
@@ -324,16 +343,30 @@ RENDER = Stage("rendered", render_shape, ("render",), _PAINTERS)
 PAINT = Stage("painted", paint_shape, ("render", "descriptors", "features"), _PAINTERS)
 _PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
 PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
-CLUSTER = Stage("clustered", cluster_features, ("clusters",), ("numpy", "scipy"))
+CLUSTER = Stage("clustered", cluster_features, ("clusters",), ("networkx", "numpy", "scipy", "scikit-learn"))
 SEARCH = Stage("searched", map_features, ("search.space", "projections"), _PROJECTORS)
 SELECT = Stage("selected", search_bins, ("search.bins", "projections", "quality", "types.bins"), _PROJECTORS)
+RETRIEVE = Stage("retrieved", retrieve, ("retrieval", "quality"), ("numba", "numpy"))
 SCORE = Stage("scored", score_bins, ("scorers",), ("numba", "numpy", "scipy", "scikit-learn"))
 GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "scipy"))
 
 
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
-    stages = (PREPARE, SAMPLE, DESCRIBE, RENDER, PAINT, CLUSTER, PROJECT, SEARCH, SCORE, SELECT, GENERATE)
+    stages = (
+        PREPARE,
+        SAMPLE,
+        DESCRIBE,
+        RENDER,
+        PAINT,
+        CLUSTER,
+        PROJECT,
+        SEARCH,
+        SCORE,
+        SELECT,
+        RETRIEVE,
+        GENERATE,
+    )
     libraries = {library for stage in stages for library in stage.libraries}
     return code_version(("shapeviz_report",), tuple(sorted(libraries)))
 

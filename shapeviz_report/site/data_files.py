@@ -15,7 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
-from shapeviz_report.types import BinSearch, BinSelection, FeatureSearch, HeldOutBins, Report
+from shapeviz_report.site.retrieval_data import (
+    retrieval_class_rows,
+    retrieval_rows,
+    retrieval_summary,
+)
+from shapeviz_report.types import BinSearch, BinSelection, Clusters, FeatureSearch, HeldOutBins, Report
 
 #: Tells a folder that this package wrote from one that it must not replace.
 GENERATOR = "shapeviz-report"
@@ -23,8 +28,9 @@ GENERATOR = "shapeviz-report"
 
 def data_files(report: Report, version: str) -> dict[str, bytes]:
     """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
-    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, the scores of bins in ``scores.npz``, and the bins that
-    separate all classes in ``selected-bins.txt``, by name.
+    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, the scores of bins in ``scores.npz``, the bins that
+    separate all classes in ``selected-bins.txt``, and how well shapes are found in ``retrieval.csv`` and
+    ``retrieval-classes.csv``, by name.
 
     Parameters
     ----------
@@ -58,6 +64,9 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
             classes=np.array(report.scores.classes, dtype=np.str_),
             columns=np.array(report.features.columns, dtype=np.str_),
         )
+    if report.retrieval is not None:
+        files["retrieval.csv"] = _csv(retrieval_rows(report.retrieval))
+        files["retrieval-classes.csv"] = _csv(retrieval_class_rows(report.retrieval))
     if report.bins is not None:
         files["selected-bins.txt"] = _bin_list(report.bins.automatic).encode()
     return files
@@ -76,6 +85,10 @@ def summary(report: Report, version: str) -> dict[str, object]:
         "shapes": len(report.shapes),
         "classes": len(classes),
         "unlabelled": sum(label is None for label in report.labels),
+        "features": [
+            {"name": block.name, "dimensions": block.dimensions, "bins": block.bins}
+            for block in report.features.blocks
+        ],
         "failures": [
             {"path": failure.path, "stage": failure.stage, "reason": failure.reason}
             for failure in report.failures
@@ -98,12 +111,31 @@ def summary(report: Report, version: str) -> dict[str, object]:
             }
             for method, (projection, quality) in report.projections.items()
         },
+        "clusters": None if report.clusters is None else _clusters(report, report.clusters),
         "search": None if report.search is None else _search(report.search),
         "bins": None if report.bins is None else _bins(report.bins),
+        "retrieval": None if report.retrieval is None else retrieval_summary(report.retrieval),
         "seconds": dict(report.seconds),
         "cpu_seconds": dict(report.cpu_seconds),
         "parameters": dict(report.parameters),
         "versions": dict(report.versions),
+    }
+
+
+def _clusters(report: Report, found: Clusters) -> dict[str, object]:
+    return {
+        "stand_in": found.stand_in,
+        "silhouette": found.silhouette,
+        "steadiness": found.steadiness,
+        "clusters": [
+            {
+                "name": cluster.name,
+                "central": report.shapes[cluster.central].id,
+                "shapes": cluster.size,
+                "typical": list(cluster.typical),
+            }
+            for cluster in found.clusters
+        ],
     }
 
 
@@ -215,6 +247,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
             "name",
             "file",
             "class",
+            *(("cluster",) if report.clusters is not None else ()),
             *(f"label:{labeling}" for labeling in labelings),
             *(f"metadata:{column}" for column in columns),
             *(f"nh:{method}" for method in methods),
@@ -232,6 +265,11 @@ def _shape_rows(report: Report) -> list[list[str]]:
                 shape.name,
                 _relative_file(report, shape.path),
                 label or "",
+                *(
+                    (report.clusters.clusters[report.clusters.of[index]].name,)
+                    if report.clusters is not None
+                    else ()
+                ),
                 *(shape.labels.get(labeling, "") for labeling in labelings),
                 *(shape.metadata.get(column, "") for column in columns),
                 *(_number(report.projections[method][1].nh[index]) for method in methods),

@@ -12,6 +12,7 @@ from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
 from shapeviz_report.types.mesh import ShapeFacts
+from shapeviz_report.types.retrieval import Retrieval
 from shapeviz_report.types.search import FeatureSearch
 
 
@@ -47,6 +48,8 @@ class Report:
         None where fewer than two classes have a shape.
     bins : BinSearch or None
         None if the search was left out, or where fewer than two classes have two shapes.
+    retrieval : Retrieval or None
+        None where no class has two shapes.
     paintings : tuple of Painting
         Of the bins that ``bins`` found, on shapes that show the contrast; those of external features have none.
     models : tuple of bytes, or None
@@ -73,6 +76,7 @@ class Report:
     search: FeatureSearch | None = None
     scores: BinScores | None = None
     bins: BinSearch | None = None
+    retrieval: Retrieval | None = None
     paintings: tuple[Painting, ...] = ()
     models: tuple[bytes, ...] | None = None
     clusters: Clusters | None = None

@@ -73,3 +73,7 @@ class Retrieval:
         """The row of ``members`` that has these features and no others."""
         wanted = np.isin(self.features, features)
         return int(np.flatnonzero((self.members == wanted).all(axis=1))[0])
+
+    def names(self, row: int) -> tuple[str, ...]:
+        """The features of a subset, by its row of ``members``."""
+        return tuple(name for name, has in zip(self.features, self.members[row], strict=True) if has)

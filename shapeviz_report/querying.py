@@ -1,0 +1,311 @@
+"""A new shape as a query: the shapes of a built site that are most similar to a mesh.
+
+The mesh goes through the same stages as those of the database, with the parameters that the site states, and is
+compared with the features that the site holds for download. ``docs/retrieval.md`` says what similar means.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import zipfile
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shapeviz_report import __version__, stages
+from shapeviz_report.bins import read_bins
+from shapeviz_report.cache import Cache
+from shapeviz_report.errors import ConfigError, MeshError, SiteError
+from shapeviz_report.executor import Executor, LocalExecutor
+from shapeviz_report.features import BLOCKS, PRESETS, Preset
+from shapeviz_report.mesh import collect_files
+from shapeviz_report.pipeline import Progress, QuietProgress
+from shapeviz_report.similarity import rank_similar, typical_distance
+from shapeviz_report.site.data_files import GENERATOR
+from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, ShapeFacts
+
+
+@dataclass(frozen=True)
+class FoundShape:
+    """A shape of the site that resembles the query.
+
+    Attributes
+    ----------
+    id, name : str
+    label : str or None
+        Its class in the site's active labeling.
+    file : str
+        Its mesh, relative to the database's folder.
+    distance : float
+        As :class:`~shapeviz_report.similarity.SimilarShape` has it.
+    closer : mapping of str to float
+        Feature -> the share of all other shapes that are farther from the query by this feature alone.
+    """
+
+    id: str
+    name: str
+    label: str | None
+    file: str
+    distance: float
+    closer: Mapping[str, float]
+
+
+@dataclass(frozen=True)
+class QueryResult:
+    """What a query found.
+
+    Attributes
+    ----------
+    database : str
+        Its name.
+    shapes : int
+        That were compared with the query.
+    facts : ShapeFacts
+        Of the query.
+    features : tuple of str or None
+        What was compared; None where it was bins.
+    bins : tuple of str or None
+        What was compared; None where it was features.
+    left_out : tuple of str
+        Features, or bins of a site of chosen bins, that would have been compared by default, but come from a file that
+        was brought along to the build, so that a mesh alone has no values for them.
+    typical : float
+        How far two shapes of the database are apart, as a root mean square over all pairs.
+    found : tuple of FoundShape
+        By rising distance.
+    """
+
+    database: str
+    shapes: int
+    facts: ShapeFacts
+    features: tuple[str, ...] | None
+    bins: tuple[str, ...] | None
+    left_out: tuple[str, ...]
+    typical: float
+    found: tuple[FoundShape, ...]
+
+
+@dataclass(frozen=True)
+class _Site:
+    """What a site holds that a query needs.
+
+    Attributes
+    ----------
+    folder : Path
+    summary : dict
+        The content of ``summary.json``.
+    shapes : list of dict
+        The rows of ``shapes.csv``.
+    table : FeatureTable
+        The features that a mesh alone has.
+    brought : tuple of FeatureBlock
+        Those that it has not.
+    edges : (187, 11) float64 array
+    """
+
+    folder: Path
+    summary: dict[str, Any]
+    shapes: list[dict[str, str]]
+    table: FeatureTable
+    brought: tuple[FeatureBlock, ...]
+    edges: FloatArray
+
+    @property
+    def preset(self) -> Preset:
+        return PRESETS[self.summary["parameters"]["preset"]]
+
+
+def find_similar(
+    site: Path,
+    mesh: Path,
+    *,
+    features: Sequence[str] | None = None,
+    bins: Path | None = None,
+    count: int = 10,
+    cache: Path,
+    time_limit: float,
+    progress: Progress | None = None,
+) -> QueryResult:
+    """The shapes of a site that are most similar to a mesh.
+
+    Parameters
+    ----------
+    site : Path
+        Folder of a site that this version has built.
+    mesh : Path
+        A mesh file.
+    features : sequence of str, optional
+        What to compare; by default what the maps of the site compare.
+    bins : Path, optional
+        Compare the bins that this file names instead; see :func:`~shapeviz_report.bins.read_bins`.
+    count : int
+        Most shapes to find, at least 1.
+    cache : Path
+        Where results are kept.
+    time_limit : float
+        Seconds for one stage.
+    progress : Progress, optional
+
+    Raises
+    ------
+    SiteError
+        The folder is not a site, or of another version.
+    MeshError
+        The mesh cannot be used.
+    ConfigError
+        A feature or bin is not there, or only a build has it.
+    """
+    if count < 1:
+        raise ConfigError(f"the number of shapes to find must be at least 1, not {count}")
+    opened = _open_site(site)
+    chosen, names, left_out = _choose(opened, features, bins)
+    facts, values = _measure(opened, mesh, Cache(cache), time_limit, progress or QuietProgress())
+    table, preset = opened.table, opened.preset
+    similar = rank_similar(table, preset, values, **{chosen: names}, count=count)
+    blocks = [block.name for block in table.blocks]
+    found = (
+        FoundShape(
+            id=opened.shapes[shape.row]["id"],
+            name=opened.shapes[shape.row]["name"],
+            label=opened.shapes[shape.row]["class"] or None,
+            file=opened.shapes[shape.row]["file"],
+            distance=shape.distance,
+            closer=dict(zip(blocks, shape.closer.tolist(), strict=True)),
+        )
+        for shape in similar
+    )
+    return QueryResult(
+        database=opened.summary["database"],
+        shapes=len(table.values),
+        facts=facts,
+        features=names if chosen == "features" else None,
+        bins=names if chosen == "bins" else None,
+        left_out=left_out,
+        typical=typical_distance(table, preset, **{chosen: names}),
+        found=tuple(found),
+    )
+
+
+def _open_site(folder: Path) -> _Site:
+    """Read the ``data`` folder of a site, and check that its parts fit together and are of this version."""
+    data = folder / "data"
+    try:
+        summary = json.loads((data / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise SiteError(
+            f"{folder} is not a folder that `shapeviz-report build` has written: {data / 'summary.json'} cannot be "
+            f"read ({error})"
+        ) from error
+    if not isinstance(summary, dict) or summary.get("generator") != GENERATOR:
+        raise SiteError(f"{folder} is not a site of shapeviz-report: {data / 'summary.json'} does not say so")
+    if summary.get("version") != __version__:
+        raise SiteError(
+            f"{folder} was built by version {summary.get('version')} of shapeviz-report, and this is version "
+            f"{__version__}, which may measure shapes differently: build the site again, or query it with its version"
+        )
+    try:
+        with (data / "shapes.csv").open(encoding="utf-8", newline="") as file:
+            shapes = list(csv.DictReader(file, strict=True))
+        with np.load(data / "features.npz", allow_pickle=False) as archive:
+            values, edges = archive["values"], archive["edges"]
+            columns, ids = archive["columns"].tolist(), tuple(archive["shape_ids"].tolist())
+        blocks = tuple(FeatureBlock(**block) for block in summary["features"])
+        PRESETS[summary["parameters"]["preset"]], float(summary["parameters"]["edge_length"])
+        if [shape["id"] for shape in shapes] != list(ids):
+            raise ValueError("shapes.csv and features.npz are of different builds")
+        if [column for block in blocks for column in block.columns] != columns:
+            raise ValueError("summary.json and features.npz are of different builds")
+    except (OSError, ValueError, KeyError, TypeError, csv.Error, zipfile.BadZipFile) as error:
+        raise SiteError(f"the site {folder} is not complete, build it again: {error}") from error
+    if blocks[: len(BLOCKS)] != BLOCKS:
+        raise SiteError(f"the site {folder} has other features than this version measures: build it again")
+    width = sum(block.width for block in BLOCKS)
+    table = FeatureTable(ids, BLOCKS, values[:, :width])
+    return _Site(folder, summary, shapes, table, blocks[len(BLOCKS) :], edges)
+
+
+def _choose(
+    site: _Site, features: Sequence[str] | None, bins: Path | None
+) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
+    """Whether ``features`` or ``bins`` are compared, which, and what is left out of those the site compares."""
+    if features is not None and bins is not None:
+        raise ConfigError("features and bins are two ways to say what to compare: choose one")
+    own = {block.name for block in site.brought}
+    own_columns = {column for block in site.brought for column in block.columns}
+    if bins is not None:
+        names = read_bins(bins, (*site.table.blocks, *site.brought))
+        for name in names:
+            if name in own_columns:
+                raise ConfigError(f"the file of bins {bins} names {name!r}, {_BROUGHT}")
+        return "bins", names, ()
+    if features is not None:
+        there = [block.name for block in site.table.blocks]
+        for name, times in Counter(features).items():
+            if name in own:
+                raise ConfigError(f"the feature {name!r} cannot be compared: it is {_BROUGHT}")
+            if name not in there:
+                raise ConfigError(f"there is no feature {name!r}; there are: {', '.join(there)}")
+            if times > 1:
+                raise ConfigError(f"the feature {name!r} is named {times} times")
+        if not features:
+            raise ConfigError(f"no feature is named; there are: {', '.join(there)}")
+        return "features", tuple(name for name in there if name in features), ()
+    projection = next(iter(site.summary["projections"].values()))
+    if projection["bins"] is None:
+        return "features", tuple(block.name for block in site.table.blocks), tuple(sorted(own))
+    names = tuple(name for name in projection["bins"] if name not in own_columns)
+    if not names:
+        raise ConfigError(
+            f"the site {site.folder} compares only values that were brought along to its build, which a mesh alone "
+            "does not have; say with features or bins what to compare"
+        )
+    return "bins", names, tuple(name for name in projection["bins"] if name in own_columns)
+
+
+_BROUGHT = "which was brought along to the build as a file: a mesh alone has no value for it"
+
+
+def _measure(
+    site: _Site, mesh: Path, cache: Cache, time_limit: float, progress: Progress
+) -> tuple[ShapeFacts, FloatArray]:
+    """The mesh, prepared and measured as the site's own were."""
+    try:
+        files = collect_files(mesh)
+        edge_length = float(site.summary["parameters"]["edge_length"])
+        with LocalExecutor(1, time_limit) as executor:
+            with progress.stage("prepare", 0):
+                key = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
+                prepared = _compute(executor, cache, stages.PREPARE, key, lambda: (files, edge_length))
+            facts = stages.read_facts(prepared)
+            with progress.stage("describe", 0):
+                by_area = site.preset.by_area
+                key = stages.MEASURE.key(key, site.edges.tobytes(), by_area)
+                measured = _compute(
+                    executor, cache, stages.MEASURE, key, lambda: (prepared, site.edges, by_area)
+                )
+    except MeshError as error:
+        raise MeshError(f"the mesh {mesh} cannot be used: {error}") from error
+    return facts, stages.read_array(measured)
+
+
+def _compute(
+    executor: Executor,
+    cache: Cache,
+    stage: stages.Stage,
+    key: str,
+    arguments: Callable[[], tuple[Any, ...]],
+) -> bytes:
+    """The result of a stage, kept or computed. Raises :class:`MeshError` with the reason if there is none."""
+    content = cache.load(stage.folder, key)
+    if content is not None:
+        return content
+    (outcome,) = executor.run(stage.function, [arguments()])
+    if outcome.reason is not None:
+        raise MeshError(outcome.reason)
+    cache.store(stage.folder, key, outcome.value)
+    return outcome.value
