@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.bins import scale_bins, word_conditions, word_whole
+from shapeviz_report.bins import scale_bins, word_conditions, word_side, word_whole
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
 from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
@@ -86,4 +86,24 @@ def _compare(
         ],
         "whole": word_whole(preset.by_area),
         "where": list(word_conditions(report.features, report.edges)),
+        "sides": _sides(report),
     }
+
+
+def _sides(report: Report) -> list[dict[str, list[str]] | None]:
+    """For each feature with one histogram, what lies below and above each inner edge; None for the others."""
+    sides: list[dict[str, list[str]] | None] = []
+    row = 0
+    for block in report.features.blocks:
+        if block.bins == 1 or block.dimensions > 1:
+            sides.append(None)
+        else:
+            inner = report.edges[row, 1:-1]
+            sides.append(
+                {
+                    "below": [word_side(block, 0, edge, above=False) for edge in inner],
+                    "above": [word_side(block, 0, edge, above=True) for edge in inner],
+                }
+            )
+        row += block.dimensions if block.bins > 1 else 0
+    return sides

@@ -1,11 +1,16 @@
 // The answer to "what makes these two groups alike or different?", before all figures: a few sentences.
 
+import { percent } from "../bin-card.js";
 import { element } from "../dom.js";
 import { count } from "../words.js";
 import { varied } from "./contrasts.js";
+import { mean } from "./distribution.js";
 import { binCount, called, meaning, share, statement } from "./words.js";
 
 const MOST_TOLD = 3;
+
+/** Standard deviations by which means must differ to be told. */
+const TELLING = 0.8;
 
 /** Single bins tell the groups apart: nearly every shape of one has more of it than nearly every shape of the other. */
 const CLEARLY = 0.95;
@@ -22,10 +27,10 @@ export function answer(contrast, a, b, data, kin) {
       kin && element("p", {}, kin),
     ].filter(Boolean);
   }
-  const told = plainest(contrast);
+  const told = plainest(contrast, a, b, data);
   return [
     element("h2", {}, headline(contrast, a, b)),
-    told.length > 0 && element("ul", { class: "told" }, told.map((column) => element("li", {}, statement(column, contrast, a, b, data), said(meaning(column, bins))))),
+    told.length > 0 && element("ul", { class: "told" }, told.map((words) => element("li", {}, words))),
     element("p", {}, spread, " ", beyond.length > 0
       ? [element("b", {}, binCount(beyond.length, bins.count)), ` ${beyond.length === 1 ? "differs" : "differ"} more than chance lets any bin differ.`]
       : "No single bin differs beyond chance: the difference lies in many small ones together."),
@@ -42,13 +47,52 @@ function headline(contrast, a, b) {
   return [called(a), " and ", called(b), apart >= WELL ? " differ." : " differ a little: on average, not shape by shape."];
 }
 
-/** Of the bins that differ, those that are easiest to picture: of features with one value a point, the best of each. */
-function plainest({ beyond, bins, difference }) {
-  const most = Math.abs(difference[beyond[0]] ?? 0);
-  const simple = beyond.filter((column) => bins.features[bins.featureOf(column)].dimensions === 1 && Math.abs(difference[column]) >= most / 3);
-  const features = new Set();
-  const chosen = simple.filter((column) => !features.has(bins.featureOf(column)) && features.add(bins.featureOf(column)));
-  return chosen.length > 0 ? chosen.slice(0, MOST_TOLD) : varied(beyond, bins, 1);
+/**
+ * What is easiest to picture: of features with one value a point, how much of the surface lies on one side of an edge;
+ * the edge at which the groups differ most. Without such a feature, the best bin.
+ */
+function plainest(contrast, a, b, data) {
+  const { apart, bins } = contrast;
+  const found = data.sides
+    .map((words, feature) => (words === null || apart.features[feature].share <= apart.features[feature].limit ? null : bestSide(contrast, bins.features[feature], words)))
+    .filter((side) => side !== null && side.size >= TELLING)
+    .sort((one, other) => other.size - one.size)
+    .slice(0, MOST_TOLD);
+  if (found.length === 0) return varied(contrast.beyond, bins, 1).map((column) => [statement(column, contrast, a, b, data), said(meaning(column, bins))]);
+  return found.map((side) => sentence(side, a, b, data));
+}
+
+/** Where the shares of the surface below an edge differ most, in standard deviations within the groups. */
+function bestSide({ bins, sample }, { start, bins: width, lowMeans, highMeans }, words) {
+  const below = { a: new Float64Array(sample.a.length), b: new Float64Array(sample.b.length) };
+  let best = null;
+  for (let edge = 0; edge < width - 1; edge += 1) {
+    for (const side of ["a", "b"]) sample[side].forEach((row, place) => (below[side][place] += bins.share(start + edge, row)));
+    const means = { a: mean(below.a), b: mean(below.b) };
+    const spread = Math.sqrt((squares(below.a, means.a) + squares(below.b, means.b)) / Math.max(sample.a.length + sample.b.length - 2, 1));
+    const size = Math.abs(means.a - means.b) / Math.max(spread, 0.01);
+    if (best !== null && size <= best.size) continue;
+    // The smaller side of the two says more.
+    const above = means.a + means.b > 1;
+    best = {
+      size,
+      means: above ? { a: 1 - means.a, b: 1 - means.b } : means,
+      where: (above ? words.above : words.below)[edge],
+      place: above ? highMeans : lowMeans,
+      outer: above ? edge >= width / 2 : edge < width / 2 - 1,
+    };
+  }
+  return best;
+}
+
+function sentence({ means, where, place, outer }, a, b, data) {
+  const [more, less] = means.a > means.b ? [a, b] : [b, a];
+  const meant = outer && place !== "" ? [" (", place, ")"] : [];
+  return ["In ", called(more), ", ", element("b", {}, percent(means[more.side])), ` of ${data.whole} lies where ${where}`, ...meant, "; in ", called(less), ", ", element("b", {}, percent(means[less.side])), "."];
+}
+
+function squares(values, middle) {
+  return values.reduce((sum, value) => sum + (value - middle) ** 2, 0);
 }
 
 function said(text) {
