@@ -9,33 +9,56 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import networkx
 import numpy as np
-from scipy.cluster.hierarchy import fcluster, linkage
+import numpy.typing as npt
+from scipy.sparse import csr_matrix
 from scipy.spatial.distance import cdist, pdist, squareform
+from sklearn.metrics import adjusted_rand_score
 from threadpoolctl import threadpool_limits
 
-from shapeviz_report.bins import word_conditions, word_whole
-from shapeviz_report.features import Preset, compared_values
+from shapeviz_report.bins import word_places, word_side
+from shapeviz_report.features import Preset
 from shapeviz_report.projections import canonical_order
-from shapeviz_report.types import Cluster, Clusters, FeatureTable, FloatArray, IntArray, ShapeEntry
+from shapeviz_report.types import (
+    Cluster,
+    Clusters,
+    FeatureBlock,
+    FeatureTable,
+    FloatArray,
+    IntArray,
+    ShapeEntry,
+)
 
 SMALLEST = 8
 """Fewer shapes are seen at a glance, and no number of groups among them could be told from chance."""
 
 SAMPLE_LIMIT = 2000
-"""Most shapes of which the tree is made; of larger databases, a sample. Time grows with their square."""
+"""Most shapes that decide the groups; of larger databases, a sample. Time grows with their square."""
 
-MOST = 60
-"""Most clusters; more would be no help to a reader."""
+NEIGHBOURS = (5, 10, 20, 40, 80)
+"""Nearest shapes to which every shape is tied, tried in turn: few give many small groups, many a few large ones. Where
+there are few shapes, at most a quarter of them."""
 
-MEAN_SIZE = 4
-"""There are at least this many times as many shapes as clusters."""
+STEADY = 0.7
+"""Steadiness that is enough, so that groups are not made larger than they must be. Cuts through an even cloud stay
+below (docs/clusters.md)."""
+
+TRIALS = 5
+"""Parts of the database in which groups are sought again."""
+
+PART = 0.8
+"""Size of such a part."""
 
 TYPICAL = 3
 """Sentences about a cluster."""
 
 WORTH_SAYING = 0.02
 """The least difference of a share of the surface that a sentence tells of."""
+
+CLEAR = 1.0
+"""Standard deviations by which a feature that one number describes must differ to go before those that are harder to
+picture."""
 
 
 @dataclass(frozen=True)
@@ -47,64 +70,128 @@ class Partition:
     of : (n,) int32 array
         The group of each shape, from 0 without gaps: the groups by falling size, equally large ones by their first
         shape.
-    silhouette : float
+    silhouette, steadiness : float
         As in :class:`~shapeviz_report.types.Clusters`.
     """
 
     of: IntArray
     silhouette: float
+    steadiness: float
 
 
 def part(scaled: FloatArray, *, seed: int = 0, limit: int = SAMPLE_LIMIT) -> Partition | None:
     """Part shapes into groups that are close in themselves, as many as suit them best.
 
-    Ward's tree joins the two groups whose union spreads least beyond them, again and again (J. H. Ward 1963); it is cut
-    where the mean silhouette (P. J. Rousseeuw 1987) is highest. Beyond ``limit`` shapes the tree is of a sample, and
-    every other shape joins the group whose mean is nearest.
+    Every shape is tied to its nearest ones, and the groups are those in which the ties most exceed what chance would
+    give: the modularity of this graph, sought by the method of V. D. Blondel et al. (2008), which needs no number of
+    groups. With few ties it may cut a group at will; such cuts do not come out again in a part of the shapes, and then
+    more ties are tried. Beyond ``limit`` shapes a sample decides, and every other shape joins the group whose mean is
+    nearest.
 
     Parameters
     ----------
     scaled : (n, w) float array
         Features as projections compare them.
     seed : int
-        Of the sample.
+        Of the sample and of the search.
     limit : int
-        Most shapes in the tree.
+        Most shapes that decide.
 
     Returns
     -------
     Partition or None
-        The same whatever the order of the shapes. None for fewer than ``SMALLEST`` shapes, and where all are alike.
+        The same whatever the order of the shapes; equal shapes are in one group. None for fewer than ``SMALLEST``
+        different shapes, and where they are all of one group.
     """
-    if len(scaled) < SMALLEST:
-        return None
     order = canonical_order(scaled)
-    if len(order) > limit:
-        order = order[np.sort(np.random.default_rng(seed).permutation(len(order))[:limit])]
-    sample = scaled[order]
+    is_new = np.append(True, (scaled[order[1:]] != scaled[order[:-1]]).any(axis=1))
+    different = scaled[order[is_new]]
+    if len(different) < SMALLEST:
+        return None
+    sample = different
+    if len(different) > limit:
+        drawn = np.random.default_rng(seed).permutation(len(different))[:limit]
+        sample = different[np.sort(drawn)]
     with threadpool_limits(limits=1):
-        distances = pdist(sample)
-        if distances.max() == 0:
+        distances = squareform(pdist(sample))
+        codes, steadiness = _find_steady(distances, seed)
+        if codes.max() == 0:
             return None
-        tree, square = linkage(distances, "ward"), squareform(distances)
-        best: tuple[float, IntArray] | None = None
-        for count in range(2, min(MOST, len(sample) // MEAN_SIZE) + 1):
-            codes = fcluster(tree, count, "maxclust").astype(np.int32) - 1
-            score = float(silhouettes(square, codes).mean())
-            # Sums in another order may differ in their last digits: more clusters must be clearly better.
-            if best is None or score > best[0] + 1e-9:
-                best = score, codes
-        assert best is not None
-        silhouette, codes = best
-        of = np.empty(len(scaled), np.int32)
-        if len(sample) < len(scaled):
+        silhouette = float(silhouettes(distances, codes).mean())
+        if len(sample) < len(different):
             means = np.stack([sample[codes == code].mean(axis=0) for code in range(codes.max() + 1)])
-            of[:] = cdist(scaled, means, "sqeuclidean").argmin(axis=1)
-        of[order] = codes
+            own = np.empty(len(different), np.int32)
+            own[:] = cdist(different, means, "sqeuclidean").argmin(axis=1)
+            own[np.sort(drawn)] = codes
+            codes = own
+    of = np.empty(len(scaled), np.int32)
+    of[order] = codes[np.cumsum(is_new) - 1]
     sizes = np.bincount(of)
     first = [int((of == code).argmax()) for code in range(len(sizes))]
     rank = np.argsort(np.lexsort((first, -sizes))).astype(np.int32)
-    return Partition(rank[of], silhouette)
+    return Partition(rank[of], silhouette, steadiness)
+
+
+def _find_steady(distances: FloatArray, seed: int) -> tuple[IntArray, float]:
+    """The groups of the fewest ties with which they are steady, or the steadiest, and how steady they are."""
+    random = np.random.default_rng(seed)
+    count = len(distances)
+    parts = [np.sort(random.permutation(count)[: int(PART * count)]) for _ in range(TRIALS)]
+    best, steadiest = np.zeros(count, np.int32), 0.0
+    for k in NEIGHBOURS:
+        codes = find_communities(_tie(distances, min(k, count // 4)), seed)
+        if codes.max() == 0:
+            break
+        agreements = []
+        for kept in parts:
+            again = find_communities(_tie(distances[np.ix_(kept, kept)], min(k, len(kept) // 4)), seed)
+            agreements.append(adjusted_rand_score(codes[kept], again))
+        steadiness = float(np.mean(agreements))
+        if best.max() == 0 or steadiness > steadiest:
+            best, steadiest = codes, steadiness
+        if steadiness >= STEADY or k >= count // 4:
+            break
+    return best, steadiest
+
+
+def _tie(distances: FloatArray, k: int) -> csr_matrix:
+    """The graph of the k nearest neighbours: a symmetric (n, n) matrix with weights in (0, 1].
+
+    A tie weakens with the distance, measured by how far each of the two has its last neighbour (L. Zelnik-Manor and
+    P. Perona 2004), so that a loose group holds together as a dense one does.
+    """
+    count = len(distances)
+    others = distances.copy()
+    np.fill_diagonal(others, np.inf)
+    nearest = np.argsort(others, axis=1, kind="stable")[:, :k]
+    rows = np.repeat(np.arange(count), k)
+    columns = nearest.ravel()
+    reach = np.take_along_axis(others, nearest[:, -1:], axis=1)[:, 0]
+    weights = np.exp(-np.square(distances[rows, columns]) / (reach[rows] * reach[columns]))
+    graph = csr_matrix((weights, (rows, columns)), shape=(count, count))
+    return (graph + graph.T) / 2
+
+
+def find_communities(ties: csr_matrix, seed: int) -> IntArray:
+    """The groups of a graph with the highest modularity that is found.
+
+    Parameters
+    ----------
+    ties : (n, n) sparse matrix
+        Symmetric weights, none negative.
+    seed : int
+        Of the order in which nodes are tried.
+
+    Returns
+    -------
+    (n,) int32 array
+        Codes from 0 without gaps.
+    """
+    graph = networkx.from_scipy_sparse_array(ties)
+    codes = np.empty(len(graph), np.int32)
+    for code, members in enumerate(networkx.community.louvain_communities(graph, seed=seed)):
+        codes[list(members)] = code
+    return codes
 
 
 def silhouettes(distances: FloatArray, codes: IntArray) -> FloatArray:
@@ -160,10 +247,10 @@ def describe_clusters(
     clusters = (
         Cluster(name, row, len(own), words) for name, row, own, words in zip(names, central, rows, typical)
     )
-    return Clusters(tuple(clusters), partition.of, partition.silhouette, stand_in)
+    return Clusters(tuple(clusters), partition.of, partition.silhouette, partition.steadiness, stand_in)
 
 
-def _find_central(scaled: FloatArray, rows: np.ndarray) -> int:
+def _find_central(scaled: FloatArray, rows: npt.NDArray[np.intp]) -> int:
     """The shape nearest to the mean of some."""
     offsets = scaled[rows] - scaled[rows].mean(axis=0)
     return int(rows[np.square(offsets).sum(axis=1).argmin()])
@@ -179,53 +266,68 @@ def _name(central: Sequence[ShapeEntry]) -> list[str]:
 
 
 def _word_typical(
-    rows: Sequence[np.ndarray], table: FeatureTable, edges: FloatArray, preset: Preset
+    rows: Sequence[npt.NDArray[np.intp]], table: FeatureTable, edges: FloatArray, preset: Preset
 ) -> list[tuple[str, ...]]:
-    """What tells each of some groups from the rest: of the features that do so most, the one bin that does.
+    """What tells each of some groups from the rest: of the features that do so most, a sentence each.
 
-    A bin tells by the distance of the two means of its compared values, in standard deviations within the groups.
+    Of a feature it is the share of the surface above some value, or the value of an external one, whose means within
+    and without the group are farthest apart in standard deviations within the two.
     """
-    compared = compared_values(table, preset)
-    conditions, whole = word_conditions(table, edges), word_whole(preset.by_area)
-    owner = np.repeat(np.arange(len(table.blocks)), [block.width for block in table.blocks])
-    is_share = np.array([condition is not None for condition in conditions])
-    count, sums, squares = len(compared), compared.sum(axis=0), np.square(compared).sum(axis=0)
-    totals = table.values.sum(axis=0)
-    result = []
-    for own in rows:
-        inside, size = compared[own], len(own)
-        mean, rest = inside.mean(axis=0), (sums - inside.sum(axis=0)) / (count - size)
-        within = squares - size * mean**2 - (count - size) * rest**2
-        spread = np.sqrt(np.maximum(within, 0) / count)
-        effect = np.divide(np.abs(mean - rest), spread, out=np.zeros_like(mean), where=spread > 1e-9)
-        here = table.values[own].mean(axis=0)
-        there = (totals - table.values[own].sum(axis=0)) / (count - size)
-        effect[is_share & (np.abs(here - there) < WORTH_SAYING)] = 0
-        strongest = [
-            int(np.flatnonzero(owner == block)[effect[owner == block].argmax()])
-            for block in range(len(table.blocks))
-        ]
-        chosen = sorted(strongest, key=lambda column: -effect[column])[:TYPICAL]
-        result.append(
-            tuple(
-                _word_difference(
-                    table.columns[column], conditions[column], whole, here[column], there[column]
-                )
-                for column in chosen
-                if effect[column] > 0
-            )
-        )
-    return result
+    whole = "the surface" if preset.by_area else "the vertices"
+    found: list[list[tuple[bool, float, str]]] = [[] for _ in rows]
+    edge_row = 0
+    for block in table.blocks:
+        values = table.values[:, table.slice_of(block.name)]
+        if block.bins > 1:
+            shares = values.reshape(len(values), block.dimensions, block.bins)
+            # From the second bin on: the share that lies at or above each inner edge.
+            values = shares[:, :, ::-1].cumsum(axis=2)[:, :, -2::-1].reshape(len(values), -1)
+        sums, squares = values.sum(axis=0), np.square(values).sum(axis=0)
+        for own, candidates in zip(rows, found):
+            size, others = len(own), len(values) - len(own)
+            here = values[own].mean(axis=0)
+            there = (sums - size * here) / others
+            within = np.maximum(squares - size * here**2 - others * there**2, 0) / len(values)
+            gaps = np.abs(here - there)
+            effects = np.divide(gaps, np.sqrt(within), out=np.zeros_like(gaps), where=within > 1e-18)
+            if block.bins > 1:
+                effects[gaps < WORTH_SAYING] = 0
+            best = int(effects.argmax())
+            if effects[best] == 0:
+                continue
+            if block.bins > 1:
+                dimension, step = divmod(best, block.bins - 1)
+                edge = edges[edge_row + dimension, step + 1]
+                sentence = _word_shares(block, dimension, edge, here[best], there[best], whole)
+            else:
+                sentence = _word_values(block.columns[best], here[best], there[best])
+            hard = block.dimensions > 1 or effects[best] < CLEAR
+            candidates.append((hard, -effects[best], sentence))
+        edge_row += block.dimensions if block.bins > 1 else 0
+    return [tuple(sentence for _, _, sentence in sorted(candidates)[:TYPICAL]) for candidates in found]
 
 
-def _word_difference(column: str, condition: str | None, whole: str, here: float, there: float) -> str:
-    """That a group has more or less of a bin than the rest."""
-    if condition is None:
-        side = "larger" if here > there else "smaller"
-        return f"{column} is {side} than in other shapes: {_number(here)} against {_number(there)}."
-    side = "More" if here > there else "Less"
-    amounts = f"{_number(100 * here)} % against {_number(100 * there)} %"
-    return f"{side} of {whole} than in other shapes lies where {condition}: {amounts}."
+def _word_shares(
+    block: FeatureBlock, dimension: int, edge: float, here: float, there: float, whole: str
+) -> str:
+    """That more of a group's surface than of the rest's lies on one side of an edge."""
+    above = here > there
+    if not above:
+        here, there = 1 - here, 1 - there
+    condition = word_side(block, dimension, edge, above=above)
+    places = word_places(block, above=above)
+    words = (
+        condition[0].upper() + condition[1:]
+        if places is None
+        else f"{places[0].upper()}{places[1:]}: {condition}"
+    )
+    return f"{words} on {_number(100 * here)} % of {whole}, in other shapes on {_number(100 * there)} %."
+
+
+def _word_values(column: str, here: float, there: float) -> str:
+    """That an external feature is larger or smaller."""
+    side = "larger" if here > there else "smaller"
+    return f"{column} is {side} than in other shapes: {_number(here)} against {_number(there)}."
 
 
 def _number(value: float) -> str:

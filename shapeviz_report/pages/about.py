@@ -28,6 +28,7 @@ class AboutPage:
                 "bins": next(iter(report.projections.values()))[0].bins,
                 "balanced": PRESETS[str(report.parameters["preset"])].balanced,
                 "searched": report.search is not None,
+                "clusters": _clusters(report),
                 "stages": _stages(report),
                 "parameters": [(name, _plain(value)) for name, value in report.parameters.items()],
                 "versions": list(report.versions.items()),
@@ -70,6 +71,16 @@ def _projections(report: Report) -> list[dict[str, object]]:
         }
         for method, (projection, quality) in report.projections.items()
     ]
+
+
+def _clusters(report: Report) -> dict[str, object] | None:
+    if report.clusters is None:
+        return None
+    return {
+        "rows": report.clusters.clusters,
+        "silhouette": report.clusters.silhouette,
+        "steadiness": report.clusters.steadiness,
+    }
 
 
 def _stages(report: Report) -> dict[str, object]:

@@ -45,6 +45,7 @@ class OverviewPage:
                     "shapes": _shapes(report, classes),
                     "classes": list(classes),
                     "labeling": report.labeling,
+                    "standIn": report.clusters is not None and report.clusters.stand_in,
                     "methods": methods,
                     "subsets": _subsets(report),
                     "charts": {

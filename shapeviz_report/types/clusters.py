@@ -40,8 +40,11 @@ class Clusters:
     of : (n,) int32 array
         The cluster of each shape, in the order of the feature table, as a place in ``clusters``.
     silhouette : float
-        How much closer shapes are to their own cluster than to the next, in [-1, 1]: the mean over the shapes by which
-        the number of clusters was chosen.
+        How much closer shapes are to their own cluster than to the next, in [-1, 1]: the mean over the shapes that
+        decided the clusters.
+    steadiness : float
+        Whether a part of the shapes has the same clusters: the mean adjusted Rand index, 1 where they are found again
+        and about 0 where the cuts are made at will.
     stand_in : bool
         Whether the clusters are the active labeling, because the database has no labels.
     """
@@ -49,4 +52,5 @@ class Clusters:
     clusters: tuple[Cluster, ...]
     of: IntArray
     silhouette: float
+    steadiness: float
     stand_in: bool

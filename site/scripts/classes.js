@@ -124,8 +124,10 @@ export class ClassList {
       element(
         "p",
         {},
-        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its class on average. `,
-        "1 is a map whose classes never mix.",
+        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its ${model.data.standIn ? "cluster" : "class"} on average. `,
+        model.data.standIn
+          ? "The clusters come from the same features, so this says only how well the map shows them."
+          : "1 is a map whose classes never mix.",
         base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone."],
       ),
     ];

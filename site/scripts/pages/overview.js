@@ -138,7 +138,7 @@ function reading(name, model, state) {
   if (!model.labelled) return ["Without labels there is no neighbourhood hit."];
   const scale = element("span", { class: "ramp", role: "img", "aria-label": "from red to yellow" });
   scale.style.background = `linear-gradient(to right, ${model.marks.hit.join(", ")})`;
-  return [`Of a shape’s ${method.neighbours} nearest neighbours, this share is of its class: 0 `, scale, " 1"];
+  return [`Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${model.data.standIn ? "cluster" : "class"}: 0 `, scale, " 1"];
 }
 
 function watchControls(model, state, scene, gestures) {
