@@ -27,7 +27,8 @@ export class Cells {
       element(
         "a",
         { href: pageAddress("shape.html", { id: model.ids[row] }), tabindex: "-1", draggable: "false", title: name, "aria-label": said.filter(Boolean).join(", ") },
-        element("img", { src: model.picture(row), alt: "", decoding: "async", draggable: "false" }),
+        // Its source follows when the shape stays in sight.
+        element("img", { alt: "", decoding: "async", draggable: "false" }),
         element("span", { class: "name", dir: "auto" }, name),
         this.lines > 1 && element("span", { class: "beside", dir: "auto" }, this.#beside(row)),
       ),

@@ -24,7 +24,7 @@ function describe(field, key, filter) {
 
 /** The name of a node or a value that is filtered by. */
 export function nameOf(field, value) {
-  return field.tree === null || value < 0 ? valueName(field, value) : field.tree.nodes[value].name;
+  return field.tree === null || value < 0 ? valueName(field, value) : field.tree.ways[value].join(" / ");
 }
 
 export class Chips {

@@ -6,6 +6,10 @@ import { HEAD, layOut, rowAt } from "./layout.js";
 /** Pixels above and below the window that are drawn already. */
 const AHEAD = 500;
 
+/** Who scrolls by more than this in a frame sees no picture: they are loaded when the scrolling slows down. */
+const RUSH = 700;
+const CALM = 80;
+
 export class Grid {
   #groups = [];
   #cells = null;
@@ -13,6 +17,8 @@ export class Grid {
   #rows = new Map();
   #sections = new Map();
   #pending = null;
+  #unpictured = new Set();
+  #top = 0;
 
   constructor(model, state) {
     this.model = model;
@@ -37,6 +43,7 @@ export class Grid {
     if (fromTop) this.#scrollBy(-Math.max(this.#window().top, 0));
     else this.#hold(anchor);
     this.draw();
+    this.#showPictures(false);
   }
 
   /** The same groups with other pictures' sizes, or other groups folded. */
@@ -45,6 +52,7 @@ export class Grid {
     this.#layOut();
     this.#hold(anchor);
     this.draw();
+    this.#showPictures(false);
   }
 
   #resize() {
@@ -141,6 +149,21 @@ export class Grid {
     for (const index of this.#rows.keys()) for (const shape of this.#shapesOf(index)) made.set(shape, this.#made.get(shape));
     this.#made = made;
     this.#markActive();
+    this.#showPictures(Math.abs(top - this.#top) > RUSH);
+    this.#top = top;
+  }
+
+  #showPictures(rushing) {
+    clearTimeout(this.calming);
+    if (rushing) {
+      this.calming = setTimeout(() => this.#showPictures(false), CALM);
+      return;
+    }
+    for (const shape of this.#unpictured) {
+      const picture = this.#made.get(shape)?.querySelector("img");
+      if (picture) picture.src = this.model.picture(shape);
+    }
+    this.#unpictured.clear();
   }
 
   /** A group: its head stays in sight as long as one of its rows does. */
@@ -165,7 +188,10 @@ export class Grid {
     const { block, top } = this.layout.rows[index];
     const selection = this.state.get("selection");
     const cells = this.#shapesOf(index).map((shape) => {
-      if (!this.#made.has(shape)) this.#made.set(shape, this.#cells.shape(shape, selection.has(shape)));
+      if (!this.#made.has(shape)) {
+        this.#made.set(shape, this.#cells.shape(shape, selection.has(shape)));
+        this.#unpictured.add(shape);
+      }
       return this.#made.get(shape);
     });
     const row = element("div", { class: "row", role: "row", "aria-rowindex": index + 1 }, cells);
@@ -271,6 +297,7 @@ export class Grid {
     this.active = { shape, head: null };
     this.reveal();
     this.draw();
+    this.#showPictures(false);
   }
 
   /** The height of the window. */
