@@ -21,7 +21,7 @@ export class BinCard {
     this.bins = bins;
     this.model = model;
     this.node = element("div", { class: "card bin-card", hidden: true });
-    document.body.append(this.node);
+    document.getElementById("content").append(this.node);
     // It stands where its bar stood.
     window.addEventListener("scroll", () => this.hide(), { passive: true });
     this.members = new Map();

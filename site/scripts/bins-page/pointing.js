@@ -9,7 +9,7 @@ export class Pointing {
   constructor(model) {
     this.model = model;
     this.node = element("div", { class: "card", hidden: true });
-    document.body.append(this.node);
+    document.getElementById("content").append(this.node);
     window.addEventListener("scroll", () => this.#hide(), { passive: true });
   }
 

@@ -82,7 +82,7 @@ class Choice {
     if (field.of.includes(NONE)) this.values.push(NONE);
     const title = fieldTitle(field);
     this.find = this.values.length > MANY && element("input", { type: "search", class: "find-value", placeholder: "Find", "aria-label": `Find a value of ${title}`, oninput: () => this.show(this.filter) });
-    this.list = element("ul", { role: "group", "aria-label": title, onchange: (event) => this.#toggle(Number(event.target.value)) });
+    this.list = element("ul", { "aria-label": title, onchange: (event) => this.#toggle(Number(event.target.value)) });
     this.more = element("button", { type: "button", class: "plain more-values", onclick: () => this.#unfold() });
     this.node = element("div", { class: "facet-values" }, this.find, this.list, this.more);
   }

@@ -20,7 +20,7 @@ export function workTables(model, bins, state) {
   return {
     title: "The Workbench in figures",
     tables: [
-      model.labelled && table("Neighbourhood hit", ["", "Original map", "Refined map", "Change"], [
+      model.labelled && table("Neighbourhood hit", ["Class", "Original map", "Refined map", "Change"], [
         row("All classes in use", original?.hitOfAll ?? null, refined?.hitOfAll ?? null),
         ...groups.map(hits),
       ]),
