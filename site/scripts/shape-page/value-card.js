@@ -9,7 +9,7 @@ export class ValueCard {
   constructor(bins) {
     this.bins = bins;
     this.node = element("div", { class: "card value-card", hidden: true });
-    document.body.append(this.node);
+    document.getElementById("content").append(this.node);
     window.addEventListener("scroll", () => this.hide(), { passive: true });
   }
 
