@@ -21,18 +21,23 @@ export function mapTables(model, state) {
       ["Class", "Shapes", "NH"],
       groups.map((group) => [model.className(group), String(model.sizes.get(group)), figure(method.hitOfClass[group])]),
     ),
-    table(
-      selection.size > 0 ? "Selected shapes" : "Shapes",
-      ["Shape", "Class", "NH", "x", "y"],
-      shown.slice(0, MOST_ROWS).map((index) => [
-        model.ids[index],
-        model.className(model.groups[index]),
-        figure(method.hit[index]),
-        figure(method.x[index]),
-        figure(method.y[index]),
-      ]),
-    ),
+    shapesTable(selection.size > 0 ? "Selected shapes" : "Shapes", model, method, shown),
     shown.length > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(shown.length, "shape")}. All are in `, dataLink("data/shapes.csv"), "."),
   ].filter(Boolean);
   return { title: `The ${method.title} map in figures`, tables };
+}
+
+/** Where the first of some shapes lie on a map, and what share of their neighbours is of their class. */
+export function shapesTable(title, model, method, indices) {
+  return table(
+    title,
+    ["Shape", "Class", "NH", "x", "y"],
+    indices.slice(0, MOST_ROWS).map((index) => [
+      model.ids[index],
+      model.className(model.groups[index]),
+      figure(method.hit[index]),
+      figure(method.x[index]),
+      figure(method.y[index]),
+    ]),
+  );
 }

@@ -1,6 +1,7 @@
 // The charts of the Features page as tables.
 
 import { dataLink, element } from "./dom.js";
+import { shapesTable } from "./map-tables.js";
 import { table } from "./tables.js";
 import { count, figure } from "./words.js";
 
@@ -16,6 +17,7 @@ export function subsetTables(model, subsets, state) {
     model.className(data.classes[column]),
     ...[data.hitOfClass[chosen][column], box.least, box.lower, box.median, box.upper, box.most].map(figure),
   ]);
+  const map = state.get("method") === null ? null : model.methods[state.get("method")];
   const tables = [
     greedy && table(`Greedy search, s = ${greedy.s}`, ["Step", "NH", "Features"], greedy.path.map((place, step) => [String(step + 1), figure(data.hit[place]), names(place)])),
     classes.length > 0 && table(
@@ -29,6 +31,7 @@ export function subsetTables(model, subsets, state) {
       places.map((place) => [String(place + 1), subsets.labelled && figure(data.hit[place]), names(place)].filter(Boolean)),
     ),
     subsets.count > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `, dataLink("data/subsets.csv"), "."),
+    map && shapesTable("The map of the chosen subset", model, map, [...model.ids.keys()]),
   ].filter(Boolean);
   return { title: "Subsets of the features in figures", tables };
 }

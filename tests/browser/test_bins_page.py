@@ -286,5 +286,9 @@ def test_the_figures_are_there_as_tables(bins):
         "All classes from each other, step by step",
         "What such a choice is worth on shapes it never saw",
     ]
+    shapes = page.locator("#tables table").last.locator("tbody tr")
+    amounts = [float(text.split(" ")[0]) for text in shapes.locator("td:last-child").all_inner_texts()]
+    assert len(amounts) == 32
+    assert amounts == sorted(amounts, reverse=True)
     rows = page.locator("#tables table").nth(1).locator("tbody tr")
     assert rows.count() == page.locator(".path-step").count()

@@ -247,6 +247,7 @@ class TestTables:
         for subset in subsets_of(site("searched")):
             assert f"{subset['nh_s']:.3f}\t{', '.join(subset['features'])}" in text
         assert page.locator("#tables table").nth(1).locator("tbody tr").count() == 5
+        assert page.locator("#tables table").last.locator("tbody tr").count() == 50
         page.keyboard.press("Escape")
         assert page.locator("#tables").is_hidden()
 
@@ -361,7 +362,9 @@ class TestStates:
         page.keyboard.press("Home")
         assert reading(page) == "Pointed at Gc"
         page.click("#open-tables")
-        assert page.locator("#tables tbody tr").count() == 7
+        subsets, shapes = page.locator("#tables table").all()
+        assert subsets.locator("tbody tr").count() == 7
+        assert shapes.locator("tbody tr").count() == 24
 
     def test_no_labels_on_the_overview(self, open_page):
         page = open_page("searched without labels", "index.html#features=Gc Sc")

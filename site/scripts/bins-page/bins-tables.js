@@ -4,6 +4,8 @@ import { percent } from "../bin-card.js";
 import { table } from "../tables.js";
 import { figure } from "../words.js";
 
+const MOST_ROWS = 500;
+
 export function binsTables(model, bins, selection, state, card) {
   const names = (columns) => columns.map((column) => bins.names[column]).join(", ");
   const bin = state.get("bin");
@@ -21,6 +23,13 @@ export function binsTables(model, bins, selection, state, card) {
       ])),
       folds.length > 0 && table("What such a choice is worth on shapes it never saw", ["Chosen by", "Bins", "Unseen shapes", "NH, seen shapes", "NH, unseen shapes", "with all features", "recognised", "with all features"], folds),
       table(`${bins.names[bin]} by class`, ["Class", "Median"], card.rows(bin).map(({ name, median }) => [name, told(median)])),
+      table(`The shapes with the most of ${bins.names[bin]}`, ["Shape", "Class", "Value"], most(bins, bin, model.count).map((index) => [model.ids[index], model.className(model.groups[index]), told(bins.share(bin, index))])),
     ].filter(Boolean),
   };
+}
+
+/** The shapes with the most of a bin, first the one with most. */
+function most(bins, bin, count) {
+  const amounts = Float64Array.from({ length: count }, (_, index) => bins.share(bin, index));
+  return [...amounts.keys()].sort((a, b) => amounts[b] - amounts[a] || a - b).slice(0, MOST_ROWS);
 }
