@@ -30,12 +30,16 @@ class ComparePage:
     def content(self, report: Report) -> PageContent:
         points = _points(report)
         spaces = {SPACE: points, **{method: shown.xy for method, (shown, _) in report.projections.items()}}
-        _, hits = next(iter(report.projections.values()))
+        projection, hits = next(iter(report.projections.values()))
         codes = _codes(report)
         return PageContent(
             context={
                 "classes": len(class_names(report)),
-                "spaces": [{"key": key, "title": _title(key)} for key in spaces],
+                "spaces": [
+                    {"key": key, "title": _space(projection.bins) if key == SPACE else METHODS[key].title}
+                    for key in spaces
+                ],
+                "space": _space(projection.bins),
                 "k": hits.k,
             },
             chunks={
@@ -61,8 +65,9 @@ def _codes(report: Report) -> npt.NDArray[np.int_]:
     return np.array([-1 if label is None else number[label] for label in report.labels])
 
 
-def _title(space: str) -> str:
-    return "all features" if space == SPACE else METHODS[space].title
+def _space(bins: tuple[str, ...] | None) -> str:
+    """What is compared, in words."""
+    return "all features" if bins is None else "the chosen bins"
 
 
 def _compare(

@@ -3,10 +3,15 @@
 import { Bins } from "../bins.js";
 import { chunk } from "../chunks.js";
 import { readView, writeView } from "../compare/address.js";
+import { compareTables } from "../compare/compare-tables.js";
 import { GroupsView } from "../compare/groups-view.js";
+import { Matrix } from "../compare/matrix.js";
 import { Neighbours } from "../compare/neighbours.js";
+import { Outliers } from "../compare/outliers.js";
+import { Tabs } from "../compare/tabs.js";
 import { Model } from "../model.js";
 import { State } from "../state.js";
+import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
 
 async function main() {
@@ -22,8 +27,14 @@ async function main() {
   const bins = () => (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
   const read = () => readView(model, data, neighbours);
   const state = new State({ ...read(), theme: currentTheme() });
-  const views = { groups: new GroupsView(model, data, clusters, neighbours, state, { bins, announce }) };
-  views.groups.compare();
+  const groups = new GroupsView(model, data, clusters, neighbours, state, { bins, announce });
+  const outliers = new Outliers(model, data, neighbours, state, { bins, announce });
+  const matrix = new Matrix(model, data, neighbours, state, { announce });
+  new Tabs(state);
+  groups.compare();
+  outliers.render();
+  matrix.render();
+  watchTables(() => compareTables(model, data, state, { groups, outliers, matrix }));
   state.listen((changed) => {
     if (changed.has("theme") && changed.size === 1) return;
     writeView(model, state);

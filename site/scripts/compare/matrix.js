@@ -1,0 +1,204 @@
+// Which classes are alike: of the nearest neighbours of each class, how many belong to each other class.
+
+import { element, picture, swatch } from "../dom.js";
+import { pageAddress } from "../place.js";
+import { writeSelection } from "../selection.js";
+import { count, shortened } from "../words.js";
+import { compareAddress } from "./address.js";
+
+const PAIRS = 8;
+const MOST_BEHIND = 24;
+const NEAR = 3;
+
+/** From so many classes on, cells are too small for figures. */
+const MOST_FIGURES = 20;
+
+export class Matrix {
+  constructor(model, data, neighbours, state, { announce }) {
+    Object.assign(this, { model, data, neighbours, state, announce });
+    this.node = document.getElementById("matrix");
+    if (this.node === null) return;
+    this.words = document.getElementById("cell-words");
+    this.node.addEventListener("keydown", (event) => this.#key(event));
+    this.node.addEventListener("pointerover", (event) => this.#point(event.target.closest("[data-row]")));
+    this.node.addEventListener("pointerleave", () => this.#point(null));
+    this.node.addEventListener("focusin", (event) => this.#point(event.target.closest("[data-row]")));
+    this.node.addEventListener("click", (event) => {
+      const cell = event.target.closest("[data-row]");
+      if (cell) this.#open(Number(cell.dataset.row), Number(cell.dataset.column));
+    });
+    const inputs = document.querySelectorAll("#spaces input");
+    for (const input of inputs) input.addEventListener("change", () => state.set({ space: input.value }));
+    state.listen((changed) => {
+      if (["view", "space", "theme"].some((name) => changed.has(name))) this.render();
+      else if (changed.has("row") || changed.has("column")) this.#behind();
+    });
+  }
+
+  render() {
+    const { state, node } = this;
+    if (state.get("view") !== "classes" || node === null) return;
+    for (const input of document.querySelectorAll("#spaces input")) input.checked = input.value === state.get("space");
+    this.counts = this.neighbours.matrix(state.get("space"));
+    this.#likest();
+    this.#draw();
+    this.#behind();
+  }
+
+  /** Of the neighbours of a class, the share that belongs to another. */
+  share(row, column) {
+    return this.counts[row][column] / (this.model.sizes.get(row) * this.neighbours.k);
+  }
+
+  #likest() {
+    const { model, state } = this;
+    const pairs = this.neighbours.likest(state.get("space")).slice(0, PAIRS);
+    document.getElementById("likest").replaceChildren(
+      ...pairs.map(({ group, other, there, back }) => {
+        const [from, to, most, least] = there >= back ? [group, other, there, back] : [other, group, back, there];
+        return element(
+          "li",
+          {},
+          element("button", { type: "button", class: "plain pair-of", onclick: () => this.#open(from, to) }, this.#name(from), " → ", this.#name(to)),
+          element("span", { class: "quiet" }, `${percents(most)}, back ${percents(least)}`),
+        );
+      }),
+    );
+    document.getElementById("likest-none").hidden = pairs.length > 0;
+    document.getElementById("likest-none").textContent = model.classes.length > 1 ? "No shape has a neighbour of another class: the classes are all apart." : "";
+  }
+
+  #draw() {
+    const { model, data, node, state } = this;
+    const order = data.order;
+    const figures = order.length <= MOST_FIGURES;
+    const highest = Math.max(...order.flatMap((row) => order.filter((column) => column !== row).map((column) => this.share(row, column))), 1e-9);
+    const at = state.get("row") !== null && state.get("column") !== null ? [state.get("row"), state.get("column")] : [order[0], order[0]];
+    const head = element(
+      "tr",
+      {},
+      element("td", { class: "corner" }, element("span", { class: "quiet" }, "neighbours →")),
+      order.map((column) => element("th", { scope: "col", title: model.className(column) }, element("span", {}, swatch(model.symbol(column), model.color(column)), element("bdi", {}, shortened(model.className(column), 24))))),
+    );
+    const rows = order.map((row) =>
+      element(
+        "tr",
+        {},
+        element("th", { scope: "row", title: model.className(row) }, element("bdi", {}, shortened(model.className(row), 24)), swatch(model.symbol(row), model.color(row))),
+        order.map((column) => {
+          const share = this.share(row, column);
+          const cell = element(
+            "td",
+            { "data-row": row, "data-column": column, tabindex: at[0] === row && at[1] === column ? "0" : "-1", class: row === column ? "own" : null, "aria-label": this.#sentence(row, column) },
+            figures && share > 0 ? Math.round(100 * share) || "<1" : "",
+          );
+          cell.style.setProperty("--much", row === column ? share * 0.5 : share > 0 ? 0.12 + 0.88 * Math.sqrt(share / highest) : 0);
+          return cell;
+        }),
+      ),
+    );
+    node.style.setProperty("--classes", order.length);
+    node.classList.toggle("many", !figures);
+    node.replaceChildren(element("thead", {}, head), element("tbody", {}, rows));
+  }
+
+  #name(group) {
+    const { model } = this;
+    return element("span", { class: "called" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, shortened(model.className(group), 32)));
+  }
+
+  #sentence(row, column) {
+    const { model, neighbours } = this;
+    const names = [row, column].map((group) => model.className(group));
+    const all = model.sizes.get(row) * neighbours.k;
+    return row === column
+      ? `${names[0]}: ${percents(this.share(row, row))} of the neighbours of its shapes are of its own class`
+      : `${names[0]} to ${names[1]}: ${percents(this.share(row, column))}, ${this.counts[row][column]} of ${all} neighbours`;
+  }
+
+  #point(cell) {
+    for (const marked of this.node.querySelectorAll(".lit")) marked.classList.remove("lit");
+    if (cell === null) {
+      this.words.textContent = this.words.dataset.empty;
+      return;
+    }
+    const [row, column] = [Number(cell.dataset.row), Number(cell.dataset.column)];
+    this.words.textContent = `${this.#sentence(row, column)}.`;
+    cell.parentElement.firstElementChild.classList.add("lit");
+    this.node.querySelectorAll("thead th")[this.data.order.indexOf(column)].classList.add("lit");
+  }
+
+  #key(event) {
+    const cell = event.target.closest("[data-row]");
+    if (!cell) return;
+    const { order } = this.data;
+    let [row, column] = [order.indexOf(Number(cell.dataset.row)), order.indexOf(Number(cell.dataset.column))];
+    const last = order.length - 1;
+    if (event.key === "ArrowUp") row = Math.max(row - 1, 0);
+    else if (event.key === "ArrowDown") row = Math.min(row + 1, last);
+    else if (event.key === "ArrowLeft") column = Math.max(column - 1, 0);
+    else if (event.key === "ArrowRight") column = Math.min(column + 1, last);
+    else if (event.key === "Home") column = 0;
+    else if (event.key === "End") column = last;
+    else if (event.key === "Enter" || event.key === " ") this.#open(order[row], order[column]);
+    else return;
+    event.preventDefault();
+    if (event.key === "Enter" || event.key === " ") return;
+    const next = this.node.tBodies[0].rows[row].cells[column + 1];
+    cell.tabIndex = -1;
+    next.tabIndex = 0;
+    next.focus();
+    next.scrollIntoView({ block: "nearest", inline: "nearest" });
+  }
+
+  #open(row, column) {
+    this.state.set({ row, column });
+    document.getElementById("behind").scrollIntoView({ block: "nearest" });
+  }
+
+  /** The shapes behind the chosen cell. */
+  #behind() {
+    const { model, state, neighbours } = this;
+    const node = document.getElementById("behind");
+    const [row, column] = [state.get("row"), state.get("column")];
+    for (const cell of this.node.querySelectorAll("[aria-selected]")) cell.removeAttribute("aria-selected");
+    if (row === null || column === null) {
+      node.replaceChildren();
+      return;
+    }
+    this.node.querySelector(`[data-row="${row}"][data-column="${column}"]`)?.setAttribute("aria-selected", "true");
+    const pairs = neighbours.pairs(row, column, state.get("space"));
+    const all = new Set(pairs.flatMap(({ index, near }) => [index, ...near]));
+    const query = new URLSearchParams();
+    writeSelection(query, model, all);
+    const ways = [
+      row !== column && element("a", { href: compareAddress(model, { kind: "class", group: row }, { kind: "class", group: column }) }, "Compare these classes"),
+      row !== column && element("a", { href: pageAddress("workbench.html", [["class", model.classes[row]], ["class", model.classes[column]]]) }, "Into the Workbench"),
+      all.size > 0 && element("a", { href: pageAddress("shapes.html", query) }, `Show the ${count(all.size, "shape")}`),
+      all.size > 0 && element("a", { href: pageAddress("index.html", query) }, "On the map"),
+    ].filter(Boolean);
+    const own = row === column;
+    node.replaceChildren(...[
+      element("h3", {}, this.#name(row), " → ", this.#name(column)),
+      element("p", {}, pairs.length === 0
+        ? own ? "No shape of this class has another one of it among its neighbours." : "No shape of the one is a neighbour of a shape of the other."
+        : [element("b", {}, `${pairs.length} of ${count(model.sizes.get(row), "shape")}`), ` of `, element("bdi", {}, model.className(row)), ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? "of their own class" : "of "}`, !own && element("bdi", {}, model.className(column)), ": ", `${percents(this.share(row, column))} of all their neighbours.`]),
+      element("p", { class: "ways" }, ways.flatMap((way) => [way, " "])),
+      element("ul", { class: "behind-list" }, pairs.slice(0, MOST_BEHIND).map(({ index, near }) =>
+        element("li", {}, this.#face(index), element("span", { class: "arrow", "aria-hidden": "true" }, "→"), near.slice(0, NEAR).map((other) => this.#face(other)), near.length > NEAR && element("span", { class: "quiet" }, `+${near.length - NEAR}`)),
+      )),
+      pairs.length > MOST_BEHIND && element("p", { class: "quiet" }, `and ${count(pairs.length - MOST_BEHIND, "more shape")}`),
+    ].filter(Boolean));
+    this.announce(node.querySelector("p").textContent);
+  }
+
+  #face(index) {
+    const { model } = this;
+    return element("a", { href: pageAddress("shape.html", { id: model.ids[index] }), title: model.names[index], "aria-label": model.names[index] }, picture(model, index, 64));
+  }
+}
+
+function percents(share) {
+  const value = 100 * share;
+  return value > 0 && value < 0.5 ? "less than 1 %" : `${Math.round(value)} %`;
+}

@@ -1,0 +1,199 @@
+// Shapes that fit their class least: where they would rather belong, and what sets them apart.
+
+import { element, picture, swatch } from "../dom.js";
+import { pageAddress } from "../place.js";
+import { count, figure } from "../words.js";
+import { compareAddress } from "./address.js";
+import { distribution, mean, toldAs } from "./distribution.js";
+
+const PAGE = 12;
+const NEAREST = 5;
+const REASONS = 2;
+
+/** Of a large class, so many shapes tell what is usual. */
+const MOST_USUAL = 400;
+
+/** A bin in which a class has less spread than this part of that of all shapes is taken to have so much. */
+const LEAST_SPREAD = 0.2;
+
+export class Outliers {
+  #usual = new Map();
+
+  constructor(model, data, neighbours, state, { bins, announce }) {
+    Object.assign(this, { model, data, neighbours, state, announce, load: bins });
+    this.list = document.getElementById("outlier-list");
+    this.more = document.getElementById("more-outliers");
+    this.filter = document.getElementById("outliers-of");
+    this.shown = PAGE;
+    if (this.list === null) return;
+    this.#offer();
+    this.filter.addEventListener("change", () => state.set({ of: this.filter.value === "" ? null : Number(this.filter.value) }));
+    this.more.addEventListener("click", () => {
+      const first = this.shown;
+      this.shown += PAGE;
+      this.render();
+      this.list.children[first]?.querySelector("a")?.focus();
+    });
+    state.listen((changed) => {
+      if (changed.has("of")) this.shown = PAGE;
+      if (["view", "of", "theme"].some((name) => changed.has(name))) this.render();
+    });
+  }
+
+  /** Shapes by rising fit, of one class or of all. */
+  ranked(of = this.state.get("of")) {
+    const { model, data } = this;
+    return [...model.ids.keys()]
+      .filter((index) => data.fit[index] !== null && (of === null || model.groups[index] === of))
+      .sort((a, b) => data.fit[a] - data.fit[b] || a - b);
+  }
+
+  #offer() {
+    const { model } = this;
+    const below = model.classes.map(() => 0);
+    for (const index of this.ranked(null)) if (this.data.fit[index] < 0) below[model.groups[index]] += 1;
+    this.filter.replaceChildren(
+      element("option", { value: "" }, "all shapes"),
+      ...model.classes.map((name, group) => element("option", { value: group }, below[group] > 0 ? `${name} (${below[group]} closer to another)` : name)),
+    );
+  }
+
+  async render() {
+    const { model, state, list } = this;
+    if (state.get("view") !== "outliers" || list === null) return;
+    const of = state.get("of");
+    this.filter.value = of === null ? "" : String(of);
+    const ranked = this.ranked();
+    const closer = ranked.filter((index) => this.data.fit[index] < 0).length;
+    document.getElementById("outlier-words").replaceChildren(
+      element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${ranked.length}`),
+      closer > 1 ? " are closer to another class than to their own." : " is closer to another class than to its own.",
+    );
+    const shown = ranked.slice(0, this.shown);
+    this.more.hidden = ranked.length <= shown.length;
+    list.replaceChildren(...shown.map((index) => this.#item(index)));
+    this.announce(document.getElementById("outlier-words").textContent);
+    const bins = await this.load();
+    for (const item of list.children) {
+      const node = item.querySelector(".reasons");
+      if (node.childElementCount === 0) node.replaceChildren(...this.#reasons(Number(item.dataset.index), bins));
+    }
+  }
+
+  #item(index) {
+    const { model, data, neighbours } = this;
+    const [own, rival] = [model.groups[index], data.rival[index]];
+    const near = [...neighbours.of(index)];
+    const fit = data.fit[index];
+    return element(
+      "li",
+      { class: "outlier", "data-index": index },
+      element("a", { class: "face", href: pageAddress("shape.html", { id: model.ids[index] }), "aria-label": model.names[index] }, picture(model, index, 128)),
+      element(
+        "div",
+        { class: "about" },
+        element("p", { class: "name" }, element("a", { href: pageAddress("shape.html", { id: model.ids[index] }) }, element("bdi", {}, model.names[index])), " ", name(model, own)),
+        element("p", {}, fit < 0 ? ["Closer to ", name(model, rival), " than to its own class."] : ["Of its own class, but next to ", name(model, rival), "."]),
+        element("p", { class: "quiet" }, "Fit ", element("b", { class: "figure" }, signed(fit)), model.methods.map(({ title, hit }) => hit[index] !== null && [", NH on ", title, " ", figure(hit[index])])),
+        element("p", { class: "quiet" }, this.#census(near)),
+        element("div", { class: "near" }, near.slice(0, NEAREST).map((other) => element("a", { href: pageAddress("shape.html", { id: model.ids[other] }), title: `${model.names[other]}, ${model.className(model.groups[other])}`, "aria-label": `${model.names[other]}, ${model.className(model.groups[other])}` }, picture(model, other, 56), element("i", {}, swatch(model.symbol(model.groups[other]), model.color(model.groups[other])))))),
+        element("p", { class: "ways" }, element("a", { href: compareAddress(model, { kind: "shapes", shapes: new Set([index]) }, { kind: "class", group: own }) }, "Compare with its class"), " ", element("a", { href: compareAddress(model, { kind: "class", group: own }, { kind: "class", group: rival }) }, "Compare the two classes")),
+      ),
+      element("div", { class: "reasons", "aria-live": "off" }),
+    );
+  }
+
+  #census(near) {
+    const { model } = this;
+    const parts = model.census(near).slice(0, 3).map(([group, number], place) => [place > 0 && ", ", `${number} of `, element("bdi", {}, model.className(group))]);
+    return [`Its ${count(near.length, "nearest neighbour")}: `, parts];
+  }
+
+  /** Bins in which a shape is unlike its class and like the other one. */
+  #reasons(index, bins) {
+    const { model, data } = this;
+    const [group, other] = [model.groups[index], data.rival[index]];
+    const [own, rival] = [this.#usualOf(group, bins), this.#usualOf(other, bins)];
+    const size = own.rows.length - 1;
+    const scored = [];
+    for (let column = 0; column < bins.count; column += 1) {
+      const value = bins.value(column, index);
+      // The class without the shape itself.
+      const usual = own.rows.includes(index) ? (own.means[column] * (size + 1) - value) / size : own.means[column];
+      const spread = Math.max(own.spreads[column], LEAST_SPREAD * this.#spread(column, bins), 1e-9);
+      const [away, near] = [(value - usual) / spread, (value - rival.means[column]) / spread];
+      if ((value - usual) * (rival.means[column] - usual) <= 0) continue;
+      const gain = Math.abs(away) - Math.abs(near);
+      if (gain > 0) scored.push([gain, column]);
+    }
+    scored.sort((a, b) => b[0] - a[0] || a[1] - b[1]);
+    const features = new Set();
+    // Features with one value a point are easier to picture: they go first where they say nearly as much.
+    const simple = scored.filter(([gain, column]) => bins.features[bins.featureOf(column)].dimensions === 1 && gain >= scored[0][0] / 2);
+    const chosen = [...simple, ...scored].filter(([, column]) => !features.has(bins.featureOf(column)) && features.add(bins.featureOf(column))).slice(0, REASONS);
+    if (chosen.length === 0) return [element("p", { class: "quiet" }, "No single bin sets it apart from its class: it is unlike in many ways, a little in each.")];
+    return chosen.map(([, column]) => this.#reason(index, column, group, other, bins));
+  }
+
+  #reason(index, column, group, other, bins) {
+    const { model, data } = this;
+    const share = bins.isShare(column);
+    const told = toldAs(share);
+    const row = (of) => {
+      const rows = this.#usualOf(of, bins).rows.filter((shape) => shape !== index);
+      return { mark: swatch(model.symbol(of), model.color(of)), name: model.className(of), color: model.color(of), values: rows.map((shape) => bins.share(column, shape)) };
+    };
+    const rows = [{ ...row(group), at: bins.share(column, index) }, row(other)];
+    const means = rows.map(({ values }) => mean(values));
+    const words = share ? [told(rows[0].at), ` of its ${data.whole.replace("the ", "")} lies where ${data.where[column]}`] : ["Its ", element("bdi", {}, bins.names[column]), ` is ${told(rows[0].at)}`];
+    const hue = element("i", { class: "hued" });
+    hue.style.background = bins.color(column);
+    return element(
+      "div",
+      { class: "reason" },
+      element("p", {}, hue, element("b", {}, element("bdi", {}, bins.shortName(column, 18))), " ", words, "; in ", element("bdi", {}, model.className(group)), ` on average ${told(means[0])}, in `, element("bdi", {}, model.className(other)), ` ${told(means[1])}.`),
+      distribution(rows, share),
+    );
+  }
+
+  /** Means and spreads of a class in every bin. */
+  #usualOf(group, bins) {
+    if (this.#usual.has(group)) return this.#usual.get(group);
+    const all = [...this.model.ids.keys()].filter((index) => this.model.groups[index] === group);
+    const step = Math.max(all.length / MOST_USUAL, 1);
+    const rows = Array.from({ length: Math.min(all.length, MOST_USUAL) }, (_, place) => all[Math.floor(place * step)]);
+    const usual = { rows, means: new Float64Array(bins.count), spreads: new Float64Array(bins.count) };
+    for (let column = 0; column < bins.count; column += 1) {
+      const values = rows.map((row) => bins.value(column, row));
+      usual.means[column] = mean(values);
+      usual.spreads[column] = Math.sqrt(mean(values.map((value) => (value - usual.means[column]) ** 2)));
+    }
+    this.#usual.set(group, usual);
+    return usual;
+  }
+
+  #spreads = null;
+
+  /** The spread of a bin over some shapes from all over the database. */
+  #spread(column, bins) {
+    if (this.#spreads === null) {
+      const step = Math.max(bins.rows / MOST_USUAL, 1);
+      const rows = Array.from({ length: Math.min(bins.rows, MOST_USUAL) }, (_, place) => Math.floor(place * step));
+      this.#spreads = Float64Array.from({ length: bins.count }, (_, at) => {
+        const values = rows.map((row) => bins.value(at, row));
+        const middle = mean(values);
+        return Math.sqrt(mean(values.map((value) => (value - middle) ** 2)));
+      });
+    }
+    return this.#spreads[column];
+  }
+}
+
+function name(model, group) {
+  return element("span", { class: "called" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, model.className(group)));
+}
+
+/** A fit with its sign. */
+export function signed(value) {
+  return `${value < 0 ? "−" : ""}${Math.abs(value).toFixed(3)}`;
+}
