@@ -3,6 +3,7 @@
 import { classLine } from "./card.js";
 import { chunk } from "./chunks.js";
 import { element, picture } from "./dom.js";
+import { pageAddress } from "./place.js";
 import { count, figure, grouped } from "./words.js";
 
 export class Detail {
@@ -49,6 +50,7 @@ export class Detail {
         element("button", { type: "button", class: "plain", "aria-label": "Close", onclick: () => this.state.set({ opened: null }) }, "Close"),
       ),
       element("div", { class: "portrait" }, picture(model, index, 256, model.names[index])),
+      element("p", {}, element("a", { href: pageAddress("shape.html", this.#pageQuery(index)) }, "All about this shape")),
       model.labelled && classLine(model, model.groups[index]),
       ...this.#neighbours(index, method),
       others.length > 0 && facts("Other labels", others),
@@ -63,6 +65,13 @@ export class Detail {
       ]),
       known.repairs.length > 0 && facts("Repairs", known.repairs.map(([repair, number]) => [repair, grouped(number)])),
     ].filter(Boolean);
+  }
+
+  /** Its page, on the map that is seen here. */
+  #pageQuery(index) {
+    const { ids, methods } = this.model;
+    const { base } = methods[this.state.get("method")];
+    return { id: ids[index], ...(base > 0 && { map: methods[base].key }) };
   }
 
   #neighbours(index, method) {

@@ -2,6 +2,7 @@
 
 import { modelBytes } from "../chunks.js";
 import { element } from "../dom.js";
+import { pageAddress } from "../place.js";
 import { Paint } from "../viewer/paint.js";
 import { Stage } from "../viewer/stage.js";
 import { Finder } from "./finder.js";
@@ -46,7 +47,7 @@ export class Turntable {
   async render() {
     const { model, bins, state, shape } = this;
     const bin = state.get("bin");
-    this.name.replaceChildren(...shapeLine(model, bins, bin, shape), element("span", { class: "quiet which" }, model.labelled ? model.names[shape] : ""));
+    this.name.replaceChildren(...shapeLine(model, bins, bin, shape), element("a", { class: "which", href: pageAddress("shape.html", { id: model.ids[shape] }), title: "All about this shape" }, element("bdi", {}, model.labelled ? model.names[shape] : "its page")));
     for (const end of ["most", "least"]) document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
     this.pick.draw();
     const inside = state.get("reading") === "inside";
