@@ -26,10 +26,17 @@ export function modelBytes(name) {
 
 async function load(name, address) {
   const { kind, text } = standing(name) ?? (await received(name, address));
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
   const response = new Response(stream);
   return kind === "bytes" ? response.arrayBuffer() : response.json();
+}
+
+/** What base64 stands for. `Uint8Array.from` with a function takes thirty times as long, seconds for a large database. */
+function bytesOf(text) {
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let place = 0; place < letters.length; place += 1) bytes[place] = letters.charCodeAt(place);
+  return bytes;
 }
 
 /** Data that stands in the document, where the site is one file. */
