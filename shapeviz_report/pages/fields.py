@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
-from shapeviz_report.types import Report, ShapeFacts
+from shapeviz_report.types import Clusters, Report, ShapeFacts
 
 #: Most values of a column that still says what kind of shape one is; beyond, it names them, and is only searched.
 MOST_VALUES = 1000
@@ -70,6 +70,8 @@ def describe_fields(report: Report) -> list[dict[str, object]]:
         names, of
             The values in their order, and the number of each shape's value, -1 without one; None for a field that has
             no few values.
+        notes
+            A sentence on each of the values, or None.
         numbers, edges
             The number of each shape, None without one, and the edges of intervals, which rise and hold all of them;
             None for a field that is no number, and for one of a few numbers ``edges`` alone.
@@ -78,39 +80,68 @@ def describe_fields(report: Report) -> list[dict[str, object]]:
     columns = {name: [shape.labels.get(name) for shape in report.shapes] for name in labelings}
     if report.labeling is not None:
         columns = {report.labeling: list(report.labels), **columns}
-    found = [
-        _column(f"label:{name}", name, values, active=name == report.labeling)
-        for name, values in columns.items()
-    ]
+    found = [_column(f"label:{name}", name, values) for name, values in columns.items()]
+    if report.labeling is not None:
+        found[0] = _active(report)
     for name in dict.fromkeys(name for shape in report.shapes for name in shape.metadata):
         values = [shape.metadata.get(name) for shape in report.shapes]
         if values != columns.get(name):
             found.append(_column(f"column:{name}", name, values))
     for key, title, unit, measure in _FACTS:
         found.append(_numbers(f"fact:{key}", title, [measure(facts) for facts in report.facts], unit))
+    if report.clusters is not None and not report.clusters.stand_in:
+        found.append(_clusters(report.clusters))
     tight = ["watertight" if facts.watertight else "open" for facts in report.facts]
     found.append(_column("fact:watertight", "Surface", tight))
     return [field for field in found if field is not None]
 
 
-def _column(
-    key: str, title: str, values: Sequence[str | None], *, active: bool = False
-) -> dict[str, object] | None:
+def _active(report: Report) -> dict[str, object]:
+    """The active labels: classes, or the clusters that stand in for them; always a field, whatever they are."""
+    stand_in = report.clusters is not None and report.clusters.stand_in
+    field = _field(f"label:{report.labeling}", "Cluster" if stand_in else "Class") | {"active": True}
+    field |= _values(report.labels, natural)
+    if report.clusters is not None and stand_in:
+        notes = _notes(report.clusters)
+        field["notes"] = [notes[name] for name in field["names"]]
+    return field
+
+
+def _clusters(clusters: Clusters) -> dict[str, object]:
+    """The clusters of a database with labels of its own, the largest first as they come."""
+    notes = _notes(clusters)
+    return _field("cluster", "Cluster") | {
+        "names": list(notes),
+        "of": [int(number) for number in clusters.of],
+        "notes": list(notes.values()),
+    }
+
+
+def _notes(clusters: Clusters) -> dict[str, str]:
+    """The name of every cluster, and what is most typical of it."""
+    return {cluster.name: next(iter(cluster.typical), "") for cluster in clusters.clusters}
+
+
+def _values(values: Sequence[str | None], order: Callable[[str], object]) -> dict[str, object]:
+    names = sorted({value for value in values if value}, key=order)
+    number = {name: index for index, name in enumerate(names)}
+    return {"names": names, "of": [number[value] if value else -1 for value in values]}
+
+
+def _column(key: str, title: str, values: Sequence[str | None]) -> dict[str, object] | None:
     """A column of text as a field; None where it tells no shapes apart, or every shape from all others."""
     counts = Counter(value for value in values if value)
     differs = len(counts) > 1 or (len(counts) == 1 and counts.total() < len(values))
     few = len(counts) <= MOST_VALUES and counts.total() >= FEWEST_SHAPES_A_VALUE * len(counts)
-    numbers = None if active or len(counts) < 2 else _as_numbers(values)
-    if not active and not (differs and (few or numbers is not None)):
+    numbers = None if len(counts) < 2 else _as_numbers(values)
+    if not differs or not (few or numbers is not None):
         return None
-    field = _field(key, title, active=active)
+    field = _field(key, title)
     if numbers is not None:
         edges = _edges([number for number in numbers if number is not None])
         field |= {"numbers": _rounded(numbers), "edges": edges if len(counts) > FEW_NUMBERS else None}
-    if few or active:
-        names = sorted(counts, key=natural if numbers is None else lambda name: (float(name), name))
-        number = {name: index for index, name in enumerate(names)}
-        field |= {"names": names, "of": [number[value] if value else -1 for value in values]}
+    if few:
+        field |= _values(values, natural if numbers is None else lambda name: (float(name), name))
     return field
 
 
@@ -122,17 +153,9 @@ def _numbers(key: str, title: str, values: Sequence[float | None], unit: str) ->
     return _field(key, title, unit) | {"numbers": _rounded(values), "edges": _edges(sorted(different))}
 
 
-def _field(key: str, title: str, unit: str = "", *, active: bool = False) -> dict[str, object]:
-    return {
-        "key": key,
-        "title": title,
-        "unit": unit,
-        "active": active,
-        "names": None,
-        "of": None,
-        "numbers": None,
-        "edges": None,
-    }
+def _field(key: str, title: str, unit: str = "") -> dict[str, object]:
+    nothing = dict.fromkeys(("names", "of", "notes", "numbers", "edges"))
+    return {"key": key, "title": title, "unit": unit, "active": False, **nothing}
 
 
 def _as_numbers(values: Sequence[str | None]) -> list[float | None] | None:

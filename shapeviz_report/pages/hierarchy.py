@@ -62,13 +62,10 @@ def _chains(report: Report, field: Mapping[str, object]) -> list[Chain] | None:
     names, of = field["names"], field["of"]
     if names is None:
         return None
-    parents = report.database.parents.get(str(field["title"]), {}) if _is_label(field) else {}
+    kind, _, name = str(field["key"]).partition(":")
+    parents = report.database.parents.get(name, {}) if kind == "label" else {}
     chains = _above(names, parents) if parents else _split(names)
     return [None if number < 0 else chains[number] for number in of]
-
-
-def _is_label(field: Mapping[str, object]) -> bool:
-    return str(field["key"]).startswith("label:")
 
 
 def _above(names: Sequence[str], parents: Mapping[str, str]) -> list[Chain]:

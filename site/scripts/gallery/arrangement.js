@@ -1,6 +1,6 @@
 // In which order, and in which groups, the shapes that passed stand.
 
-import { fieldTitle, NONE, numberText, valueName } from "./fields.js";
+import { groupOf, NONE, numberText, valueName } from "./fields.js";
 import { interval } from "./sieve.js";
 
 export class Arrangement {
@@ -12,13 +12,13 @@ export class Arrangement {
   }
 
   /**
-   * Groups of shapes `{ key, title, group, rows }` in their order; one without a title where they are not grouped.
-   * `key` names the group among the others in an address, `group` is its class where it is one.
+   * Groups of shapes `{ key, title, note, group, rows }` in their order; one without a title where they are not
+   * grouped. `key` names the group among the others in an address, `group` is its class where it is one.
    */
   arrange(passes, { group, sort, down }) {
     const order = this.#order(sort, down);
     const field = this.fields.byKey.get(group);
-    if (!field) return [{ key: "", title: null, group: null, rows: order.filter(passes) }];
+    if (!field) return [{ key: "", title: null, group: null, note: "", rows: order.filter(passes) }];
     const { count, of, describe } = grouping(field);
     const rows = Array.from({ length: count + 1 }, () => []);
     for (const row of order) {
@@ -54,7 +54,12 @@ function grouping(field) {
     return {
       count: field.names.length,
       of: (row) => field.of[row],
-      describe: (value) => ({ key: value < 0 ? "" : `=${field.names[value]}`, title: valueName(field, value), group: field.active ? value : null }),
+      describe: (value) => ({
+        key: value < 0 ? "" : `=${field.names[value]}`,
+        title: valueName(field, value),
+        group: groupOf(field, value),
+        note: field.notes?.[value] ?? "",
+      }),
     };
   }
   const { edges, numbers } = field;
@@ -63,8 +68,9 @@ function grouping(field) {
     of: (row) => (numbers[row] === null ? NONE : interval(edges, numbers[row])),
     describe: (value) => ({
       key: value < 0 ? "" : `=${edges[value]}`,
-      title: value < 0 ? `no ${fieldTitle(field)}` : `${numberText(edges[value])} to ${numberText(edges[value + 1])}`,
+      title: value < 0 ? `no ${field.title}` : `${numberText(edges[value])} to ${numberText(edges[value + 1])}`,
       group: null,
+      note: "",
     }),
   };
 }

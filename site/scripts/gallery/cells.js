@@ -3,7 +3,7 @@
 import { element, swatch } from "../dom.js";
 import { pageAddress } from "../place.js";
 import { count } from "../words.js";
-import { fieldTitle, numberText, valueName } from "./fields.js";
+import { numberText, valueName } from "./fields.js";
 
 /** Makes the cells; knows what stands below a picture while shapes are grouped and sorted as they are. */
 export class Cells {
@@ -44,11 +44,11 @@ export class Cells {
 
   #number(row) {
     const { numbers, hit } = this.sorted;
-    return `${hit ? "NH" : fieldTitle(this.sorted)} ${numberText(numbers[row], this.sorted)}`;
+    return `${hit ? "NH" : this.sorted.title} ${numberText(numbers[row], this.sorted)}`;
   }
 
   /** The head of a group; a click on it folds the group. */
-  head({ key, title, group, rows }, folded) {
+  head({ key, title, note, group, rows }, folded) {
     const { model } = this;
     return [
       element(
@@ -62,6 +62,7 @@ export class Cells {
           element("bdi", { class: "group-name" }, title),
           element("span", { class: "size" }, count(rows.length, "shape")),
         ),
+        note !== "" && element("span", { class: "note", title: note }, note),
       ),
       element("div", { role: "gridcell" }, tick(`Select all ${count(rows.length, "shape")} of ${title}`, false)),
     ];

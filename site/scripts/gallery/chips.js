@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 import { count, grouped, shortened } from "../words.js";
-import { fieldTitle, numberText, valueName } from "./fields.js";
+import { numberText, valueName } from "./fields.js";
 
 const MOST_NAMES = 3;
 const LONGEST = 40;
@@ -15,7 +15,7 @@ export function activeFilters(fields, state) {
 }
 
 function describe(field, key, filter) {
-  const title = fieldTitle(field);
+  const title = field.title;
   if (!(filter instanceof Set)) return { key, title, text: `${numberText(filter.low, field)} to ${numberText(filter.high, field)}` };
   const names = [...filter].map((value) => shortened(nameOf(field, value), LONGEST));
   const rest = names.length - MOST_NAMES;

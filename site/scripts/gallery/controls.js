@@ -1,7 +1,6 @@
 // How the gallery is arranged: grouped, sorted, and how large its pictures are.
 
 import { element } from "../dom.js";
-import { fieldTitle } from "./fields.js";
 
 export class Controls {
   constructor(fields, state) {
@@ -12,7 +11,7 @@ export class Controls {
     this.down = document.getElementById("down");
     this.size = document.getElementById("size");
     this.fold = document.getElementById("fold");
-    const option = (field) => element("option", { value: field.key }, fieldTitle(field));
+    const option = (field) => element("option", { value: field.key }, field.title);
     this.group.append(element("option", { value: "" }, "Nothing"), ...fields.groupable.map(option));
     this.sort.append(element("option", { value: "" }, "Name"), ...fields.sortable.map(option));
     this.group.parentElement.hidden = fields.groupable.length === 0;

@@ -2,7 +2,7 @@
 
 import { element, swatch } from "../dom.js";
 import { count, grouped } from "../words.js";
-import { fieldTitle, NONE, numberText, valueName } from "./fields.js";
+import { groupOf, NONE, numberText, valueName } from "./fields.js";
 import { Tree } from "./tree.js";
 
 /** Values shown of a long list until one asks for more. */
@@ -53,7 +53,7 @@ class Facet {
     this.state = parts.state;
     this.content = new Kind(field, parts);
     this.mark = element("span", { class: "in-use" });
-    this.node = element("details", { class: "facet" }, element("summary", {}, element("bdi", {}, fieldTitle(field)), this.mark), this.content.node);
+    this.node = element("details", { class: "facet" }, element("summary", {}, element("bdi", {}, field.title), this.mark), this.content.node);
     this.node.addEventListener("toggle", () => this.show());
   }
 
@@ -80,7 +80,7 @@ class Choice {
     // The values that say most come first, and stay where they are while one filters.
     if (field.numbers === null && this.values.length > FEW && !field.active) this.values.sort((a, b) => totals[b] - totals[a]);
     if (field.of.includes(NONE)) this.values.push(NONE);
-    const title = fieldTitle(field);
+    const title = field.title;
     this.find = this.values.length > MANY && element("input", { type: "search", class: "find-value", placeholder: "Find", "aria-label": `Find a value of ${title}`, oninput: () => this.show(this.filter) });
     this.list = element("ul", { "aria-label": title, onchange: (event) => this.#toggle(Number(event.target.value)) });
     this.more = element("button", { type: "button", class: "plain more-values", onclick: () => this.#unfold() });
@@ -115,6 +115,7 @@ class Choice {
 
   #item(value, number, checked) {
     const { field, model } = this;
+    const group = groupOf(field, value);
     const box = element("input", { type: "checkbox", value });
     box.checked = checked;
     return element(
@@ -124,7 +125,7 @@ class Choice {
         "label",
         {},
         box,
-        field.active && swatch(model.symbol(value), model.color(value)),
+        group !== null && swatch(model.symbol(group), model.color(group)),
         element("bdi", { class: value === NONE ? "value quiet" : "value" }, valueName(field, value)),
         element("span", { class: "size" }, grouped(number)),
       ),
@@ -139,7 +140,7 @@ class Range {
     this.sieve = sieve;
     this.change = change;
     const intervals = field.edges.length - 1;
-    const title = fieldTitle(field);
+    const title = field.title;
     const thumb = (side) =>
       element("input", { type: "range", class: side, min: 0, max: intervals, step: 1, "aria-label": `${title}, ${side === "low" ? "from" : "to"}`, oninput: () => this.#slide(side) });
     [this.low, this.high] = [thumb("low"), thumb("high")];

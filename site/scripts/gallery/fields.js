@@ -18,6 +18,8 @@ export class Fields {
     for (const field of this.all) if (field.tree) field.tree.ways = ways(field.tree.nodes);
     this.byKey = new Map(this.all.map((field) => [field.key, field]));
     this.active = this.all.find(({ active }) => active) ?? null;
+    // Classes stand in the order that people sort by, and the model numbers them in another.
+    if (this.active) this.active.groups = this.active.names.map((name) => model.classes.indexOf(name));
   }
 
   /** Those that make groups: few values, or intervals. */
@@ -39,7 +41,7 @@ export class Fields {
 
 const first = ({ active, tree }) => active || tree !== null;
 
-const NOTHING = { unit: "", active: false, names: null, of: null, numbers: null, edges: null, tree: null };
+const NOTHING = { unit: "", active: false, names: null, of: null, notes: null, numbers: null, edges: null, tree: null };
 
 function hits(model) {
   if (!model.separable) return [];
@@ -53,16 +55,16 @@ function ways(nodes) {
   return found;
 }
 
-/** A field as a reader knows it: the active labels are the classes. */
-export function fieldTitle({ active, key, title }) {
-  if (!active) return title;
-  return key === "label:clusters" ? "Cluster" : "Class";
-}
-
 /** The words for a value of a field of names. */
 export function valueName(field, value) {
   if (value !== NONE) return field.names[value];
   return field.active || field.key.startsWith("label:") ? "no label" : `no ${field.title}`;
+}
+
+/** The class that a value of the active labels is, by which it is marked; null for a value of another field. */
+export function groupOf({ active, groups }, value) {
+  if (!active) return null;
+  return value === NONE ? NONE : groups[value];
 }
 
 /** A number with as many digits as tell shapes apart. */

@@ -74,7 +74,7 @@ export class Keys {
     const { grid } = this;
     if (event.altKey) return;
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "a") {
-      this.state.set({ selection: new Set(grid.layout.sequence) });
+      this.state.set({ selection: new Set(grid.groups.flatMap(({ rows }) => [...rows])) });
       event.preventDefault();
       return;
     }

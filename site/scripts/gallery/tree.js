@@ -1,7 +1,7 @@
 // A tree of classes to walk down into, and to filter by.
 
 import { element } from "../dom.js";
-import { fieldTitle, NONE } from "./fields.js";
+import { NONE } from "./fields.js";
 import { grouped } from "../words.js";
 
 /** Nodes at the top up to which a lone one stands open. */
@@ -24,7 +24,7 @@ export class Tree {
     this.node = element("ul", {
       class: "tree",
       role: "tree",
-      "aria-label": fieldTitle(field),
+      "aria-label": field.title,
       "aria-multiselectable": "true",
       onclick: (event) => this.#click(event),
       onkeydown: (event) => this.#key(event),
