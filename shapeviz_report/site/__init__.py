@@ -57,6 +57,7 @@ CONTENT_SECURITY_POLICY = "; ".join(
 STYLES = (
     "tokens.css",
     "page.css",
+    "tray.css",
     "overview.css",
     "features.css",
     "workbench.css",

@@ -55,8 +55,8 @@ export function writeAddress(model, state) {
   replaceHash(query);
 }
 
-/** The Features page: the chosen subset, the greedy path, the colours of the map. */
-export function readFeaturesAddress(subsets) {
+/** The Features page: the chosen subset, the greedy path, the colours of the map, and the selection. */
+export function readFeaturesAddress(subsets, model) {
   const query = readHash();
   const sizes = subsets.data.greedy.map(({ s }) => s);
   const s = Number(query.get("s"));
@@ -64,15 +64,17 @@ export function readFeaturesAddress(subsets) {
     chosen: subsets.find(splitNames(query.get("features"), subsets.features)) ?? (subsets.labelled ? 0 : subsets.everything),
     s: query.get("s") === "none" ? null : sizes.includes(s) ? s : (sizes[0] ?? null),
     color: subsets.labelled && query.get("color") === "hit" ? "hit" : "class",
+    selection: readSelection(query, model),
   };
 }
 
-export function writeFeaturesAddress(subsets, state) {
+export function writeFeaturesAddress(subsets, model, state) {
   const query = new URLSearchParams();
   query.set("features", joinNames(subsets.names(state.get("chosen"))));
   const sizes = subsets.data.greedy.map(({ s }) => s);
   if (state.get("s") !== (sizes[0] ?? null)) query.set("s", state.get("s") ?? "none");
   if (state.get("color") !== "class") query.set("color", state.get("color"));
+  writeSelection(query, model, state.get("selection"));
   replaceHash(query);
 }
 

@@ -1,12 +1,12 @@
-// The selection as a file, and what other exports share.
+// The selection as a file, the same from every page; and what other exports share.
 
 export function saveCsv(model, chosen) {
-  const header = ["id", "name", "class", ...model.methods.map(({ key }) => `nh:${key}`)];
+  const header = ["id", "name", "class", ...model.data.methods.map(({ key }) => `nh:${key}`)];
   const rows = chosen.map((index) => [
     model.ids[index],
     model.names[index],
     model.groups[index] < 0 ? "" : model.className(model.groups[index]),
-    ...model.methods.map(({ hit }) => hit[index] ?? ""),
+    ...model.data.methods.map(({ hit }) => hit[index] ?? ""),
   ]);
   saveText("selection.csv", "text/csv", csvText([header, ...rows]));
 }
@@ -16,7 +16,7 @@ export function saveJson(model, chosen) {
     id: model.ids[index],
     name: model.names[index],
     class: model.groups[index] < 0 ? null : model.className(model.groups[index]),
-    nh: Object.fromEntries(model.methods.map(({ key, hit }) => [key, hit[index]])),
+    nh: Object.fromEntries(model.data.methods.map(({ key, hit }) => [key, hit[index]])),
   }));
   saveText("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
 }

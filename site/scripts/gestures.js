@@ -1,5 +1,7 @@
 // Pointer, wheel and keys on a map.
 
+import { toggled } from "./selection.js";
+
 const CLICK = 4;
 
 export class Gestures {
@@ -118,9 +120,7 @@ export class Gestures {
   }
 
   #toggle(index) {
-    const selection = new Set(this.state.get("selection"));
-    if (!selection.delete(index)) selection.add(index);
-    this.state.set({ selection });
+    this.state.set({ selection: toggled(this.state.get("selection"), index) });
   }
 
   #pinch() {

@@ -39,6 +39,12 @@ export function pageAddress(file, query = []) {
   return state === "" ? file : `${file}#${state}`;
 }
 
+/** The page of this site that an address leads to, `{ file, query }`; null where it leads elsewhere. */
+export function linkedPage(address) {
+  const found = /^(?:([a-z-]+)\.html|#\/([a-z-]+))(?:[#?](.*))?$/.exec(address);
+  return found && { file: `${found[1] ?? found[2]}.html`, query: new URLSearchParams(found[3]) };
+}
+
 /** The address of a file of this site, by its path. */
 export function resource(path) {
   const block = singleFile ? document.getElementById(path) : null;

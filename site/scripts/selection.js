@@ -3,6 +3,11 @@
 
 const MOST_NAMED = 40;
 
+/** Whether a parameter of an address belongs to the selection. */
+export function isSelection(name) {
+  return name === "select" || name === "selected";
+}
+
 /** Add a selection to the parameters of an address. */
 export function writeSelection(query, model, selection) {
   if (selection.size === 0) return;
@@ -17,6 +22,13 @@ export function readSelection(query, model) {
   return new Set(bits !== undefined && whose === mark(model) ? unpacked(model, bits) : named);
 }
 
+/** The selection with one shape more, or less. */
+export function toggled(selection, index) {
+  const next = new Set(selection);
+  if (!next.delete(index)) next.add(index);
+  return next;
+}
+
 function packed(model, selection) {
   const bytes = new Uint8Array(Math.ceil(model.count / 8));
   for (const index of selection) bytes[index >> 3] |= 1 << (index & 7);
@@ -24,13 +36,21 @@ function packed(model, selection) {
 }
 
 function unpacked(model, text) {
-  const bytes = /^[\w-]*$/.test(text) ? atob(text.replaceAll("-", "+").replaceAll("_", "/")) : "";
+  const whole = /^[\w-]*$/.test(text) && text.length % 4 !== 1;
+  const bytes = whole ? atob(text.replaceAll("-", "+").replaceAll("_", "/")) : "";
   return [...Array(model.count).keys()].filter((index) => (bytes.charCodeAt(index >> 3) >> (index & 7)) & 1);
 }
 
-/** FNV-1a of all ids. */
+const marks = new WeakMap();
+
 function mark(model) {
+  if (!marks.has(model)) marks.set(model, hashed(model.ids));
+  return marks.get(model);
+}
+
+/** FNV-1a of all ids. */
+function hashed(ids) {
   let hash = 0x811c9dc5;
-  for (const id of model.ids) for (const letter of `${id}\n`) hash = Math.imul(hash ^ letter.codePointAt(0), 0x01000193);
+  for (const id of ids) for (const letter of `${id}\n`) hash = Math.imul(hash ^ letter.codePointAt(0), 0x01000193);
   return (hash >>> 0).toString(36);
 }

@@ -1,20 +1,25 @@
-// The selected shapes as pictures, to look through, export, or drop.
+// The selected shapes as pictures, the same on every page: to look through, take to another page, export, or drop.
 
+import { compareAddress } from "./compare/address.js";
 import { element, picture, swatch } from "./dom.js";
 import { saveCsv, saveJson } from "./export.js";
+import { pageAddress } from "./place.js";
+import { writeSelection } from "./selection.js";
 import { count, shortened } from "./words.js";
 
 const PAGE = 200;
 const MOST_CLASSES = 8;
 
 export class Tray {
-  constructor(model, state, scene, { open, point }) {
-    this.model = model;
-    this.scene = scene;
-    this.state = state;
-    this.open = open;
-    this.point = point;
+  /**
+   * `open` is called with the shape whose picture is clicked, `point` with the one under the pointer, or null. `hint` is
+   * said while nothing is selected; without one the tray is then not there. `cover` is told how many pixels of what is
+   * above it the tray covers.
+   */
+  constructor(model, state, { open, point = () => {}, hint = null, cover = () => {} }) {
+    Object.assign(this, { model, state, open, point, hint, cover });
     this.node = document.getElementById("tray");
+    this.here = document.body.className;
     state.listen((changed) => {
       if (["selection", "brushing", "theme"].some((name) => changed.has(name))) this.#fillSoon();
       if (changed.has("opened")) this.#markOpened();
@@ -34,36 +39,63 @@ export class Tray {
   }
 
   #fill() {
-    const chosen = [...this.state.get("selection")].sort((a, b) => this.model.groups[a] - this.model.groups[b] || a - b);
+    const selection = this.state.get("selection");
     // The tray unfolds when the brush is let go, not under it.
-    const unfolded = chosen.length > 0 && !this.state.get("brushing");
+    const unfolded = selection.size > 0 && !this.state.get("brushing");
     this.node.classList.toggle("filled", unfolded);
-    if (chosen.length === 0) this.node.replaceChildren(element("p", { class: "hint" }, hint()));
-    else this.node.replaceChildren(this.#head(chosen), unfolded ? this.#strip(chosen) : "");
+    this.node.hidden = selection.size === 0 && this.hint === null;
+    if (selection.size === 0) this.node.replaceChildren(element("p", { class: "hint" }, this.hint ?? ""));
+    else if (!unfolded) this.node.replaceChildren(this.#head(selection));
+    else this.node.replaceChildren(this.#head(selection), this.#strip(this.#sorted(selection)));
     const overlap = unfolded ? Math.max(-parseFloat(getComputedStyle(this.node).marginTop), 0) : 0;
-    if (overlap !== this.overlap) this.scene.cover(overlap);
+    if (overlap !== this.overlap) this.cover(overlap);
     this.overlap = overlap;
     this.node.parentElement.style.setProperty("--covered", `${overlap}px`);
     this.#markOpened();
   }
 
-  #head(chosen) {
+  /** Class by class. */
+  #sorted(selection) {
+    const { groups } = this.model;
+    return [...selection].sort((a, b) => groups[a] - groups[b] || a - b);
+  }
+
+  #head(selection) {
     const { model } = this;
-    const census = model.census(chosen);
+    const census = model.census(selection);
+    const save = (name, to) => element("button", { type: "button", class: "plain", title: `Save the selection as a ${name} file`, onclick: () => to(model, this.#sorted(selection)) }, name);
     return element(
       "div",
       { class: "tray-head" },
-      element("h2", {}, `${count(chosen.length, "shape")} selected`),
+      element("h2", {}, `${count(selection.size, "shape")} selected`),
       model.labelled && element(
         "p",
         { class: "census" },
         census.slice(0, MOST_CLASSES).map(([group, number]) => element("span", {}, swatch(model.symbol(group), model.color(group)), `${shortened(model.className(group), 20)} `, element("b", {}, String(number)))),
         census.length > MOST_CLASSES && element("span", {}, `and ${census.length - MOST_CLASSES} more`),
       ),
-      element("button", { type: "button", class: "plain", onclick: () => saveCsv(model, chosen) }, "CSV"),
-      element("button", { type: "button", class: "plain", onclick: () => saveJson(model, chosen) }, "JSON"),
-      element("button", { type: "button", class: "plain", onclick: () => this.state.set({ selection: new Set() }) }, "Clear"),
+      element(
+        "div",
+        { class: "tray-ways" },
+        this.#links(selection).map(([words, address]) => element("a", { href: address }, words)),
+        save("CSV", saveCsv),
+        save("JSON", saveJson),
+        element("button", { type: "button", class: "plain", onclick: () => this.state.set({ selection: new Set() }) }, "Clear"),
+      ),
     );
+  }
+
+  /** Where else these shapes can be looked at. */
+  #links(selection) {
+    const { model, here } = this;
+    const query = new URLSearchParams();
+    writeSelection(query, model, selection);
+    const rest = selection.size < model.count;
+    return [
+      here !== "page-shapes" && ["Open in Shapes", pageAddress("shapes.html", query)],
+      here !== "page-overview" && ["Show on the map", pageAddress("index.html", query)],
+      here !== "page-compare" && rest && ["Compare with the rest", compareAddress(model, { kind: "shapes", shapes: selection }, { kind: "rest" })],
+    ].filter(Boolean);
   }
 
   #strip(chosen) {
@@ -120,10 +152,4 @@ export class Tray {
     const opened = String(this.state.get("opened"));
     for (const item of this.node.querySelectorAll(".shape")) item.classList.toggle("opened", item.dataset.index === opened);
   }
-}
-
-function hint() {
-  return window.matchMedia("(pointer: coarse)").matches
-    ? "Tap a shape to see what is known of it. With Select, drag a box to collect shapes here."
-    : "Drag a box on a map to collect shapes here. Click a shape to see what is known of it.";
 }

@@ -1,6 +1,7 @@
 // What the Bins page shows, in its address.
 
 import { pageAddress, readHash, replaceHash } from "../place.js";
+import { readSelection, writeSelection } from "../selection.js";
 import { shortNames } from "../workbench/bin-names.js";
 
 const SIZES = ["fewest", "1", "2", "3"];
@@ -21,6 +22,7 @@ export function readBinsAddress(model, bins, selection, first) {
     ...(bin >= 0 ? { bin, group: group >= 0 ? group : null } : first),
     shape: ENDS.includes(shape) ? shape : (model.indexOfId.get(query.get("id")) ?? null),
     reading: READINGS.includes(query.get("reading")) ? query.get("reading") : READINGS[0],
+    selection: readSelection(query, model),
   };
 }
 
@@ -37,6 +39,7 @@ export function writeBinsAddress(model, bins, selection, state, first) {
   if (ENDS.includes(shape)) query.set("shape", shape);
   else if (shape !== null) query.set("id", model.ids[shape]);
   if (state.get("reading") !== READINGS[0]) query.set("reading", state.get("reading"));
+  writeSelection(query, model, state.get("selection"));
   replaceHash(query);
 }
 

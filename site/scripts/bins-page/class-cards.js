@@ -18,13 +18,18 @@ export class ClassCards {
       input.addEventListener("change", () => state.set({ size: input.value }));
     }
     state.listen((changed) => {
+      // These many maps follow a selection when it is made, not while it is.
+      if (["selection", "brushing"].some((name) => changed.has(name)) && !state.get("brushing")) for (const plot of this.plots) plot.draw();
       if (!changed.has("size") && !changed.has("theme")) return;
       for (const input of inputs) input.checked = input.value === state.get("size");
       this.render();
     });
   }
 
+  plots = [];
+
   render() {
+    this.plots = [];
     const cards = this.selection.minimal.map((separated) => ({ group: separated.group, found: chooseSet(separated.sets, this.state.get("size")) }));
     this.list.replaceChildren(...cards.map(({ group, found }) => element("li", { class: "class-card" }, this.#card(group, found))));
   }
@@ -35,11 +40,13 @@ export class ClassCards {
     const plot = new Plot(model, {
       label: `Map of ${count(found.bins.length, "bin")}: ${name} against the rest`,
       first: (index) => model.groups[index] !== group,
+      selection: () => this.state.get("selection"),
       mark: (index) => {
         const own = model.groups[index] === group;
         return { path: model.symbol(own ? group : -1), color: own ? model.color(group) : styleColor("quiet"), radius: own ? 3.2 : 1.7, alpha: own ? 0.95 : 0.45 };
       },
     });
+    this.plots.push(plot);
     plot.show(mapOf(found, selection, model.count));
     return [
       element(

@@ -4,6 +4,7 @@ import { calm, element, svg } from "../dom.js";
 import { Labels } from "../labels.js";
 import { difference, symbol } from "../workbench/figures.js";
 import { count, figure } from "../words.js";
+import { watchBrush } from "./brush.js";
 import { mapOf, Plot } from "./plot.js";
 
 const PACE = 900;
@@ -76,6 +77,7 @@ export class PathPlayer {
     this.plot = new Plot(model, {
       label: "Map of the step",
       margin: 30,
+      selection: () => this.state.get("selection"),
       mark: (index) => {
         const group = model.groups[index];
         return { path: model.symbol(group), color: model.color(group), radius: this.#radius, alpha: 0.92 };
@@ -98,6 +100,7 @@ export class PathPlayer {
       },
     });
     surface.append(this.plot.node, overlay);
+    watchBrush(surface, this.plot, this.state);
     pointing.watch(surface, this.plot, choose);
   }
 

@@ -5,6 +5,9 @@ import { bounds } from "../model.js";
 
 const DURATION = 450;
 
+/** Opacity of a shape that is not selected while others are, as on all maps. */
+const FAINT = 0.14;
+
 /** The map of a step or a class from the chunk "selection": shapes that took no part have no place. */
 export function mapOf({ x, y }, { rows, coordinateSteps }, count) {
   const map = { x: new Float64Array(count).fill(NaN), y: new Float64Array(count).fill(NaN) };
@@ -19,10 +22,10 @@ export function mapOf({ x, y }, { rows, coordinateSteps }, count) {
 export class Plot {
   /**
    * `mark(index)` says how a shape is drawn: `{ color, path, radius, faint }`; `first(index)` puts shapes below the
-   * others; `drawn` is called after every drawing.
+   * others; `selection()` are the shapes that stand out, all where there are none; `drawn` is called after every drawing.
    */
-  constructor(model, { mark, first = () => false, margin = 8, label = null, drawn = () => {} }) {
-    Object.assign(this, { model, mark, first, margin, drawn });
+  constructor(model, { mark, first = () => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} }) {
+    Object.assign(this, { model, mark, first, selection, margin, drawn });
     this.node = element("canvas", { class: "few-plot", role: label === null ? null : "img", "aria-label": label, "aria-hidden": label === null ? "true" : null });
     this.pen = this.node.getContext("2d");
     this.map = null;
@@ -68,6 +71,14 @@ export class Plot {
     return best;
   }
 
+  /** The shapes in a rectangle. */
+  inside(left, top, right, bottom) {
+    return [...this.model.ids.keys()].filter((index) => {
+      const [x, y] = this.screen(index);
+      return x >= left && x <= right && y >= top && y <= bottom;
+    });
+  }
+
   draw() {
     const { node, pen, map, model } = this;
     const [width, height] = [node.clientWidth, node.clientHeight];
@@ -78,13 +89,15 @@ export class Plot {
     const scale = Math.min((width - 2 * this.margin) / extent.width, (height - 2 * this.margin) / extent.height);
     this.view = { x: extent.x, y: extent.y, scale, width, height };
     pen.strokeStyle = model.marks.outline;
+    const chosen = this.selection();
+    const faint = (index) => chosen.size > 0 && !chosen.has(index);
     for (const below of [true, false]) {
       for (let index = 0; index < model.count; index += 1) {
-        if (Number.isNaN(map.x[index]) || this.first(index) !== below) continue;
+        if (Number.isNaN(map.x[index]) || (this.first(index) || faint(index)) !== below) continue;
         const { color, path, radius, alpha } = this.mark(index);
         const [x, y] = this.screen(index);
         pen.setTransform(dense * radius, 0, 0, dense * radius, dense * x, dense * y);
-        pen.globalAlpha = alpha;
+        pen.globalAlpha = faint(index) ? FAINT : alpha;
         pen.fillStyle = color;
         const shape = pathOf(path);
         pen.fill(shape);
@@ -97,6 +110,8 @@ export class Plot {
     this.drawn();
   }
 }
+
+const NOBODY = new Set();
 
 const paths = new Map();
 

@@ -19,7 +19,7 @@ export class Pointing {
     surface.addEventListener("pointermove", (event) => {
       const index = at(event);
       surface.classList.toggle("on-shape", index !== null);
-      if (index === null || event.pointerType !== "mouse") this.#hide();
+      if (index === null || event.pointerType !== "mouse" || event.buttons > 0) this.#hide();
       else this.#show(index, event);
     });
     surface.addEventListener("pointerleave", () => this.#hide());

@@ -5,6 +5,7 @@ import { element } from "../dom.js";
 import { pageAddress } from "../place.js";
 import { Paint } from "../viewer/paint.js";
 import { Stage } from "../viewer/stage.js";
+import { watchBrush } from "./brush.js";
 import { Finder } from "./finder.js";
 import { dimensionOf, pictured, shapeLine } from "./look.js";
 import { Plot } from "./plot.js";
@@ -95,6 +96,7 @@ export class Turntable {
     this.pick = new Plot(model, {
       margin: 14,
       first: (index) => index !== this.shape,
+      selection: () => this.state.get("selection"),
       mark: (index) => {
         const group = model.groups[index];
         const share = this.#share(index);
@@ -104,6 +106,7 @@ export class Turntable {
     });
     const surface = document.getElementById("pick-surface");
     surface.append(this.pick.node);
+    watchBrush(surface, this.pick, this.state);
     pointing.watch(surface, this.pick, (shape) => this.state.set({ shape }));
   }
 

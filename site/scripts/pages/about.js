@@ -1,8 +1,10 @@
 // The About page is plain HTML; scripts serve the theme button, and the search among the meshes.
 
+import { carryAddress } from "../carry.js";
 import { watchTheme } from "../theme.js";
 
 watchTheme(() => {});
+carryAddress();
 
 const meshes = document.getElementById("meshes");
 const field = document.getElementById("find-mesh");

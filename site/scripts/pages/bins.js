@@ -10,12 +10,14 @@ import { Look } from "../bins-page/look.js";
 import { PathPlayer } from "../bins-page/path-player.js";
 import { Pointing } from "../bins-page/pointing.js";
 import { Turntable } from "../bins-page/turntable.js";
+import { carrySelection } from "../carry.js";
 import { chunk } from "../chunks.js";
 import { calm } from "../dom.js";
 import { Model } from "../model.js";
 import { State } from "../state.js";
 import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
+import { Tray } from "../tray.js";
 
 async function main() {
   const [overview, selection, data, bytes] = await Promise.all(["overview", "selection", "workbench", "bins"].map(chunk));
@@ -26,7 +28,7 @@ async function main() {
     live.textContent = text;
   };
   const first = firstBin(selection);
-  const state = new State({ ...readBinsAddress(model, bins, selection, first), theme: currentTheme() });
+  const state = new State({ ...readBinsAddress(model, bins, selection, first), brushing: false, theme: currentTheme() });
   const card = new BinCard(bins, model);
   const chips = new BinChips(bins, card, state, {
     look: (bin, group) => {
@@ -45,14 +47,24 @@ async function main() {
   if (selection.path.length > 0) new PathPlayer(model, selection, bins, state, chips, { open, pointing, choose, announce }).start();
   new Look(model, bins, selection, state, card).render();
   new Turntable(model, bins, selection, state, { pointing, announce }).start();
+  new Tray(model, state, { open: choose });
+  carrySelection(model, state);
   watchTables(() => binsTables(model, bins, selection, state, card));
   document.querySelector(".lead a")?.addEventListener("click", (event) => {
     // The address holds the state of the view, not a place on the page.
     event.preventDefault();
     goToLook();
   });
+  const write = () => writeBinsAddress(model, bins, selection, state, first);
   state.listen((changed) => {
-    if (["size", "step", "bin", "group", "shape", "reading"].some((name) => changed.has(name))) writeBinsAddress(model, bins, selection, state, first);
+    if (["size", "step", "bin", "group", "shape", "reading"].some((name) => changed.has(name))) write();
+    if (changed.has("selection")) {
+      clearTimeout(main.writing);
+      main.writing = setTimeout(write, 250);
+    }
+  });
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) state.set({ selection: new Set() });
   });
   window.addEventListener("hashchange", () => state.set(readBinsAddress(model, bins, selection, first)));
   watchTheme(() => state.set({ theme: currentTheme() }));

@@ -3,6 +3,7 @@
 import { overviewAddress, readFeaturesAddress, writeFeaturesAddress } from "../address.js";
 import { Boxes } from "../boxes.js";
 import { Card } from "../card.js";
+import { carryAddress, carrySelection } from "../carry.js";
 import { drawChart } from "../chart.js";
 import { chunk } from "../chunks.js";
 import { Gestures } from "../gestures.js";
@@ -16,6 +17,7 @@ import { subsetTables } from "../subset-tables.js";
 import { Subsets } from "../subsets.js";
 import { watchTables } from "../tables.js";
 import { currentTheme, styleColor, watchTheme } from "../theme.js";
+import { Tray } from "../tray.js";
 import { figure } from "../words.js";
 
 const ROW = 24;
@@ -23,15 +25,13 @@ const ROW = 24;
 async function main() {
   const [overview, search] = await Promise.all([chunk("overview"), chunk("search")]);
   const subsets = new Subsets(search);
-  const model = new Model(sampled(overview, search), currentTheme);
-  const address = readFeaturesAddress(subsets);
+  const model = new Model(overview, currentTheme);
   const state = new State({
-    ...address,
+    ...readFeaturesAddress(subsets, model),
     pointedPlace: null,
     method: null,
-    drag: "move",
+    drag: window.matchMedia("(pointer: coarse)").matches ? "move" : "select",
     hidden: new Set(),
-    selection: new Set(),
     matches: null,
     opened: null,
     pointed: null,
@@ -73,7 +73,7 @@ async function main() {
   surface.dataset.view = state.get("color");
   const map = new MapView(scene, surface);
   scene.views = [map];
-  document.body.dataset.drag = state.get("drag");
+  watchDrag(state);
   const open = (opened) => state.set({ opened: opened === state.get("opened") ? null : opened });
   const gestures = new Gestures(map, {
     open,
@@ -82,6 +82,8 @@ async function main() {
   });
   watchMapKeys(map.surface, state, gestures);
   new Card(state);
+  new Tray(model, state, { open });
+  carrySelection(model, state);
   await map.start();
   const boxes = subsets.labelled ? new Boxes(model, subsets, state, marks) : null;
   await boxes?.start();
@@ -96,12 +98,12 @@ async function main() {
       // Another may have been chosen while this one was fetched.
       if (state.get("chosen") === chosen) state.set({ method });
     }
-    if (["chosen", "s", "color"].some((name) => changed.has(name))) {
+    if (["chosen", "s", "color", "selection"].some((name) => changed.has(name))) {
       clearTimeout(main.writing);
-      main.writing = setTimeout(() => writeFeaturesAddress(subsets, state), 250);
+      main.writing = setTimeout(() => writeFeaturesAddress(subsets, model, state), 250);
     }
   });
-  window.addEventListener("hashchange", () => state.set(readFeaturesAddress(subsets)));
+  window.addEventListener("hashchange", () => state.set(readFeaturesAddress(subsets, model)));
   watchTheme(() => {
     paint();
     ranking.start();
@@ -120,16 +122,16 @@ async function main() {
   document.documentElement.dataset.ready = "";
 }
 
-/** The data of the Overview for the shapes that the search went over, without its projections. */
-function sampled(overview, { rows }) {
-  const pick = (values) => (rows === null ? values : rows.map((row) => values[row]));
-  const shapes = Object.fromEntries(Object.entries(overview.shapes).map(([name, values]) => [name, pick(values)]));
-  return { ...overview, shapes, methods: [] };
-}
-
-/** The index of a subset's map in the model. */
+/** The index of a subset's map in the model. Shapes that the search left out have no place on it. */
 async function shown(model, subsets, place) {
-  return model.add(await subsets.map(place, model.classes.length), null);
+  const { rows } = subsets.data;
+  const map = await subsets.map(place, model.classes.length);
+  const spread = (values, none) => {
+    const all = new Array(model.count).fill(none);
+    for (const [index, row] of rows.entries()) all[row] = values[index];
+    return all;
+  };
+  return model.add(rows === null ? map : { ...map, x: spread(map.x, NaN), y: spread(map.y, NaN), hit: spread(map.hit, null) }, null);
 }
 
 function watchMapKeys(surface, state, gestures) {
@@ -141,6 +143,19 @@ function watchMapKeys(surface, state, gestures) {
     else return;
     event.preventDefault();
   });
+}
+
+/** What dragging on the map does. */
+function watchDrag(state) {
+  const inputs = document.querySelectorAll("#drag input");
+  for (const input of inputs) {
+    input.checked = input.value === state.get("drag");
+    input.addEventListener("change", () => {
+      state.set({ drag: input.value });
+      document.body.dataset.drag = input.value;
+    });
+  }
+  document.body.dataset.drag = state.get("drag");
 }
 
 /** Colours of the map: by class or by neighbourhood hit. */
@@ -202,5 +217,6 @@ class DotChart {
 if (document.getElementById("ranking")) main();
 else {
   watchTheme(() => {});
+  carryAddress();
   document.documentElement.dataset.ready = "";
 }

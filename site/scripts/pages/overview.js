@@ -2,6 +2,7 @@
 
 import { readAddress, writeAddress } from "../address.js";
 import { Card } from "../card.js";
+import { carrySelection } from "../carry.js";
 import { ClassList } from "../classes.js";
 import { chunk } from "../chunks.js";
 import { Detail } from "../detail.js";
@@ -57,7 +58,8 @@ async function main() {
   const detail = new Detail(model, state, { point });
   const search = new Search(model, state, announce);
   new Card(state);
-  new Tray(model, state, scene, { open, point });
+  new Tray(model, state, { open, point, hint: trayHint(touch), cover: (height) => scene.cover(height) });
+  carrySelection(model, state);
   watchTables(() => mapTables(model, state));
   if (model.data.subsets) new FeatureChoice(model, state);
   watchControls(model, state, scene, gestures);
@@ -99,6 +101,12 @@ async function main() {
   if (state.get("query") !== "") await search.run();
   if (state.get("opened") !== null) await detail.show();
   document.documentElement.dataset.ready = "";
+}
+
+function trayHint(touch) {
+  return touch
+    ? "Tap a shape to see what is known of it. With Select, drag a box to collect shapes here."
+    : "Drag a box on a map to collect shapes here. Click a shape to see what is known of it.";
 }
 
 /** What the address says, with the map of its features loaded. */

@@ -1,5 +1,6 @@
 // The Shapes page: all shapes as pictures, to search, filter, group, sort, and select.
 
+import { carrySelection } from "../carry.js";
 import { chunk } from "../chunks.js";
 import { element } from "../dom.js";
 import { readGalleryAddress, writeGalleryAddress } from "../gallery/address.js";
@@ -83,7 +84,8 @@ async function main() {
     },
   });
   const open = (index) => element("a", { href: pageAddress("shape.html", { id: model.ids[index] }) }).click();
-  new Tray(model, state, { cover: () => {} }, { open, point: () => {} });
+  new Tray(model, state, { open });
+  carrySelection(model, state);
   watchSearch(state);
   window.addEventListener("hashchange", () => state.set(readGalleryAddress(model, fields)));
   watchTheme(() => state.set({ theme: currentTheme() }));

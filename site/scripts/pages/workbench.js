@@ -4,6 +4,7 @@ import { BinCard } from "../bin-card.js";
 import { BinChart } from "../bin-chart.js";
 import { Bins } from "../bins.js";
 import { Card } from "../card.js";
+import { carrySelection } from "../carry.js";
 import { chunk } from "../chunks.js";
 import { element } from "../dom.js";
 import { Gestures } from "../gestures.js";
@@ -14,6 +15,7 @@ import { pushHash, replaceHash } from "../place.js";
 import { State } from "../state.js";
 import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
+import { Tray } from "../tray.js";
 import { count, grouped } from "../words.js";
 import { readWorkAddress, workAddress } from "../workbench/address.js";
 import { Answers } from "../workbench/answers.js";
@@ -55,7 +57,6 @@ async function main() {
     scoresStatus: { kind: "none" },
     method: 0,
     drag: window.matchMedia("(pointer: coarse)").matches ? "move" : "select",
-    selection: new Set(),
     matches: null,
     opened: null,
     pointed: null,
@@ -82,6 +83,9 @@ async function main() {
   const announceShape = (index) => announce(`${model.names[index]}, ${model.className(model.groups[index])}`);
   const gestures = maps.map((map) => new Gestures(map, { open, promote: () => {}, announce: announceShape }));
   new Card(state);
+  // A picture in the tray marks its shape on both maps.
+  new Tray(model, state, { open });
+  carrySelection(model, state);
   const panels = WHICH.map((which) => new MapPanel(which, state, bins, {
     other: which === "refined" ? "originalMap" : null,
     again: () => desk.ask([which]),
@@ -136,6 +140,10 @@ async function main() {
       }
     }
     if (["projection", "scorer", "separation", "sample", "color"].some((name) => changed.has(name)) && !desk.arriving) replaceHash(workAddress(model, data, state));
+    if (changed.has("selection")) {
+      clearTimeout(main.writing);
+      main.writing = setTimeout(() => replaceHash(workAddress(model, data, state)), 250);
+    }
     // Every step is a place that the browser's way back leads to, unless it has just led here.
     if (changed.has("step") && !desk.arriving) pushHash(workAddress(model, data, state));
   });

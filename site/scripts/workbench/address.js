@@ -2,6 +2,7 @@
 
 import { joinNames, splitNames } from "../address.js";
 import { readHash } from "../place.js";
+import { readSelection, writeSelection } from "../selection.js";
 import { isSame } from "./answers.js";
 import { readShortNames, shortNames } from "./bin-names.js";
 import { EVERY_CLASS } from "./separation.js";
@@ -34,6 +35,7 @@ export function readWorkAddress(model, data) {
     },
     sample: query.has("sample"),
     color: query.get("color") === "hit" && model.labelled ? "hit" : "class",
+    selection: readSelection(query, model),
   };
 }
 
@@ -78,5 +80,6 @@ export function workAddress(model, data, state) {
   if (!each) query.set("together", "");
   if (state.get("sample")) query.set("sample", "");
   if (state.get("color") !== "class") query.set("color", state.get("color"));
+  writeSelection(query, model, state.get("selection"));
   return query;
 }

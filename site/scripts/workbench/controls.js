@@ -24,7 +24,7 @@ export function watchControls(model, data, state, desk) {
   });
   document.body.dataset.drag = state.get("drag");
   watchRamp(model, state);
-  watchSelection(model, state, desk);
+  watchPicked(state, desk);
   if (model.separable) {
     watchScorer(data, state, desk);
     watchSeparation(model, state, desk);
@@ -84,25 +84,20 @@ function missing({ from, against, each }, groups) {
   return each ? "from which? Tick another class" : "from which? All are on one side";
 }
 
-/** The shapes collected on the maps, in words; else whether the maps are those of a sample. */
-function watchSelection(model, state, desk) {
+/** How many shapes the brush has so far, before the tray shows them; else whether the maps are those of a sample. */
+function watchPicked(state, desk) {
   const node = document.getElementById("picked");
   const show = () => {
-    const chosen = [...state.get("selection")];
-    if (chosen.length === 0) {
-      node.replaceChildren(...(state.get("sample") ? [
+    if (state.get("brushing")) node.textContent = `${count(state.get("selection").size, "shape")} selected`;
+    else if (!state.get("sample")) node.replaceChildren();
+    else {
+      node.replaceChildren(
         element("span", {}, `A sample of ${grouped(MOST_SHAPES)} shapes at most`),
         element("button", { type: "button", class: "plain", onclick: () => desk.ask({ sample: false }) }, "All shapes"),
-      ] : []));
-      return;
+      );
     }
-    const census = model.labelled ? model.census(chosen).slice(0, 3).map(([group, number]) => `${model.className(group)} ${number}`).join(", ") : "";
-    node.replaceChildren(
-      element("span", { dir: "auto" }, `${count(chosen.length, "shape")} selected${census && `: ${census}`}${model.labelled && model.census(chosen).length > 3 ? " …" : ""}`),
-      element("button", { type: "button", class: "plain", onclick: () => state.set({ selection: new Set() }) }, "Clear"),
-    );
   };
-  state.listen((changed) => (changed.has("selection") || changed.has("sample")) && show());
+  state.listen((changed) => ["selection", "brushing", "sample"].some((name) => changed.has(name)) && show());
   show();
 }
 

@@ -1,0 +1,242 @@
+"""A selection is the same on every page: in the maps, in the tray, in the address, and on the way to another page."""
+
+import csv
+import json
+import re
+from urllib.parse import parse_qs, urlsplit
+
+import pytest
+from waiting import drawn_again, eventually
+
+#: Where a map of each page is, on which a box selects.
+MAPS = {
+    "index.html": "figure[data-slot=large] .surface",
+    "features.html": "figure[data-slot=large] .surface",
+    "workbench.html": "figure[data-map=original] .surface",
+    "bins.html": "#pick-surface",
+}
+
+SITE_OF = {"bins.html": "bins"}
+
+
+def box(page, selector, left=0.02, top=0.02, right=0.98, bottom=0.98) -> None:
+    """Drag a box over a part of a map, given in shares of its size."""
+    page.locator(selector).scroll_into_view_if_needed()
+    place = page.locator(selector).bounding_box()
+    page.mouse.move(place["x"] + left * place["width"], place["y"] + top * place["height"])
+    page.mouse.down()
+    page.mouse.move(place["x"] + right * place["width"], place["y"] + bottom * place["height"], steps=4)
+    page.mouse.up()
+
+
+def counted(page) -> int:
+    """The number of selected shapes as the tray says it."""
+    drawn_again(page)
+    if not page.locator("#tray h2").is_visible():
+        return 0
+    return int(re.sub(r"\D", "", page.inner_text("#tray h2")))
+
+
+def named(page) -> list[str]:
+    """The selected shapes as the tray names them."""
+    drawn_again(page)
+    return page.locator("#tray .shape").evaluate_all("items => items.map((item) => item.title)")
+
+
+def in_address(page) -> list[str]:
+    """The shapes that the address of a page names."""
+    return parse_qs(urlsplit(page.url).fragment).get("select", [])
+
+
+def follow(page, click) -> None:
+    """Follow a link to another page, and wait until this is drawn."""
+    with page.expect_navigation():
+        click()
+    if "about.html" not in page.url:
+        page.wait_for_selector("html[data-ready]", state="attached")
+
+
+def go(page, title: str) -> None:
+    follow(page, lambda: page.click(f"nav[aria-label=Pages] a:text-is('{title}')"))
+
+
+@pytest.mark.parametrize("file", MAPS)
+def test_a_box_on_a_map_fills_the_tray_and_the_address(open_page, file):
+    page = open_page(SITE_OF.get(file, "workbench"), file)
+    assert counted(page) == 0
+    box(page, MAPS[file], right=0.5)
+    few = counted(page)
+    assert 0 < few < 80
+    assert len(named(page)) == few
+    box(page, MAPS[file])
+    everyone = counted(page)
+    assert everyone > few
+    eventually(page, lambda: "select" in page.url)
+    again = open_page("", address=page.url)
+    assert named(again) == named(page)
+    page.click("#tray >> text=Clear")
+    assert counted(page) == 0
+    eventually(page, lambda: "select" not in page.url)
+
+
+@pytest.mark.parametrize("file", MAPS)
+def test_shift_adds_one_shape_and_a_click_beside_all_drops_the_selection(open_page, file):
+    page = open_page(SITE_OF.get(file, "workbench"), f"{file}#select=class000%2F0001")
+    page.locator(MAPS[file]).scroll_into_view_if_needed()
+    assert counted(page) == 1
+    place = page.locator(MAPS[file]).bounding_box()
+    # Along a line across the map there is a shape somewhere.
+    for share in range(4, 97):
+        page.mouse.move(place["x"] + place["width"] * share / 100, place["y"] + place["height"] * 0.5)
+        if page.locator(f"{MAPS[file]}.on-shape").count():
+            break
+    page.keyboard.down("Shift")
+    page.mouse.down()
+    page.mouse.up()
+    page.keyboard.up("Shift")
+    eventually(page, lambda: counted(page) in (0, 2))
+    assert counted(page) == 2
+    page.mouse.click(place["x"] + 3, place["y"] + 3)
+    assert counted(page) == 0
+
+
+def test_the_selection_goes_along_through_the_whole_site(open_page):
+    page = open_page("workbench", "index.html")
+    box(page, MAPS["index.html"], right=0.4)
+    names = named(page)
+    assert names
+    for title in ("Features", "Workbench", "Bins", "About", "Shapes", "Compare", "Features", "Overview"):
+        go(page, title)
+        if title not in ("About", "Shapes", "Compare"):
+            assert named(page) == names
+            assert len(in_address(page)) == len(names)
+
+
+def test_the_selection_goes_along_by_keyboard(open_page):
+    page = open_page("workbench", "index.html#select=class000%2F0001")
+    page.focus("nav[aria-label=Pages] a:text-is('Workbench')")
+    follow(page, lambda: page.keyboard.press("Enter"))
+    assert named(page) == ["kind a 1, kind a"]
+
+
+def test_a_link_keeps_a_selection_of_its_own(open_page):
+    page = open_page("workbench", "workbench.html#select=class000%2F0001")
+    page.evaluate(
+        """() => {
+            const link = document.createElement("a");
+            link.href = "index.html#select=class001%2F0002&view=hit";
+            link.id = "other-shape";
+            link.textContent = "another";
+            document.querySelector(".history").append(link);
+        }"""
+    )
+    follow(page, lambda: page.click("#other-shape"))
+    assert named(page) == ["kind b 2, kind b"]
+    assert page.locator("figure[data-view=hit]").get_attribute("data-slot") == "large"
+
+
+def test_many_shapes_go_along_too(open_page):
+    page = open_page("workbench", "index.html")
+    box(page, MAPS["index.html"])
+    assert counted(page) == 80
+    go(page, "Workbench")
+    assert counted(page) == 80
+    go(page, "About")
+    go(page, "Features")
+    assert counted(page) == 80
+
+
+def test_the_tray_leads_to_the_other_pages_with_its_shapes(open_page):
+    page = open_page("workbench", "workbench.html#select=class000%2F0001&select=class002%2F0003")
+    names = page.locator("#tray a").all_inner_texts()
+    assert names == ["Open in Shapes", "Show on the map", "Compare with the rest"]
+    compared = parse_qs(urlsplit(page.locator("#tray a").nth(2).get_attribute("href")).fragment)
+    assert (compared["a"], compared["b"]) == (["shapes"], ["rest"])
+    assert compared["a-select"] == ["class000/0001", "class002/0003"]
+    follow(page, lambda: page.click("text=Show on the map"))
+    assert in_address(page) == ["class000/0001", "class002/0003"]
+    assert named(page) == ["kind a 1, kind a", "kind c 3, kind c"]
+    assert "Show on the map" not in page.inner_text("#tray")
+    follow(page, lambda: page.click("text=Open in Shapes"))
+    assert page.url.split("/")[-1].startswith("shapes.html#")
+    assert in_address(page) == ["class000/0001", "class002/0003"]
+
+
+@pytest.mark.parametrize("file", MAPS)
+def test_every_page_exports_the_same_files(open_page, site, tmp_path, file):
+    where = SITE_OF.get(file, "workbench")
+    page = open_page(where, f"{file}#select=class002%2F0003&select=class000%2F0001")
+    with page.expect_download() as saved:
+        page.click("#tray >> text=CSV")
+    saved.value.save_as(tmp_path / "selection.csv")
+    with (tmp_path / "selection.csv").open(newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row["id"] for row in rows] == ["class000/0001", "class002/0003"]
+    summary = json.loads((site(where) / "data" / "summary.json").read_text())
+    methods = list(summary["projections"])
+    assert list(rows[0]) == ["id", "name", "class", *(f"nh:{method}" for method in methods)]
+    with (site(where) / "data" / "shapes.csv").open(newline="", encoding="utf-8") as stream:
+        known = {row["id"]: row for row in csv.DictReader(stream)}
+    assert [row["name"] for row in rows] == [known[row["id"]]["name"] for row in rows]
+    with page.expect_download() as saved:
+        page.click("#tray >> text=JSON")
+    saved.value.save_as(tmp_path / "selection.json")
+    shapes = json.loads((tmp_path / "selection.json").read_text(encoding="utf-8"))["shapes"]
+    assert [(shape["id"], shape["name"], shape["class"]) for shape in shapes] == [
+        (row["id"], row["name"], row["class"]) for row in rows
+    ]
+
+
+@pytest.mark.parametrize("file", MAPS)
+def test_a_changed_address_is_a_changed_selection(open_page, file):
+    page = open_page(SITE_OF.get(file, "workbench"), f"{file}#select=class000%2F0001")
+    page.evaluate("location.hash = 'select=class001/0002&select=class002/0000'")
+    eventually(page, lambda: counted(page) == 2)
+    page.evaluate("location.hash = 'select=nobody'")
+    eventually(page, lambda: counted(page) == 0)
+    # Bits that belong to another database, or are none at all.
+    page.evaluate("location.hash = 'selected=abc.a'")
+    drawn_again(page)
+    assert counted(page) == 0
+
+
+def test_an_address_of_nonsense_opens_the_page(open_page, site):
+    page = open_page("workbench", "index.html")
+    box(page, MAPS["index.html"])
+    eventually(page, lambda: "selected=" in page.url)
+    mark = parse_qs(urlsplit(page.url).fragment)["selected"][0].split(".")[0]
+    other = open_page("workbench", f"index.html#selected={mark}.A")
+    assert counted(other) == 0
+
+
+def test_the_brush_on_the_workbench_moves_nothing_below_it(open_page):
+    page = open_page("workbench", "workbench.html")
+    surface = page.locator(MAPS["workbench.html"])
+    before = surface.bounding_box()
+    page.mouse.move(before["x"] + 5, before["y"] + 5)
+    page.mouse.down()
+    page.mouse.move(before["x"] + before["width"] - 5, before["y"] + before["height"] - 5, steps=4)
+    drawn_again(page)
+    assert surface.bounding_box() == before
+    assert page.inner_text("#picked") == "80 shapes selected"
+    page.mouse.up()
+    assert counted(page) == 80
+
+
+def test_shapes_that_a_search_left_out_stay_selected_without_a_place(open_page):
+    page = open_page("sampled", "features.html")
+    box(page, MAPS["features.html"])
+    on_the_map = counted(page)
+    assert on_the_map == 24
+    ids = [f"class{group:03}/{index:04}" for group in range(2) for index in range(18)]
+    address = "&".join(f"select={name}" for name in ids)
+    all_of_them = open_page("sampled", f"features.html#{address}")
+    assert counted(all_of_them) == 36
+    go(all_of_them, "Overview")
+    assert counted(all_of_them) == 36
+
+
+def test_without_labels_the_tray_says_no_classes(open_page):
+    page = open_page("no labels", "workbench.html#select=class000%2F0001")
+    assert named(page) == ["shape 1"]
+    assert page.locator("#tray .census").count() == 0
