@@ -1,0 +1,255 @@
+"""What the gallery can group, filter and sort by, and the trees of a database."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import reports
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from reports import NASTY_LABELS
+
+from shapeviz_report.pages.fields import MOST_INTERVALS, describe_fields, natural
+from shapeviz_report.pages.hierarchy import describe_hierarchy
+from shapeviz_report.pages.shapes import ShapesPage
+from shapeviz_report.types import Cluster, Clusters
+
+
+@cache
+def made(classes, per_class):
+    return reports.make_report(classes, per_class, methods=("pca",))
+
+
+def make_report(classes, per_class):
+    """A report without the maps that these tests do not look at."""
+    return made(tuple(classes), per_class)
+
+
+def with_columns(report, **columns):
+    """The report with columns of metadata; an empty value is left out, as readers of databases leave it out."""
+    shapes = tuple(
+        replace(shape, metadata={name: values[row] for name, values in columns.items() if values[row]})
+        for row, shape in enumerate(report.shapes)
+    )
+    return replace(report, shapes=shapes, database=replace(report.database, shapes=shapes))
+
+
+def with_ids(report, ids):
+    shapes = tuple(replace(shape, id=identifier) for shape, identifier in zip(report.shapes, ids))
+    return replace(report, shapes=shapes, database=replace(report.database, shapes=shapes))
+
+
+def with_labeling(report, name, labels, parents=None):
+    """The report with a further labeling, which may have a hierarchy."""
+    shapes = tuple(
+        replace(shape, labels={**shape.labels, name: label}) for shape, label in zip(report.shapes, labels)
+    )
+    database = replace(
+        report.database,
+        shapes=shapes,
+        labelings=(*report.database.labelings, name),
+        parents={name: parents} if parents else {},
+    )
+    return replace(report, shapes=shapes, database=database)
+
+
+def field(report, key):
+    found = [field for field in describe_fields(report) if field["key"] == key]
+    return found[0] if found else None
+
+
+def trees(report):
+    return {tree["key"]: tree for tree in describe_hierarchy(report, describe_fields(report))["trees"]}
+
+
+def ways(tree):
+    """The node of every shape by the names that lead to it."""
+    found = []
+    for node in tree["nodes"]:
+        found.append((*(found[node["parent"]] if node["parent"] >= 0 else ()), node["name"]))
+    return [None if node < 0 else found[node] for node in tree["of"]]
+
+
+class TestNaturalOrder:
+    def test_numbers_stand_by_their_size(self) -> None:
+        names = ["cup 10", "Cup 2", "cup 1", "ant", "cup", "12", "cup 02"]
+        assert sorted(names, key=natural) == ["12", "ant", "cup", "cup 1", "Cup 2", "cup 02", "cup 10"]
+
+    @given(st.lists(st.text(), max_size=6))
+    def test_any_texts_can_be_sorted_and_only_equal_ones_are_equal(self, names) -> None:
+        ordered = sorted(names, key=natural)
+        assert sorted(reversed(names), key=natural) == ordered
+
+    def test_a_number_of_any_length_is_one(self) -> None:
+        assert natural("9" * 10000) < natural("1" + "0" * 10000)
+
+
+class TestFields:
+    def test_the_classes_come_first(self) -> None:
+        first = describe_fields(make_report(["b", "a", None], 3))[0]
+        assert (first["active"], first["title"], first["names"]) == (True, "Class", ["a", "b"])
+        assert first["of"] == [1, 1, 1, 0, 0, 0, -1, -1, -1]
+
+    def test_a_column_of_few_values_makes_groups(self) -> None:
+        report = with_columns(make_report(["a"], 4), place=["Delft", "Kyoto", "", "Delft"])
+        found = field(report, "column:place")
+        assert (found["names"], found["of"], found["numbers"]) == (["Delft", "Kyoto"], [0, 1, -1, 0], None)
+
+    def test_a_column_that_names_every_shape_does_not(self) -> None:
+        report = with_columns(make_report(["a"], 6), inventory=[f"K-{row}" for row in range(6)])
+        assert field(report, "column:inventory") is None
+
+    def test_nor_does_a_column_that_says_the_same_of_all(self) -> None:
+        report = with_columns(make_report(["a"], 4), licence=["CC0"] * 4)
+        assert field(report, "column:licence") is None
+
+    def test_a_column_that_only_some_shapes_have_tells_them_apart(self) -> None:
+        report = with_columns(make_report(["a"], 4), restored=["yes", "", "", "yes"])
+        assert field(report, "column:restored")["of"] == [0, -1, -1, 0]
+
+    def test_a_column_of_numbers_is_a_range(self) -> None:
+        years = [str(1500 + 7 * row) for row in range(12)]
+        found = field(with_columns(make_report(["a"], 12), year=[*years[:-1], ""]), "column:year")
+        assert found["numbers"] == [*(float(year) for year in years[:-1]), None]
+        assert found["names"] is None
+        assert found["edges"][0] <= 1500
+        assert found["edges"][-1] >= 1570
+
+    def test_a_column_of_few_numbers_is_ticked_in_their_order(self) -> None:
+        found = field(with_columns(make_report(["a"], 6), floor=["10", "2", "-1"] * 2), "column:floor")
+        assert (found["names"], found["edges"]) == (["-1", "2", "10"], None)
+
+    @pytest.mark.parametrize("value", ["1e999", "nan", "inf", "1_000", "12 cm", "٣"])
+    def test_what_is_no_plain_number_makes_a_column_of_text(self, value) -> None:
+        found = field(with_columns(make_report(["a"], 4), size=["1", "1", value, value]), "column:size")
+        assert found["numbers"] is None
+        assert value in found["names"]
+
+    def test_a_labeling_that_repeats_a_column_stands_once(self) -> None:
+        places = ["x", "y", "x", "y"]
+        report = with_labeling(with_columns(make_report(["a"], 4), place=places), "place", places)
+        assert [found["key"] for found in describe_fields(report) if found["title"] == "place"] == [
+            "label:place"
+        ]
+
+    def test_facts_are_those_of_the_meshes(self) -> None:
+        report = make_report(["a", "b"], 8)
+        assert field(report, "fact:faces")["numbers"] == [float(facts.faces_read) for facts in report.facts]
+        volumes = field(report, "fact:volume")["numbers"]
+        assert [volume is None for volume in volumes] == [facts.volume is None for facts in report.facts]
+        assert volumes[1] == pytest.approx(report.facts[1].volume, rel=1e-5)
+        assert field(report, "fact:watertight")["names"] == ["open", "watertight"]
+
+    def test_names_of_any_kind_are_values(self) -> None:
+        report = make_report([*NASTY_LABELS, None], 2)
+        found = describe_fields(report)[0]
+        assert set(found["names"]) == set(NASTY_LABELS)
+        assert [None if of < 0 else found["names"][of] for of in found["of"]] == list(report.labels)
+
+    def test_clusters_stand_by_their_size_with_what_is_typical(self) -> None:
+        clusters = Clusters(
+            clusters=(
+                Cluster("like b 1", central=4, size=4, typical=("round", "thin")),
+                Cluster("like a 0", central=0, size=2, typical=()),
+            ),
+            of=np.array([1, 1, 0, 0, 0, 0]),
+            silhouette=0.5,
+            steadiness=0.9,
+            stand_in=False,
+        )
+        found = field(replace(make_report(["a", "b"], 3), clusters=clusters), "cluster")
+        assert (found["names"], found["notes"]) == (["like b 1", "like a 0"], ["round", ""])
+        assert found["of"] == [1, 1, 0, 0, 0, 0]
+
+
+class TestEdges:
+    @settings(deadline=None)
+    @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=9, max_size=20, unique=True))
+    def test_they_rise_are_few_and_hold_every_number(self, values) -> None:
+        texts = [repr(value) for value in values]
+        report = with_columns(make_report(["a"], 20), size=texts + [""] * (20 - len(texts)))
+        found = field(report, "column:size")
+        numbers = [number for number in found["numbers"] if number is not None]
+        if found["edges"] is None:
+            return
+        edges = found["edges"]
+        assert edges == sorted(set(edges))
+        assert 2 <= len(edges) - 1 <= MOST_INTERVALS
+        assert edges[0] <= min(numbers)
+        assert max(numbers) <= edges[-1]
+
+    def test_a_wide_range_is_cut_by_factors(self) -> None:
+        report = with_columns(make_report(["a"], 10), size=[str(10.0**power) for power in range(-3, 7)])
+        edges = field(report, "column:size")["edges"]
+        assert (edges[0], edges[-1]) == (0.001, 1e6)
+        assert max(right / left for left, right in pairwise(edges)) < 10
+
+    def test_years_are_cut_at_round_years(self) -> None:
+        report = with_columns(make_report(["a"], 40), year=[str(1501 + 11 * row) for row in range(40)])
+        assert field(report, "column:year")["edges"] == [float(year) for year in range(1500, 1941, 20)]
+
+
+class TestTrees:
+    def test_classes_without_parents_are_a_tree_of_one_level(self) -> None:
+        tree = trees(make_report(["b", "a", None], 2))["label:folder"]
+        assert tree["nodes"] == [{"name": "a", "parent": -1}, {"name": "b", "parent": -1}]
+        assert tree["of"] == [1, 1, 0, 0, -1, -1]
+
+    def test_parents_of_a_classification_stand_above_its_classes(self) -> None:
+        report = make_report(["dog", "eagle", "car"], 2)
+        parents = {"folder": {"dog": "animal", "eagle": "bird", "bird": "animal"}}
+        report = replace(report, database=replace(report.database, parents=parents))
+        found = trees(report)
+        assert ways(found["label:folder"])[::2] == [("animal", "dog"), ("animal", "bird", "eagle"), ("car",)]
+        assert "folders" not in found
+
+    def test_coarser_levels_of_a_classification_are_no_trees_of_their_own(self) -> None:
+        report = make_report(["dog", "eagle", "car"], 2)
+        parents = {"folder": {"dog": "animal", "eagle": "animal"}}
+        report = with_labeling(report, "level 1", ["animal"] * 4 + ["car"] * 2)
+        report = replace(report, database=replace(report.database, parents=parents))
+        assert list(trees(report)) == ["label:folder"]
+
+    def test_a_path_in_a_column_is_one(self) -> None:
+        report = with_columns(make_report(["a"], 6), kind=["animal > dog", "animal > bird", "car"] * 2)
+        tree = trees(report)["column:kind"]
+        assert ways(tree)[:3] == [("animal", "dog"), ("animal", "bird"), ("car",)]
+
+    def test_a_stroke_in_a_name_makes_no_tree(self) -> None:
+        report = with_columns(make_report(["a"], 4), pair=["his/hers", "black/white"] * 2)
+        assert "column:pair" not in trees(report)
+
+    def test_folders_are_one_where_they_say_more_than_the_classes(self) -> None:
+        report = make_report(["a", "b"], 4)
+        deep = [f"all/{kind}/{part}/{row}" for kind in "xy" for part in "pq" for row in "12"]
+        tree = trees(with_ids(report, deep))["folders"]
+        assert ways(tree)[::2] == [("x", "p"), ("x", "q"), ("y", "p"), ("y", "q")]
+
+    @pytest.mark.parametrize(
+        "ids",
+        [
+            [f"class{kind}/{row}" for kind in "xy" for row in "1234"],
+            [f"{row}" for row in range(8)],
+            [f"meshes/{row}" for row in range(8)],
+            [f"{row}/model" for row in range(8)],
+        ],
+        ids=["as the classes", "none", "one for all", "one for each"],
+    )
+    def test_folders_that_say_nothing_are_none(self, ids) -> None:
+        assert "folders" not in trees(with_ids(make_report(["a", "b"], 4), ids))
+
+    def test_parents_in_a_circle_end(self) -> None:
+        report = make_report(["a", "b"], 2)
+        report = replace(report, database=replace(report.database, parents={"folder": {"a": "b", "b": "a"}}))
+        assert ways(trees(report)["label:folder"])[0][-1] == "a"
+
+
+def test_rows_stand_in_the_order_of_their_names() -> None:
+    report = make_report(["b", "a"], 12)
+    names = [report.shapes[row].name for row in ShapesPage().content(report).chunks["fields"]["byName"]]
+    assert names[:3] == ["a 0", "a 1", "a 2"]
+    assert names[11:13] == ["a 11", "b 0"]
