@@ -14,12 +14,13 @@ from PIL import Image, ImageDraw
 from solids import ball
 
 from shapeviz_report import quality
-from shapeviz_report.bins import features_of
+from shapeviz_report.bins import features_of, scale_bins
 from shapeviz_report.clusters import describe_clusters, part
 from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.projections import squared_distances
+from shapeviz_report.retrieval import query_classes, rate, rate_chance, rate_subsets
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import make_space, search_features
 from shapeviz_report.search.bins import (
@@ -42,6 +43,7 @@ from shapeviz_report.types import (
     Painting,
     Projection,
     Report,
+    Retrieval,
     ShapeEntry,
     ShapeFacts,
 )
@@ -201,6 +203,37 @@ def with_bin_search(report: Report) -> Report:
     return replace(report, bins=found)
 
 
+def with_retrieval(report: Report) -> Report:
+    """The report with how well its shapes are found: by every subset of a search, else by each feature and by all, and
+    by the bins of its search; without where no class has two shapes."""
+    preset = PRESETS["default"]
+    space = make_space(report.features, scale(report.features, preset), report.labels)
+    classes, codes = query_classes([report.labels[row] for row in space.rows])
+    if not classes:
+        return report
+    singles = [1 << feature for feature in range(len(space.features))]
+    subsets = [*singles, space.everything] if report.search is None else range(1, space.everything + 1)
+    bins, by_bins = None, None
+    if report.bins is not None:
+        bins = report.bins.automatic.bins
+        by_bins = rate(squared_distances(scale_bins(report.features, preset, bins)[space.rows]), codes)
+    return replace(
+        report,
+        retrieval=Retrieval(
+            features=space.features,
+            rows=space.rows,
+            shape_count=space.shape_count,
+            classes=classes,
+            queries=np.bincount(codes[codes >= 0]).astype(np.int32),
+            members=np.array([[bool(subset & single) for single in singles] for subset in subsets]),
+            subsets=tuple(rate_subsets(space.squared, codes, list(subsets))),
+            bins=bins,
+            by_bins=by_bins,
+            chance=rate_chance(codes),
+        ),
+    )
+
+
 def with_paintings(report: Report) -> Report:
     """The report with pictures of the bins that its search found, which show polygons; of the right shapes."""
     xy = next(iter(report.projections.values()))[0].xy
@@ -245,6 +278,20 @@ def with_bins(report: Report, bins: tuple[str, ...]) -> Report:
         for method, (projection, hits) in report.projections.items()
     }
     return replace(report, projections=projections)
+
+
+def with_columns(report: Report, columns: Mapping[str, Sequence[str]]) -> Report:
+    """The report with columns of metadata; an empty value is left out, as readers of databases leave it out."""
+    shapes = tuple(
+        replace(shape, metadata={name: values[row] for name, values in columns.items() if values[row]})
+        for row, shape in enumerate(report.shapes)
+    )
+    return replace(report, shapes=shapes, database=replace(report.database, shapes=shapes))
+
+
+def with_parents(report: Report, parents: Mapping[str, str]) -> Report:
+    """The report with a hierarchy of its active classes: class -> parent."""
+    return replace(report, database=replace(report.database, parents={report.labeling: parents}))
 
 
 def _facts(index: int) -> ShapeFacts:

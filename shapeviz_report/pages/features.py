@@ -1,4 +1,5 @@
-"""The Features page: which features separate the classes (paper, 4.1 and 4.2; Fig. 3, Fig. 4 and Table 2)."""
+"""The Features page: which features separate the classes (paper, 4.1 and 4.2; Fig. 3, Fig. 4 and Table 2), and how
+well they find similar shapes."""
 
 from __future__ import annotations
 
@@ -16,6 +17,7 @@ from shapeviz_report.pages.base import (
     feature_marks,
     rounded,
 )
+from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
 from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, Report, SeedSpread
 
 #: NH is stored in thousandths, as it is shown; with ten neighbours, all but ties are exact.
@@ -37,14 +39,17 @@ class FeaturesPage:
     within = None
 
     def content(self, report: Report) -> PageContent:
+        context: dict[str, object] = {"search": None, "retrieval": None}
+        chunks: dict[str, object] = {}
+        if report.retrieval is not None:
+            context["retrieval"] = retrieval_context(report, report.retrieval)
+            chunks["retrieval"] = retrieval_chunk(report, report.retrieval)
         search = report.search
-        if search is None:
-            return PageContent({"search": None})
-        ranking = Ranking.of(search)
-        return PageContent(
-            context={"search": _context(report, search, ranking)},
-            chunks={"search": _scores(report, search, ranking), "subsets": _maps(search, ranking)},
-        )
+        if search is not None:
+            ranking = Ranking.of(search)
+            context["search"] = _context(report, search, ranking)
+            chunks |= {"search": _scores(report, search, ranking), "subsets": _maps(search, ranking)}
+        return PageContent(context, chunks)
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import { MapView } from "../map.js";
 import { Model } from "../model.js";
 import { Panel } from "../panel.js";
 import { Ranking } from "../ranking.js";
+import { RetrievalSection } from "../retrieval/section.js";
 import { Scene } from "../scene.js";
 import { State } from "../state.js";
 import { subsetTables } from "../subset-tables.js";
@@ -56,7 +57,15 @@ async function main() {
   const ranking = new Ranking(subsets, state, marks, announce);
   const link = overview.subsets && ((place) => overviewAddress(subsets.names(place)));
   new Panel(subsets, state, marks, link);
-  watchTables(() => subsetTables(model, subsets, state));
+  const retrieval = await retrievalSection(
+    overview,
+    () => subsets.names(state.get("chosen")),
+    (names) => state.set({ chosen: subsets.find(names) }),
+  );
+  watchTables(() => {
+    const { title, tables } = subsetTables(model, subsets, state);
+    return { title, tables: [...tables, ...(retrieval?.tables() ?? [])] };
+  });
   const paint = () => {
     for (const mark of document.querySelectorAll("[data-hue]")) mark.style.background = marks().features[mark.dataset.hue];
   };
@@ -92,6 +101,7 @@ async function main() {
 
   watchColors(state, map);
   state.listen(async (changed) => {
+    if (changed.has("chosen") || changed.has("theme")) retrieval?.render();
     if (changed.has("chosen")) {
       const chosen = state.get("chosen");
       const method = await shown(model, subsets, chosen);
@@ -214,9 +224,20 @@ class DotChart {
   }
 }
 
-if (document.getElementById("ranking")) main();
-else {
-  watchTheme(() => {});
+/** How well similar shapes are found; null where no class has two shapes. */
+async function retrievalSection(overview, chosen, choose) {
+  if (!document.getElementById("retrieval")) return null;
+  return new RetrievalSection(await chunk("retrieval"), overview.classes, chosen, choose);
+}
+
+/** A site without a search: nothing can be chosen. */
+async function withoutSearch() {
+  const section = await retrievalSection(await chunk("overview"), null, null);
+  if (section !== null) watchTables(() => ({ title: "Retrieval in figures", tables: section.tables() }));
+  watchTheme(() => section?.render());
   carryAddress();
   document.documentElement.dataset.ready = "";
 }
+
+if (document.getElementById("ranking")) main();
+else withoutSearch();
