@@ -60,6 +60,7 @@ STYLES = (
     "tray.css",
     "overview.css",
     "features.css",
+    "retrieval.css",
     "workbench.css",
     "bin-chart.css",
     "bins.css",
