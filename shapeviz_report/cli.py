@@ -40,6 +40,7 @@ STAGES = {
     "sample": "Finding value ranges",
     "describe": "Describing shapes",
     "render": "Drawing thumbnails",
+    "cluster": "Finding clusters",
     "project": "Projecting",
     "search": "Searching features",
     "bins": "Scoring bins",
