@@ -28,9 +28,10 @@ export function answer(contrast, a, b, data, kin) {
     ].filter(Boolean);
   }
   const told = plainest(contrast, a, b, data);
+  const alike = inCommon(contrast, a, b, data);
   return [
     element("h2", {}, headline(contrast, a, b)),
-    told.length > 0 && element("ul", { class: "told" }, told.map((words) => element("li", {}, words))),
+    (told.length > 0 || alike !== null) && element("ul", { class: "told-list" }, told.map((words) => element("li", {}, words)), alike && element("li", {}, alike)),
     element("p", {}, spread, " ", beyond.length > 0
       ? [element("b", {}, binCount(beyond.length, bins.count)), ` ${beyond.length === 1 ? "differs" : "differ"} more than chance lets any bin differ.`]
       : "No single bin differs beyond chance: the difference lies in many small ones together."),
@@ -93,6 +94,17 @@ function sentence({ means, where, place, outer }, a, b, data) {
 
 function squares(values, middle) {
   return values.reduce((sum, value) => sum + (value - middle) ** 2, 0);
+}
+
+/** What both have in common against the other shapes, by the bin that is easiest to picture; null if nothing. */
+function inCommon(contrast, a, b, data) {
+  const { bins, sample, shared } = contrast;
+  const shares = shared.filter((column) => bins.isShare(column));
+  const column = shares.find((own) => bins.features[bins.featureOf(own)].dimensions === 1) ?? shares[0];
+  if (column === undefined) return null;
+  const [first, second, others] = [sample.a, sample.b, sample.rest].map((rows) => mean(rows.map((row) => bins.share(column, row))));
+  const more = first + second > 2 * others;
+  return ["Of both, ", element("b", {}, more ? "more" : "less"), ` of ${data.whole} than of other shapes lies where ${data.where[column]}: `, called(a), ` ${percent(first)}, `, called(b), ` ${percent(second)}, the others ${percent(others)}.`];
 }
 
 function said(text) {

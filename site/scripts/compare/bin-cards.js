@@ -20,7 +20,7 @@ export function binCard(column, view, { shared = false } = {}) {
     { class: "bin-of-two" },
     element(
       "p",
-      { class: "which" },
+      { class: "bin-name" },
       element("button", { type: "button", class: "bin-chip", "data-column": column, "aria-pressed": String(column === view.bin), title: "Show it on shapes", onclick: () => view.look(column) }, hue, element("bdi", {}, bins.shortName(column, 18))),
       title !== name && element("span", { class: "quiet" }, title),
     ),

@@ -21,14 +21,14 @@ export function distribution(rows, share) {
   const told = toldAs(share);
   return element(
     "div",
-    { class: "spread" },
+    { class: "spread-of" },
     rows.map((row) => [
-      element("span", { class: "whose" }, row.mark, element("bdi", {}, row.name)),
+      element("span", { class: "group-name" }, row.mark, element("bdi", {}, row.name)),
       strip(row, place),
       element("span", { class: "mean" }, told(mean(row.values))),
     ]),
-    element("span", { class: "whose" }),
-    element("span", { class: "scale", "aria-hidden": "true" }, [least, (least + most) / 2, most].map((value) => element("i", {}, told(value)))),
+    element("span", { class: "group-name" }),
+    element("span", { class: "axis-of", "aria-hidden": "true" }, [least, (least + most) / 2, most].map((value) => element("i", {}, told(value)))),
     element("span", { class: "mean quiet" }, "mean"),
   );
 }
@@ -38,7 +38,7 @@ function strip({ values, color, at }, place) {
   const parts = rising.length <= MOST_DOTS ? dots(rising, color, place) : bars(rising, color, place);
   const line = svg("rect", { x: `${place(mean(values))}%`, y: 2, width: 2, height: ROW - 4, class: "at-mean" });
   const outstanding = at !== undefined && svg("circle", { cx: `${place(at)}%`, cy: ROW / 2, r: 5, class: "outstanding" });
-  return svg("svg", { class: "strip-of", height: ROW, width: "100%", "aria-hidden": "true" }, parts, line, outstanding);
+  return svg("svg", { class: "dots-of", height: ROW, width: "100%", "aria-hidden": "true" }, parts, line, outstanding);
 }
 
 function dots(rising, color, place) {

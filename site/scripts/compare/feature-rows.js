@@ -19,7 +19,7 @@ export function featureRows(view) {
       "li",
       { class: beyond ? null : "within" },
       element("span", { class: "feature" }, element("bdi", {}, row.feature.name), row.feature.title !== row.feature.name && element("span", { class: "quiet" }, row.feature.title)),
-      element("span", { class: "bar" }, fill, chance),
+      element("span", { class: "share-bar" }, fill, chance),
       element("span", { class: "figure" }, share(row.share), element("span", { class: "quiet" }, beyond ? "" : " within chance")),
       element("span", { class: "best" }, best === undefined ? "" : element("button", { type: "button", class: "bin-chip", "data-column": best, "aria-pressed": String(best === view.bin), title: "Its bin that differs most: show it on shapes", onclick: () => view.look(best) }, element("bdi", {}, bins.shortName(best, 14)))),
       element("span", { class: "quiet measures" }, row.feature.measures),

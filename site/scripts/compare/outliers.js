@@ -13,6 +13,9 @@ const REASONS = 2;
 /** Of a large class, so many shapes tell what is usual. */
 const MOST_USUAL = 400;
 
+/** A share of the surface has to differ by so much from what is usual to be worth telling. */
+const TELLING = 0.03;
+
 /** A bin in which a class has less spread than this part of that of all shapes is taken to have so much. */
 const LEAST_SPREAD = 0.2;
 
@@ -91,7 +94,7 @@ export class Outliers {
       element("a", { class: "face", href: pageAddress("shape.html", { id: model.ids[index] }), "aria-label": model.names[index] }, picture(model, index, 128)),
       element(
         "div",
-        { class: "about" },
+        { class: "whereabouts" },
         element("p", { class: "name" }, element("a", { href: pageAddress("shape.html", { id: model.ids[index] }) }, element("bdi", {}, model.names[index])), " ", name(model, own)),
         element("p", {}, fit < 0 ? ["Closer to ", name(model, rival), " than to its own class."] : ["Of its own class, but next to ", name(model, rival), "."]),
         element("p", { class: "quiet" }, "Fit ", element("b", { class: "figure" }, signed(fit)), model.methods.map(({ title, hit }) => hit[index] !== null && [", NH on ", title, " ", figure(hit[index])])),
@@ -123,13 +126,14 @@ export class Outliers {
       const spread = Math.max(own.spreads[column], LEAST_SPREAD * this.#spread(column, bins), 1e-9);
       const [away, near] = [(value - usual) / spread, (value - rival.means[column]) / spread];
       if ((value - usual) * (rival.means[column] - usual) <= 0) continue;
+      if (bins.isShare(column) && Math.abs(bins.share(column, index) - own.shares[column]) < TELLING) continue;
       const gain = Math.abs(away) - Math.abs(near);
       if (gain > 0) scored.push([gain, column]);
     }
     scored.sort((a, b) => b[0] - a[0] || a[1] - b[1]);
     const features = new Set();
     // Features with one value a point are easier to picture: they go first where they say nearly as much.
-    const simple = scored.filter(([gain, column]) => bins.features[bins.featureOf(column)].dimensions === 1 && gain >= scored[0][0] / 2);
+    const simple = scored.filter(([gain, column]) => bins.features[bins.featureOf(column)].dimensions === 1 && gain >= scored[0][0] / 3);
     const chosen = [...simple, ...scored].filter(([, column]) => !features.has(bins.featureOf(column)) && features.add(bins.featureOf(column))).slice(0, REASONS);
     if (chosen.length === 0) return [element("p", { class: "quiet" }, "No single bin sets it apart from its class: it is unlike in many ways, a little in each.")];
     return chosen.map(([, column]) => this.#reason(index, column, group, other, bins));
@@ -162,10 +166,11 @@ export class Outliers {
     const all = [...this.model.ids.keys()].filter((index) => this.model.groups[index] === group);
     const step = Math.max(all.length / MOST_USUAL, 1);
     const rows = Array.from({ length: Math.min(all.length, MOST_USUAL) }, (_, place) => all[Math.floor(place * step)]);
-    const usual = { rows, means: new Float64Array(bins.count), spreads: new Float64Array(bins.count) };
+    const usual = { rows, means: new Float64Array(bins.count), shares: new Float64Array(bins.count), spreads: new Float64Array(bins.count) };
     for (let column = 0; column < bins.count; column += 1) {
       const values = rows.map((row) => bins.value(column, row));
       usual.means[column] = mean(values);
+      usual.shares[column] = mean(rows.map((row) => bins.share(column, row)));
       usual.spreads[column] = Math.sqrt(mean(values.map((value) => (value - usual.means[column]) ** 2)));
     }
     this.#usual.set(group, usual);
