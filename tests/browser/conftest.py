@@ -18,17 +18,37 @@ from reports import (
     make_report,
     with_bin_search,
     with_bins,
+    with_clusters,
+    with_columns,
     with_external,
     with_models,
     with_paintings,
+    with_parents,
     with_scores,
     with_search,
 )
 
 from shapeviz_report.site import write_site
+from shapeviz_report.types import Report
 
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
 NASTY_FEATURES = ("Gc", "<b>50 %</b> & more", "עברית ימין", "a feature name without an end " * 3)
+
+
+def with_everything(report: Report) -> Report:
+    """The report with all that a build can find in it."""
+    for add in (
+        with_clusters,
+        with_search,
+        with_scores,
+        with_bin_search,
+        with_paintings,
+        with_models,
+        with_external,
+    ):
+        report = add(report)
+    return report
+
 
 SITES = {
     "plain": lambda: make_report(
@@ -58,6 +78,32 @@ SITES = {
     "nasty workbench": lambda: with_scores(make_report([*NASTY_LABELS, None], 4, features=NASTY_FEATURES)),
     "bins": lambda: with_external(
         with_models(with_paintings(with_bin_search(make_report(["ant", "bird", "cup", "fish"], 8))))
+    ),
+    "everything": lambda: with_everything(
+        make_report(
+            [*NASTY_LABELS, None],
+            4,
+            name="Everything at once",
+            features=NASTY_FEATURES,
+            metadata={"artist": "N. N.", "year": "1902"},
+        )
+    ),
+    "museum": lambda: with_columns(
+        with_parents(
+            make_report(["ant", "bee", "cup", "plate", "table", None], 24, name="A museum"),
+            {
+                "ant": "insects",
+                "bee": "insects",
+                "cup": "tableware",
+                "plate": "tableware",
+                "tableware": "household",
+            },
+        ),
+        {
+            "place": ["Delft", "Kyoto", "Münster"] * 48,
+            "year": [str(1400 + 3 * row) if row % 6 else "" for row in range(144)],
+            "inventory": [f"K-{row:04}" for row in range(144)],
+        },
     ),
     "large": lambda: make_report([f"class {number}" for number in range(8)], 250, methods=("tsne", "pca")),
 }

@@ -10,6 +10,7 @@ import { Chips } from "../gallery/chips.js";
 import { Controls } from "../gallery/controls.js";
 import { Facets } from "../gallery/facets.js";
 import { Fields } from "../gallery/fields.js";
+import { galleryTables } from "../gallery/gallery-tables.js";
 import { Grid } from "../gallery/grid.js";
 import { Keys } from "../gallery/keys.js";
 import { Sieve } from "../gallery/sieve.js";
@@ -19,6 +20,7 @@ import { Model } from "../model.js";
 import { pageAddress } from "../place.js";
 import { findWords, searchTexts } from "../search.js";
 import { State } from "../state.js";
+import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
 import { Tray } from "../tray.js";
 import { count } from "../words.js";
@@ -87,6 +89,7 @@ async function main() {
   new Tray(model, state, { open });
   carrySelection(model, state);
   watchSearch(state);
+  watchTables(() => galleryTables(model, fields, sieve, grid.groups));
   window.addEventListener("hashchange", () => state.set(readGalleryAddress(model, fields)));
   watchTheme(() => state.set({ theme: currentTheme() }));
 

@@ -11,7 +11,7 @@ import pytest
 import reports
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from reports import NASTY_LABELS
+from reports import NASTY_LABELS, with_columns, with_parents
 
 from shapeviz_report.pages.fields import MOST_INTERVALS, describe_fields, natural
 from shapeviz_report.pages.hierarchy import describe_hierarchy
@@ -29,31 +29,17 @@ def make_report(classes, per_class):
     return made(tuple(classes), per_class)
 
 
-def with_columns(report, **columns):
-    """The report with columns of metadata; an empty value is left out, as readers of databases leave it out."""
-    shapes = tuple(
-        replace(shape, metadata={name: values[row] for name, values in columns.items() if values[row]})
-        for row, shape in enumerate(report.shapes)
-    )
-    return replace(report, shapes=shapes, database=replace(report.database, shapes=shapes))
-
-
 def with_ids(report, ids):
     shapes = tuple(replace(shape, id=identifier) for shape, identifier in zip(report.shapes, ids))
     return replace(report, shapes=shapes, database=replace(report.database, shapes=shapes))
 
 
-def with_labeling(report, name, labels, parents=None):
-    """The report with a further labeling, which may have a hierarchy."""
+def with_labeling(report, name, labels):
+    """The report with a further labeling."""
     shapes = tuple(
         replace(shape, labels={**shape.labels, name: label}) for shape, label in zip(report.shapes, labels)
     )
-    database = replace(
-        report.database,
-        shapes=shapes,
-        labelings=(*report.database.labelings, name),
-        parents={name: parents} if parents else {},
-    )
+    database = replace(report.database, shapes=shapes, labelings=(*report.database.labelings, name))
     return replace(report, shapes=shapes, database=database)
 
 
@@ -95,43 +81,43 @@ class TestFields:
         assert first["of"] == [1, 1, 1, 0, 0, 0, -1, -1, -1]
 
     def test_a_column_of_few_values_makes_groups(self) -> None:
-        report = with_columns(make_report(["a"], 4), place=["Delft", "Kyoto", "", "Delft"])
+        report = with_columns(make_report(["a"], 4), {"place": ["Delft", "Kyoto", "", "Delft"]})
         found = field(report, "column:place")
         assert (found["names"], found["of"], found["numbers"]) == (["Delft", "Kyoto"], [0, 1, -1, 0], None)
 
     def test_a_column_that_names_every_shape_does_not(self) -> None:
-        report = with_columns(make_report(["a"], 6), inventory=[f"K-{row}" for row in range(6)])
+        report = with_columns(make_report(["a"], 6), {"inventory": [f"K-{row}" for row in range(6)]})
         assert field(report, "column:inventory") is None
 
     def test_nor_does_a_column_that_says_the_same_of_all(self) -> None:
-        report = with_columns(make_report(["a"], 4), licence=["CC0"] * 4)
+        report = with_columns(make_report(["a"], 4), {"licence": ["CC0"] * 4})
         assert field(report, "column:licence") is None
 
     def test_a_column_that_only_some_shapes_have_tells_them_apart(self) -> None:
-        report = with_columns(make_report(["a"], 4), restored=["yes", "", "", "yes"])
+        report = with_columns(make_report(["a"], 4), {"restored": ["yes", "", "", "yes"]})
         assert field(report, "column:restored")["of"] == [0, -1, -1, 0]
 
     def test_a_column_of_numbers_is_a_range(self) -> None:
         years = [str(1500 + 7 * row) for row in range(12)]
-        found = field(with_columns(make_report(["a"], 12), year=[*years[:-1], ""]), "column:year")
+        found = field(with_columns(make_report(["a"], 12), {"year": [*years[:-1], ""]}), "column:year")
         assert found["numbers"] == [*(float(year) for year in years[:-1]), None]
         assert found["names"] is None
         assert found["edges"][0] <= 1500
         assert found["edges"][-1] >= 1570
 
     def test_a_column_of_few_numbers_is_ticked_in_their_order(self) -> None:
-        found = field(with_columns(make_report(["a"], 6), floor=["10", "2", "-1"] * 2), "column:floor")
+        found = field(with_columns(make_report(["a"], 6), {"floor": ["10", "2", "-1"] * 2}), "column:floor")
         assert (found["names"], found["edges"]) == (["-1", "2", "10"], None)
 
     @pytest.mark.parametrize("value", ["1e999", "nan", "inf", "1_000", "12 cm", "٣"])
     def test_what_is_no_plain_number_makes_a_column_of_text(self, value) -> None:
-        found = field(with_columns(make_report(["a"], 4), size=["1", "1", value, value]), "column:size")
+        found = field(with_columns(make_report(["a"], 4), {"size": ["1", "1", value, value]}), "column:size")
         assert found["numbers"] is None
         assert value in found["names"]
 
     def test_a_labeling_that_repeats_a_column_stands_once(self) -> None:
         places = ["x", "y", "x", "y"]
-        report = with_labeling(with_columns(make_report(["a"], 4), place=places), "place", places)
+        report = with_labeling(with_columns(make_report(["a"], 4), {"place": places}), "place", places)
         assert [found["key"] for found in describe_fields(report) if found["title"] == "place"] == [
             "label:place"
         ]
@@ -171,7 +157,7 @@ class TestEdges:
     @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=9, max_size=20, unique=True))
     def test_they_rise_are_few_and_hold_every_number(self, values) -> None:
         texts = [repr(value) for value in values]
-        report = with_columns(make_report(["a"], 20), size=texts + [""] * (20 - len(texts)))
+        report = with_columns(make_report(["a"], 20), {"size": texts + [""] * (20 - len(texts))})
         found = field(report, "column:size")
         numbers = [number for number in found["numbers"] if number is not None]
         if found["edges"] is None:
@@ -183,13 +169,13 @@ class TestEdges:
         assert max(numbers) <= edges[-1]
 
     def test_a_wide_range_is_cut_by_factors(self) -> None:
-        report = with_columns(make_report(["a"], 10), size=[str(10.0**power) for power in range(-3, 7)])
+        report = with_columns(make_report(["a"], 10), {"size": [str(10.0**power) for power in range(-3, 7)]})
         edges = field(report, "column:size")["edges"]
         assert (edges[0], edges[-1]) == (0.001, 1e6)
         assert max(right / left for left, right in pairwise(edges)) < 10
 
     def test_years_are_cut_at_round_years(self) -> None:
-        report = with_columns(make_report(["a"], 40), year=[str(1501 + 11 * row) for row in range(40)])
+        report = with_columns(make_report(["a"], 40), {"year": [str(1501 + 11 * row) for row in range(40)]})
         assert field(report, "column:year")["edges"] == [float(year) for year in range(1500, 1941, 20)]
 
 
@@ -201,26 +187,24 @@ class TestTrees:
 
     def test_parents_of_a_classification_stand_above_its_classes(self) -> None:
         report = make_report(["dog", "eagle", "car"], 2)
-        parents = {"folder": {"dog": "animal", "eagle": "bird", "bird": "animal"}}
-        report = replace(report, database=replace(report.database, parents=parents))
+        report = with_parents(report, {"dog": "animal", "eagle": "bird", "bird": "animal"})
         found = trees(report)
         assert ways(found["label:folder"])[::2] == [("animal", "dog"), ("animal", "bird", "eagle"), ("car",)]
         assert "folders" not in found
 
     def test_coarser_levels_of_a_classification_are_no_trees_of_their_own(self) -> None:
         report = make_report(["dog", "eagle", "car"], 2)
-        parents = {"folder": {"dog": "animal", "eagle": "animal"}}
         report = with_labeling(report, "level 1", ["animal"] * 4 + ["car"] * 2)
-        report = replace(report, database=replace(report.database, parents=parents))
+        report = with_parents(report, {"dog": "animal", "eagle": "animal"})
         assert list(trees(report)) == ["label:folder"]
 
     def test_a_path_in_a_column_is_one(self) -> None:
-        report = with_columns(make_report(["a"], 6), kind=["animal > dog", "animal > bird", "car"] * 2)
+        report = with_columns(make_report(["a"], 6), {"kind": ["animal > dog", "animal > bird", "car"] * 2})
         tree = trees(report)["column:kind"]
         assert ways(tree)[:3] == [("animal", "dog"), ("animal", "bird"), ("car",)]
 
     def test_a_stroke_in_a_name_makes_no_tree(self) -> None:
-        report = with_columns(make_report(["a"], 4), pair=["his/hers", "black/white"] * 2)
+        report = with_columns(make_report(["a"], 4), {"pair": ["his/hers", "black/white"] * 2})
         assert "column:pair" not in trees(report)
 
     def test_folders_are_one_where_they_say_more_than_the_classes(self) -> None:
@@ -244,7 +228,7 @@ class TestTrees:
 
     def test_parents_in_a_circle_end(self) -> None:
         report = make_report(["a", "b"], 2)
-        report = replace(report, database=replace(report.database, parents={"folder": {"a": "b", "b": "a"}}))
+        report = with_parents(report, {"a": "b", "b": "a"})
         assert ways(trees(report)["label:folder"])[0][-1] == "a"
 
 
