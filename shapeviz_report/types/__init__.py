@@ -20,7 +20,6 @@ from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
 from shapeviz_report.types.mesh import Mesh, ShapeFacts
-from shapeviz_report.types.publication import Accent, Licence, Logo, Publication
 from shapeviz_report.types.report import Report
 from shapeviz_report.types.retrieval import Rating, Retrieval
 from shapeviz_report.types.search import (
@@ -35,7 +34,6 @@ from shapeviz_report.types.search import (
 )
 
 __all__ = [
-    "Accent",
     "BinScores",
     "BinSearch",
     "BinSelection",
@@ -54,14 +52,11 @@ __all__ = [
     "HeldOutBins",
     "HeldOutFold",
     "IntArray",
-    "Licence",
-    "Logo",
     "Mesh",
     "MinimalBins",
     "MinimalSet",
     "Painting",
     "Projection",
-    "Publication",
     "Quality",
     "Rating",
     "Report",
