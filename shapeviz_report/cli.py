@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from tqdm import tqdm
 
 from shapeviz_report import __version__
-from shapeviz_report.config import FILE_NAME, Config, load_config
+from shapeviz_report.config import FILE_NAME, PUBLICATION, Config, load_config
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.types import Database, Failure, Report
 
@@ -123,7 +123,7 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument(
         "--list", action="store_true", help="print the id of every shape, in order, and no more"
     )
-    _add_options(check, ["layout", "labeling", "external", "bins", "time_limit", "jobs", "cache"])
+    _add_options(check, ["layout", "labeling", "external", "bins", *PUBLICATION, "time_limit", "jobs", "cache"])
     check.set_defaults(command=_check)
 
     query = commands.add_parser(
@@ -335,6 +335,8 @@ def _print_summary(report: Report, destination: Path) -> None:
     _print_failures(report.failures[:10])
     if len(report.failures) > 10:
         print(f"  ... and {len(report.failures) - 10} more: see the About page")
+    for warning in report.database.warnings:
+        print(f"\nNote: {_one_line(warning)}")
     page = destination if destination.is_file() else destination / "index.html"
     print(f"\nThe site is ready. Open {page.absolute()}")
 

@@ -16,6 +16,10 @@ FILE_NAME = "shapeviz.toml"
 """The options' file; it lies in the database's folder."""
 
 PRESETS = ("default", "paper")
+PUBLICATION = (
+    "title", "description", "introduction", "creator", "licence", "citation", "url", "logo", "accent",
+)  # fmt: skip
+"""Options that say how the site presents itself; no figure depends on them."""
 SEARCHES = ("tsne", "umap", "none")
 
 
@@ -34,6 +38,28 @@ class Config:
     """
 
     title: str | None = _option(None, "title of the site; by default the name of the database", "TEXT")
+    description: str | None = _option(
+        None, "a sentence or two on the database, for search engines and previews of links", "TEXT"
+    )
+    introduction: Path | None = _option(None, "what readers should know first, from a Markdown FILE", "FILE")
+    creator: str | None = _option(None, "who made the database", "NAME")
+    licence: str | None = _option(
+        None,
+        "what readers may do with the shapes: an SPDX identifier such as CC-BY-4.0, an address, or words",
+        "TEXT",
+    )
+    citation: str | None = _option(None, "how to cite the database: a reference, or a BibTeX entry", "TEXT")
+    url: str | None = _option(
+        None,
+        "where the site will be, such as https://example.org/shapes/; previews of links need it",
+        "ADDRESS",
+    )
+    logo: Path | None = _option(None, "a picture beside the title: SVG, PNG or WebP", "FILE")
+    accent: str | None = _option(
+        None,
+        "colour of links and marks, such as #1f5f99; darker or lighter where it could not be read",
+        "COLOUR",
+    )
     layout: str | None = _option(
         None, "how the database is laid out; recognised by itself by default", "NAME"
     )
@@ -119,7 +145,7 @@ class Config:
 
     def as_parameters(self) -> dict[str, object]:
         """The options that shape the result, as JSON values; not where and how fast it was computed."""
-        left_out = {"title", "single_file", "jobs", "scheduler", "cache", "time_limit"}
+        left_out = {"single_file", "jobs", *PUBLICATION, "scheduler", "cache", "time_limit"}
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
         return values | {
             "external": [path.name for path in self.external],

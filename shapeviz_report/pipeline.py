@@ -36,6 +36,7 @@ from shapeviz_report.features import (
 )
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.projections import PROJECTIONS, align, squared_distances
+from shapeviz_report.publication import licence_warning, read_publication
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
 from shapeviz_report.retrieval import query_classes, rate_chance
@@ -56,6 +57,7 @@ from shapeviz_report.types import (
     FloatArray,
     Painting,
     Projection,
+    Publication,
     Quality,
     Rating,
     Report,
@@ -183,9 +185,8 @@ def build_report(
     check_renderer()
     clock = Clock(progress or QuietProgress())
     with clock.stage("read"):
-        database = read_database(
-            database_path, layout=config.layout, labeling=config.labeling, name=config.title
-        )
+        publication = read_publication(config)
+        database = _read_database(database_path, config, publication)
         external = _load_external(config.external, len(database.shapes))
         blocks = (*BLOCKS, *(block for block, _ in external))
         bins = None if config.bins is None else read_bins(config.bins, blocks)
@@ -304,6 +305,7 @@ def build_report(
         paintings=paintings,
         models=models,
         clusters=clusters,
+        publication=publication,
     )
     with clock.stage("write"):
         write_site(report, destination, single_file=config.single_file)
@@ -326,7 +328,9 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
                     raise DatabaseError(f"The demo shape {task} cannot be made: {outcome.reason}.")
                 write_atomically(demo.shape_path(root, *task[:2]), outcome.value)
                 advance()
-    config = replace(config, title=config.title or "Demo shapes", up="z")
+    config = replace(
+        config, title=config.title or "Demo shapes", licence=config.licence or "CC0-1.0", up="z"
+    )
     return build_report(root, destination, config, progress)
 
 
@@ -334,9 +338,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
     """Read a database and every mesh of it, without building anything; what is found is kept in the cache."""
     clock = Clock(progress or QuietProgress())
     with clock.stage("read"):
-        database = read_database(
-            database_path, layout=config.layout, labeling=config.labeling, name=config.title
-        )
+        database = _read_database(database_path, config, read_publication(config))
         external = _load_external(config.external, len(database.shapes))
         if config.bins is not None:
             read_bins(config.bins, (*BLOCKS, *(block for block, _ in external)))
@@ -797,6 +799,13 @@ def _paint(
             stages.PAINT, shapes, lambda row: plan(row, tuple(place[c] for c in columns[row])), take, drop
         )
     return tuple(found[column, row] for column, rows in contrasts.items() for row in rows)
+
+
+def _read_database(path: Path, config: Config, publication: Publication) -> Database:
+    """The database, with what its owner should know before it is published."""
+    database = read_database(path, layout=config.layout, labeling=config.labeling, name=config.title)
+    warning = licence_warning(publication, database.shapes)
+    return database if warning is None else replace(database, warnings=(*database.warnings, warning))
 
 
 def _load_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:

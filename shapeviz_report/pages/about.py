@@ -7,6 +7,8 @@ from collections import Counter
 
 from shapeviz_report.features import PRESETS
 from shapeviz_report.pages.base import METHODS, PageContent, class_names
+from shapeviz_report.publication import has_licence, licence_warning
+from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
 from shapeviz_report.types import FeatureSearch, Report
 
 
@@ -23,7 +25,13 @@ class AboutPage:
             context={
                 "database": _database(report),
                 "failures": report.failures,
-                "warnings": report.database.warnings,
+                "warnings": [
+                    # What is said of the licence is for the owner; readers find it below "Use".
+                    warning
+                    for warning in report.database.warnings
+                    if warning != licence_warning(report.publication, report.database.shapes)
+                ],
+                **_use(report),
                 "projections": _projections(report),
                 "bins": next(iter(report.projections.values()))[0].bins,
                 "balanced": PRESETS[str(report.parameters["preset"])].balanced,
@@ -55,6 +63,18 @@ def _database(report: Report) -> dict[str, object]:
         "unlabelled": sum(label is None for label in report.labels),
         "labeling": report.labeling,
         "labelings": report.database.labelings,
+    }
+
+
+def _use(report: Report) -> dict[str, object]:
+    """Licence and citation."""
+    said = report.publication
+    entry = said.citation is not None and is_bibtex(said.citation)
+    return {
+        "licence": said.licence,
+        "own_licences": sum(has_licence(shape) for shape in report.shapes),
+        "citation": None if entry else said.citation,
+        "bibtex": bibtex_entry(report.database.name, said),
     }
 
 
@@ -139,6 +159,7 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
         ("summary.json", "counts, failures, quality of every projection, times, versions, parameters"),
         ("shapes.csv", "one row a shape: labels, metadata, facts, neighbourhood hit, hash"),
         ("features.npz", "the feature table, for numpy"),
+        ("catalogue.jsonld", "every shape for search engines and catalogues, as schema.org 3DModel"),
         *(
             (f"projection-{method}.csv", f"coordinates of the {METHODS[method].title} map")
             for method in report.projections

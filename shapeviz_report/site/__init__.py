@@ -22,8 +22,11 @@ from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.pages.bins import model_name, painting_name
 from shapeviz_report.pages.overview import thumbnail_name
+from shapeviz_report.site import preview
 from shapeviz_report.site.data_files import GENERATOR, data_files, json_text
 from shapeviz_report.site.joiner import join
+from shapeviz_report.site.linked_data import catalogue, dataset, describe
+from shapeviz_report.site.markdown import first_paragraph, render_markdown
 from shapeviz_report.site.resources import site_folder, templates_folder
 from shapeviz_report.site.single_file import (
     Inline,
@@ -34,7 +37,7 @@ from shapeviz_report.site.single_file import (
     split_large,
 )
 from shapeviz_report.site.swap import replaced_folder
-from shapeviz_report.types import Report
+from shapeviz_report.types import Accent, Report
 
 #: Nothing but the site's own files. ``file:`` stands beside ``'self'`` because a page opened by double-click has no
 #: origin that ``'self'`` could mean. Trusted Types, where a browser knows them, make it impossible that a script
@@ -68,6 +71,7 @@ STYLES = (
     "shape.css",
     "compare.css",
     "about.css",
+    "publication.css",
 )
 
 
@@ -150,8 +154,8 @@ def _files(report: Report) -> dict[str, bytes]:
     contents = _contents(report)
     assets = {
         **{name: text.encode() for name, text in _scripts().items()},
-        **_other_assets(),
-        "style.css": _style().encode(),
+        **_other_assets(report),
+        "style.css": _style(report).encode(),
         **{f"chunk-{name}.js": _handing_over(name, *packed) for name, packed in _chunks(contents).items()},
     }
     # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
@@ -170,6 +174,7 @@ def _files(report: Report) -> dict[str, bytes]:
         **{page.file: _encode(text) for page, text in _pages(environment, report, contents)},
         **{f"assets/{name}": content for name, content in assets.items()},
         **_pictures(report),
+        "preview.png": preview.draw_preview(report),
         **{
             f"models/{model_name(model)}.js": _handing_over(f"model-{model_name(model)}", "bytes", model)
             for model in report.models or ()
@@ -184,14 +189,14 @@ def _whole(report: Report) -> bytes:
     contents = _contents(report)
     scripts = _scripts()
     inline = Inline(
-        _style(),
+        _style(report),
         (
             scripts.pop("first.js"),
             *(handed_over(f"assets/{name}", text) for name, text in scripts.items()),
             join(site_folder() / "scripts" / "single-file.js"),
         ),
     )
-    assets = {f"assets/{name}": content for name, content in _other_assets().items()}
+    assets = {f"assets/{name}": content for name, content in _other_assets(report).items()}
     data, left_out = split_large(_data(report), MOST_EMBEDDED)
     environment = _environment(single_file=True, left_out=left_out)
     environment.globals["asset"] = "assets/".__add__
@@ -244,9 +249,9 @@ def _pictures(report: Report) -> dict[str, bytes]:
 
 
 def _data(report: Report) -> dict[str, bytes]:
-    return {
-        f"data/{name}": content for name, content in data_files(report, version("shapeviz-report")).items()
-    }
+    files = data_files(report, version("shapeviz-report"))
+    files["catalogue.jsonld"] = catalogue(report, describe(report))
+    return {f"data/{name}": content for name, content in files.items()}
 
 
 def _environment(*, single_file: bool = False, left_out: Sequence[str] = ()) -> jinja2.Environment:
@@ -257,13 +262,22 @@ def _environment(*, single_file: bool = False, left_out: Sequence[str] = ()) -> 
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["markdown"] = render_markdown
     environment.globals["single_file"] = single_file
     environment.globals["left_out"] = left_out
     return environment
 
 
 def _site_context(report: Report) -> dict[str, object]:
+    said = report.publication
+    description = describe(report)
     return {
+        "publication": said,
+        "description": description,
+        "lead": said.description or first_paragraph(said.introduction or ""),
+        "dataset": Markup(json_text(dataset(report, description)).replace("<", "\\u003c")),
+        "preview_size": (preview.WIDTH, preview.HEIGHT),
+        "logo": None if said.logo is None else f"logo{said.logo.suffix}",
         "title": report.database.name,
         "shapes": len(report.shapes),
         "classes": len(class_names(report)),
@@ -272,8 +286,21 @@ def _site_context(report: Report) -> dict[str, object]:
     }
 
 
-def _style() -> str:
-    return "\n".join((site_folder() / "styles" / name).read_text(encoding="utf-8") for name in STYLES)
+def _style(report: Report) -> str:
+    sheets = [(site_folder() / "styles" / name).read_text(encoding="utf-8") for name in STYLES]
+    accent = report.publication.accent
+    return "\n".join(sheets if accent is None else [*sheets, _accent_style(accent)])
+
+
+def _accent_style(accent: Accent) -> str:
+    """The rules of ``tokens.css`` for the accent colour again, and after them."""
+    return (
+        f":root {{ --accent: {accent.light}; }}\n"
+        "@media (prefers-color-scheme: dark) {\n"
+        f'  :root:not([data-theme="light"]) {{ --accent: {accent.dark}; }}\n'
+        "}\n"
+        f':root[data-theme="dark"] {{ --accent: {accent.dark}; }}\n'
+    )
 
 
 def _scripts() -> dict[str, str]:
@@ -291,11 +318,13 @@ def _scripts() -> dict[str, str]:
     return scripts
 
 
-def _other_assets() -> dict[str, bytes]:
+def _other_assets(report: Report) -> dict[str, bytes]:
     source = site_folder()
+    logo = report.publication.logo
     return {
         "icon.svg": (source / "icon.svg").read_bytes(),
         "vega-licenses.txt": (source / "vendor" / "LICENSES.txt").read_bytes(),
+        **({} if logo is None else {f"logo{logo.suffix}": logo.content}),
     }
 
 

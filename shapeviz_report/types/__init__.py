@@ -20,6 +20,7 @@ from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
 from shapeviz_report.types.mesh import Mesh, ShapeFacts
+from shapeviz_report.types.publication import Accent, Licence, Logo, Publication
 from shapeviz_report.types.report import Report
 from shapeviz_report.types.retrieval import Rating, Retrieval
 from shapeviz_report.types.search import (
@@ -34,6 +35,7 @@ from shapeviz_report.types.search import (
 )
 
 __all__ = [
+    "Accent",
     "BinScores",
     "BinSearch",
     "BinSelection",
@@ -52,11 +54,14 @@ __all__ = [
     "HeldOutBins",
     "HeldOutFold",
     "IntArray",
+    "Licence",
+    "Logo",
     "Mesh",
     "MinimalBins",
     "MinimalSet",
     "Painting",
     "Projection",
+    "Publication",
     "Quality",
     "Rating",
     "Report",

@@ -13,6 +13,7 @@ from shapeviz_report.types.features import FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
 from shapeviz_report.types.mesh import ShapeFacts
 from shapeviz_report.types.retrieval import Retrieval
+from shapeviz_report.types.publication import Publication
 from shapeviz_report.types.search import FeatureSearch
 
 
@@ -57,6 +58,8 @@ class Report:
         left out.
     clusters : Clusters or None
         None where there are too few shapes.
+    publication : Publication
+        What the owner says of the database.
     """
 
     database: Database
@@ -80,3 +83,4 @@ class Report:
     paintings: tuple[Painting, ...] = ()
     models: tuple[bytes, ...] | None = None
     clusters: Clusters | None = None
+    publication: Publication = Publication()

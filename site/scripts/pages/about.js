@@ -1,9 +1,11 @@
 // The About page is plain HTML; scripts serve the theme button, and the search among the meshes.
 
 import { carryAddress } from "../carry.js";
+import { watchCopying } from "../copying.js";
 import { watchTheme } from "../theme.js";
 
 watchTheme(() => {});
+watchCopying();
 carryAddress();
 
 const meshes = document.getElementById("meshes");

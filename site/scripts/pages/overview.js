@@ -9,6 +9,7 @@ import { Detail } from "../detail.js";
 import { calm, element } from "../dom.js";
 import { FeatureChoice, subsetMethod } from "../feature-choice.js";
 import { Gestures } from "../gestures.js";
+import { watchIntroduction } from "../introduction.js";
 import { MapView } from "../map.js";
 import { mapTables } from "../map-tables.js";
 import { Model } from "../model.js";
@@ -62,6 +63,7 @@ async function main() {
   carrySelection(model, state);
   watchTables(() => mapTables(model, state));
   if (model.data.subsets) new FeatureChoice(model, state);
+  watchIntroduction();
   watchControls(model, state, scene, gestures);
   watchKeys(state, gestures);
 
