@@ -142,13 +142,19 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="session")
-def site(tmp_path_factory) -> Callable[[str], Path]:
+def reports() -> Callable[[str], Report]:
+    """The report of a site of ``SITES``, made when first asked for."""
+    return functools.cache(lambda name: SITES[name]())
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory, reports) -> Callable[[str], Path]:
     """The folder of a site of ``SITES``, written when first asked for."""
 
     @functools.cache
     def folder(name: str) -> Path:
         destination = tmp_path_factory.mktemp("sites") / name.replace(" ", "-")
-        write_site(SITES[name](), destination)
+        write_site(reports(name), destination)
         return destination
 
     return folder

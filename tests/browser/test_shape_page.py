@@ -1,15 +1,19 @@
 """The page of one shape as a reader uses it: from file://, with real features and real 3D."""
 
+import io
 from dataclasses import replace
 from pathlib import Path
+from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
+from PIL import Image
 from reports import make_report, with_external
 from similar_cases import similar_cases
+from waiting import drawn_again, eventually
 
 from shapeviz_report.features import PRESETS
-from shapeviz_report.similarity import typical_distance
+from shapeviz_report.similarity import rank_similar, typical_distance
 from shapeviz_report.site import write_site
 from shapeviz_report.site.joiner import join
 
@@ -47,3 +51,381 @@ def test_similar_shapes_are_those_of_python(preset, browser, tmp_path):
             typical_distance(report.features, PRESETS[preset], features=case["features"], bins=case["bins"]),
             rel=1e-3,
         )
+
+
+@pytest.fixture
+def shape(open_page):
+    """Open the page of a shape and wait for its features."""
+
+    def open_(name="bins", hash_="#id=class001/0003", **options):
+        page = open_page(name, f"shape.html{hash_}", **options)
+        return featured(page)
+
+    return open_
+
+
+def featured(page):
+    """Wait until the features are there, as they are for a reader who scrolls to them."""
+    page.locator("#by-features").scroll_into_view_if_needed()
+    eventually(page, lambda: page.locator("#by-features[aria-busy]").count() == 0)
+    page.evaluate("scrollTo(0, 0)")
+    drawn_again(page)
+    return page
+
+
+def title(page) -> str:
+    return page.locator("#name").inner_text()
+
+
+def address(page) -> dict[str, list[str]]:
+    return parse_qs(page.evaluate("location.hash.slice(1)"), keep_blank_values=True)
+
+
+def pressed(page) -> list[str]:
+    return page.locator(".compared[aria-pressed=true]").all_inner_texts()
+
+
+def similar(page) -> list[str]:
+    return page.locator(".similar .name").all_inner_texts()
+
+
+def test_a_shape_is_told_whole(shape, tmp_path):
+    metadata = {
+        "artist": "N. N.",
+        "licence": "CC BY 4.0",
+        "own page": "javascript:alert(1)",
+        "source": "https://example.org/shapes?of=birds&all",
+    }
+    write_site(make_report(["ant", "bird"], metadata=metadata), tmp_path / "site")
+    page = shape(address=f"{(tmp_path / 'site').as_uri()}/shape.html#id=class001/0003")
+    assert title(page) == "bird 3"
+    assert page.title() == "bird 3 · Test shapes"
+    assert page.locator("#of-class").inner_text() == "bird"
+    # Whose it is and what may be done with it stand first.
+    sections = page.locator(".facts section")
+    assert sections.nth(0).locator("h2").inner_text() == "Licence and source"
+    assert sections.nth(0).locator("dt").all_inner_texts() == ["licence", "source"]
+    link = sections.nth(0).locator("a")
+    assert link.get_attribute("href") == "https://example.org/shapes?of=birds&all"
+    assert "noopener" in link.get_attribute("rel")
+    facts = page.locator(".facts").inner_text()
+    for words in (
+        "1\u2009011 faces, 502 vertices",
+        "1 × 2 × 11.5",
+        "0.120 % of its diagonal",
+        "watertight\nyes",
+    ):
+        assert words in facts
+    # Not everything that looks like an address is one.
+    assert page.locator(".facts a").count() == 1
+    assert "javascript:alert(1)" in facts
+
+
+def test_neighbours_and_hit_are_those_of_the_map(shape, reports):
+    page = shape()
+    projection, hits = reports("bins").projections["tsne"]
+    assert f"{hits.nh[11]:.3f}" in page.locator("#nh").inner_text()
+    distances = np.linalg.norm(projection.xy - projection.xy[11], axis=1)
+    nearest = [reports("bins").shapes[row].id for row in np.argsort(distances)[1 : hits.k + 1]]
+    links = page.locator("#neighbours a")
+    assert [parse_qs(link.get_attribute("href").split("#")[1])["id"][0] for link in links.all()] == nearest
+    page.locator("#maps input").nth(1).check(force=True)
+    assert address(page)["map"] == ["umap"]
+    assert f"{reports('bins').projections['umap'][1].nh[11]:.3f}" in page.locator("#nh").inner_text()
+    # Links keep the map.
+    assert "map=umap" in links.first.get_attribute("href")
+    page.locator("#neighbours-key a").click()
+    page.wait_for_selector("html[data-ready]", state="attached")
+    assert page.locator("#methods input:checked").get_attribute("value") == "umap"
+    assert page.locator("#detail h2").inner_text() == "bird 3"
+    page.locator("#detail a", has_text="All about this shape").click()
+    eventually(page, lambda: page.locator("#name").count() == 1 and title(page) == "bird 3")
+    assert page.locator("#maps input").nth(1).is_checked()
+
+
+def test_one_goes_from_shape_to_shape_and_back(shape):
+    page = shape()
+    assert page.locator("#turn-over .quiet").inner_text() == "4 of 8 in bird"
+    page.locator("#turn-over [rel=next]").click()
+    assert title(page) == "bird 4"
+    for _ in range(4):
+        page.locator("#turn-over [rel=next]").click()
+    # The first follows the last.
+    assert title(page) == "bird 0"
+    page.locator("#turn-over [rel=prev]").click()
+    assert title(page) == "bird 7"
+    page.fill("#shape-search", "cup 2")
+    page.press("#shape-search", "Enter")
+    assert title(page) == "cup 2"
+    assert page.title().startswith("cup 2")
+    page.locator(".similar a.shape").nth(3).click()
+    assert page.locator(".similar .name").count() == 12
+    assert page.evaluate("scrollY") == 0
+    page.go_back()
+    eventually(page, lambda: title(page) == "cup 2")
+    page.go_back()
+    eventually(page, lambda: title(page) == "bird 7")
+    page.locator("#way-back a").click()
+    page.wait_for_selector("html[data-ready]", state="attached")
+    assert address(page)["at"] == ["class001/0007"]
+
+
+def test_similar_under_any_choice(shape, reports):
+    page = shape()
+    table = reports("bins").features
+    preset = PRESETS["default"]
+    names = {row: entry.name for row, entry in enumerate(reports("bins").shapes)}
+
+    def expected(**choice):
+        found = rank_similar(table, preset, table.values[11], member=11, count=12, **choice)
+        return [names[other.row] for other in found]
+
+    assert pressed(page) == ["All 3 features"]
+    assert similar(page) == expected()
+    chips = page.locator(".compared")
+    chips.nth(1).click()
+    assert pressed(page) == ["Gc"]
+    assert similar(page) == expected(features=["Gc"])
+    chips.nth(3).click()
+    assert address(page)["features"] == ["Gc own"]
+    assert similar(page) == expected(features=["Gc", "own"])
+    chips.nth(4).click()
+    chosen = reports("bins").bins.automatic.bins
+    assert pressed(page) == [f"{len(chosen)} selected bins"]
+    assert similar(page) == expected(bins=chosen)
+    assert "features" not in address(page)
+    again = shape(hash_=page.evaluate("location.hash"))
+    assert similar(again) == similar(page)
+    again.goto(again.url.split("#")[0] + "#id=class001/0003&bins=Gc:3+Sc[1]:10")
+    eventually(again, lambda: similar(again) == expected(bins=["Gc:3", "Sc[1]:10"]))
+    assert "Compared by Gc:3, Sc[1]:10." in again.locator("#similar-words").inner_text()
+    assert pressed(again) == []
+    chips = again.locator(".compared")
+    chips.nth(0).focus()
+    again.keyboard.press("Enter")
+    assert similar(again) == expected()
+    # More of them, and the focus goes on to the first new one.
+    again.click("#similar-more")
+    assert again.locator(".similar").count() == 24
+    assert again.evaluate(
+        "document.activeElement.closest('.similar') === document.querySelectorAll('.similar')[12]"
+    )
+
+
+def test_reasons_and_ways_to_go_on(shape, reports):
+    page = shape()
+    table = reports("bins").features
+    found = rank_similar(table, PRESETS["default"], table.values[11], member=11, count=12)
+    labels = reports("bins").labels
+    cards = page.locator(".similar")
+    for card, other in zip(cards.all(), found, strict=True):
+        assert f"distance {other.distance:.3f}" in card.inner_text()
+        order = np.argsort(-other.closer, kind="stable")
+        words = card.locator(".why").inner_text()
+        assert words.startswith(f"Alike in {table.blocks[order[0]].name} ")
+        assert f"least in {table.blocks[order[-1]].name} " in words
+        heights = [
+            bar.evaluate("node => parseFloat(node.style.height)") for bar in card.locator(".alike i").all()
+        ]
+        assert heights == pytest.approx(100 * other.closer, abs=4)
+        assert card.locator("a", has_text="Compare").count() == (labels[other.row] != "bird")
+    assert (
+        f"{sum(labels[other.row] == 'bird' for other in found)} of these 12"
+        in page.locator("#similar-words").inner_text()
+    )
+    stranger = next(other.row for other in found if labels[other.row] != "bird")
+    href = page.locator(".similar a", has_text="Compare").first.get_attribute("href")
+    assert parse_qs(href.split("#")[1]) == {"a": ["class:bird"], "b": [f"class:{labels[stranger]}"]}
+    page.click("#similar-on-map")
+    page.wait_for_selector("html[data-ready]", state="attached")
+    assert page.locator("#tray h2").inner_text() == "13 shapes selected"
+
+
+def test_histograms_against_class_and_all(shape, reports):
+    page = shape()
+    report = reports("bins")
+    panels = page.locator(".histogram")
+    assert panels.locator("h3 bdi").all_inner_texts() == ["Gaussian curvature", "Shape context", "own"]
+    column = report.features.columns.index("Gc:3")
+    bar = page.locator(f"#histograms button[data-column='{column}']")
+    shares = report.features.values[:, column]
+    fellows = [row for row, label in enumerate(report.labels) if label == "bird" and row != 11]
+    low, high = (f"{100 * value:.1f} %" for value in np.quantile(shares[fellows], [0.25, 0.75]))
+    assert f"this shape {100 * shares[11]:.1f} %" in bar.get_attribute("aria-label")
+    assert f"others of its class {low} to {high}" in bar.get_attribute("aria-label")
+    # The bars stand in the ratio of the shares.
+    heights = [
+        float(
+            page.locator(f"#histograms button[data-column='{other}'] .own").evaluate(
+                "node => node.offsetHeight"
+            )
+        )
+        for other in range(10)
+    ]
+    assert np.corrcoef(heights, report.features.values[11, :10])[0, 1] > 0.999
+    bar.scroll_into_view_if_needed()
+    bar.hover()
+    card = page.locator(".value-card")
+    assert "What share of the surface lies where" in card.inner_text()
+    more = (shares < shares[11]).sum() / (len(shares) - 1)
+    assert f"{round(100 * more)}\u00a0% of all" in card.inner_text()
+    # By keyboard: one stop a feature, arrows within.
+    page.mouse.move(2, 2)
+    page.locator("#histograms button[data-column='0']").focus()
+    page.keyboard.press("End")
+    assert page.evaluate("document.activeElement.dataset.column") == "9"
+    assert "Gc:10" in card.inner_text()
+    page.keyboard.press("Home")
+    assert page.evaluate("document.activeElement.dataset.column") == "0"
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.tagName") == "SELECT"
+
+
+def test_a_feature_of_parts_opens_where_the_shape_stands_out(shape, reports):
+    page = shape()
+    table = reports("bins").features
+    values = np.sqrt(table.values[:, table.slice_of("Sc")]).reshape(-1, 2, 10)
+    unusual = ((values[11] - values.mean(axis=0)) ** 2).sum(axis=1).argmax()
+    choice = page.locator(".histogram").nth(1).locator("select")
+    assert choice.input_value() == str(unusual)
+    other = 1 - int(unusual)
+    choice.select_option(str(other))
+    assert address(page)["parts"] == [f"Sc[{other}]"]
+    first = table.slice_of("Sc").start + 10 * other
+    assert page.locator(f"#histograms button[data-column='{first}']").count() == 1
+    assert page.evaluate("document.activeElement.tagName") == "SELECT"
+    again = shape(hash_=page.evaluate("location.hash"))
+    assert again.locator(".histogram").nth(1).locator("select").input_value() == str(other)
+
+
+def test_a_bar_colours_the_shape(shape):
+    page = shape()
+    assert not [url for url in page.watch.requests if "/models/" in url]
+    page.click("#show-3d")
+    eventually(page, lambda: page.locator("#stage canvas").count() == 1)
+    drawn_again(page)
+    plain = seen(page)
+    page.locator("#histograms button[data-column='2']").click()
+    assert address(page)["bin"] == ["Gc:3"]
+    eventually(page, lambda: "Gc:3" in page.locator("#stage canvas").get_attribute("aria-label"))
+    drawn_again(page)
+    colours = seen(page)
+    assert (np.abs(colours - plain).max(axis=2) > 12).mean() > 0.1
+    assert page.locator("#legend .ten .own").count() == 1
+    assert page.locator("#painted b").inner_text() == "Gc:3"
+    # A link brings it back, at once in 3D.
+    again = shape(hash_=page.evaluate("location.hash"))
+    eventually(again, lambda: again.locator("#stage canvas").count() == 1)
+    page.click("text=Find shapes with as much of it")
+    assert address(page)["bins"] == ["Gc:3"]
+    page.click("text=Plain again")
+    eventually(page, lambda: "Gc:3" not in page.locator("#stage canvas").get_attribute("aria-label"))
+    drawn_again(page)
+    assert (np.abs(seen(page) - plain).max(axis=2) > 12).mean() < 0.01
+    # What was brought along has no values on the surface.
+    page.locator("#histograms .value-strip button").click()
+    assert page.locator("#stage .empty").inner_text() == "This feature has no values on the surface."
+    page.locator("#painted a").click()
+    page.wait_for_selector("html[data-ready]", state="attached")
+    assert address(page)["bin"] == ["own[0]"] or "own" in address(page)["bin"][0]
+
+
+def test_a_map_is_pointed_at_and_clicked(shape):
+    page = shape()
+    box = page.locator("#place-surface").bounding_box()
+    card = page.locator("body > .card:not(.value-card)")
+    for x in np.linspace(8, box["width"] - 8, 30):
+        for y in np.linspace(8, box["height"] - 8, 15):
+            page.mouse.move(box["x"] + x, box["y"] + y)
+            if card.is_visible() and "fish" in card.inner_text():
+                name = card.locator(".name").inner_text()
+                page.mouse.down()
+                page.mouse.up()
+                assert title(page) == name
+                page.go_back()
+                eventually(page, lambda: title(page) == "bird 3")
+                return
+    raise AssertionError("no fish is on the map")
+
+
+def test_an_unknown_shape_offers_others(open_page):
+    page = open_page("plain", "shape.html#id=<b>nix</b>")
+    assert title(page) == "No such shape"
+    assert "<b>nix</b>" in page.locator("#nowhere").inner_text()
+    assert page.locator("#known").is_hidden()
+    page.fill("#shape-search", "kind b 4")
+    page.press("#shape-search", "Enter")
+    assert title(page) == "kind b 4"
+    assert page.locator("#nowhere").is_hidden()
+    nameless = open_page("plain", "shape.html")
+    assert "The address names no shape." in nameless.locator("#nowhere").inner_text()
+    nameless.locator("#nowhere a").click()
+    nameless.wait_for_selector("html[data-ready]", state="attached")
+    assert nameless.url.endswith("shapes.html")
+
+
+def test_sites_of_all_kinds_have_their_words(shape):
+    one = shape("one shape", "#id=class000/0000")
+    assert one.locator(".surroundings").is_hidden()
+    assert one.locator("#similar").is_hidden()
+    assert one.locator("#turn-over").inner_text() == ""
+    assert one.locator("#stage .empty").inner_text().startswith("This site was built without 3D data")
+    assert one.locator(".bars .own").count() == 20
+    assert one.locator(".bars .all, .bars .fellows").count() == 0
+    unlabelled = shape("no labels", "#id=class001/0002")
+    assert unlabelled.locator("#turn-over .quiet").inner_text() == "15 of 24"
+    assert "class" not in unlabelled.locator("#similar-words").inner_text()
+    assert unlabelled.locator(".bars .fellows").count() == 0
+    nasty = shape("nasty", "#id=class006/0002")
+    assert title(nasty) == "עברית ימין 2"
+    assert nasty.locator("#of-class bdi").inner_text() == "עברית ימין"
+    features = shape("nasty features", "#id=class001/0002")
+    features.locator(".compared").nth(2).click()
+    assert address(features)["features"] == ["<b>50%20%25</b>%20&%20more"]
+    assert len(pressed(features)) == 1
+    # A site made of chosen bins compares these first.
+    chosen = shape("chosen bins", "#id=class001/0002")
+    assert pressed(chosen) == ["The 2 bins of the maps"]
+    chosen.locator(".compared").first.click()
+    assert len(pressed(chosen)) == 1
+    assert len(address(chosen)["features"][0].split()) == 4
+
+
+def test_a_shape_is_selected_and_stays_so(shape):
+    page = shape(hash_="#id=class001/0003&select=class000/0001")
+    choose = page.locator("#choose")
+    assert choose.inner_text() == "Select (1)"
+    choose.click()
+    assert address(page)["select"] == ["class000/0001", "class001/0003"]
+    page.locator("#turn-over [rel=next]").click()
+    assert choose.inner_text() == "Select (2)"
+    assert address(page)["select"] == ["class000/0001", "class001/0003"]
+    page.locator("#way-back a").click()
+    page.wait_for_selector("html[data-ready]", state="attached")
+    assert address(page)["select"] == ["class000/0001", "class001/0003"]
+
+
+def test_everything_stands_in_tables(shape):
+    page = shape()
+    page.click("#open-tables")
+    captions = page.locator("#tables caption").all_inner_texts()
+    assert "Shape" in captions
+    assert "Its 10 nearest neighbours on the t-SNE map" in captions
+    for caption, rows in (("Most similar", 12), ("Its features", 21)):
+        table = page.locator("#tables table", has=page.locator("caption", has_text=caption))
+        assert table.locator("tbody tr").count() == rows
+
+
+def test_on_a_phone(shape):
+    page = shape(viewport={"width": 390, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    bar = page.locator("#histograms button[data-column='4']")
+    bar.scroll_into_view_if_needed()
+    bar.click()
+    # The shape that is coloured comes into sight.
+    eventually(page, lambda: 0 <= page.locator("#stage").bounding_box()["y"] < 400)
+
+
+def seen(page) -> np.ndarray:
+    picture = Image.open(io.BytesIO(page.locator("#stage canvas").screenshot()))
+    return np.asarray(picture.convert("RGB"), dtype=float)[6:-6, 6:-6]

@@ -20,7 +20,7 @@ export class Legend {
     // The outer bins also take what lies beyond their edges, so these have no value to be told.
     const ticks = edges.slice(1, -1).map((edge, between) => element("span", { class: between === place || between === place - 1 ? "own" : null }, number(edge)));
     this.node.replaceChildren(
-      element("p", {}, `Colours: ${quantity}${unit === "" ? "" : `, in ${unit}`}`),
+      element("p", {}, `Colours: ${quantityInWords(quantity, unit)}`),
       element("div", { class: "ten", role: "img", "aria-label": `Ten colours from low to high; the bin is number ${place + 1}` }, swatches),
       element("div", { class: "ticks", "aria-hidden": "true" }, ticks),
     );
@@ -29,6 +29,12 @@ export class Legend {
   clear() {
     this.node.replaceChildren();
   }
+}
+
+/** What a descriptor measures, with its unit. Sentences go on from it, so that it may end with a comma. */
+export function quantityInWords(quantity, unit) {
+  const named = quantity.replace(/,$/, "");
+  return unit === "" ? named : `${named}, in ${unit}`;
 }
 
 function number(value) {

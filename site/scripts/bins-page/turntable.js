@@ -6,9 +6,9 @@ import { pageAddress } from "../place.js";
 import { Paint } from "../viewer/paint.js";
 import { Stage } from "../viewer/stage.js";
 import { watchBrush } from "./brush.js";
-import { Finder } from "./finder.js";
 import { dimensionOf, pictured, shapeLine } from "./look.js";
 import { Plot } from "./plot.js";
+import { findShapes } from "./shape-finder.js";
 
 export class Turntable {
   constructor(model, bins, selection, state, { pointing, announce }) {
@@ -79,15 +79,7 @@ export class Turntable {
     for (const end of ["most", "least"]) {
       document.getElementById(`${end}-of-it`).addEventListener("click", () => state.set({ shape: end }));
     }
-    const texts = model.ids.map((id, index) => `${id}\n${model.names[index]}\n${model.className(model.groups[index])}`.toLocaleLowerCase());
-    new Finder("shape", {
-      find: (text) => {
-        const words = text.toLocaleLowerCase().split(/\s+/);
-        return [...texts.keys()].filter((index) => words.every((word) => texts[index].includes(word)));
-      },
-      label: (index) => [element("bdi", {}, model.names[index]), " ", model.labelled && element("span", { class: "quiet" }, element("bdi", {}, model.className(model.groups[index])))].filter(Boolean),
-      choose: (shape) => state.set({ shape }),
-    });
+    findShapes(model, (shape) => state.set({ shape }));
   }
 
   /** The map of all shapes, on which one can be pointed at; large marks have much of the bin. */

@@ -10,13 +10,16 @@ import { goToShape, readShapeAddress, writeShapeAddress } from "../shape-page/ad
 import { Comparison } from "../shape-page/comparison.js";
 import { Heading } from "../shape-page/heading.js";
 import { Histograms } from "../shape-page/histograms.js";
+import { kind } from "../shape-page/kind.js";
 import { ShapeLinks } from "../shape-page/links.js";
 import { Portrait } from "../shape-page/portrait.js";
+import { shapeTables } from "../shape-page/shape-tables.js";
 import { SimilarShapes } from "../shape-page/similar-shapes.js";
 import { Spread } from "../shape-page/spread.js";
 import { Surroundings } from "../shape-page/surroundings.js";
 import { ValueCard } from "../shape-page/value-card.js";
 import { State } from "../state.js";
+import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
 import { grouped } from "../words.js";
 
@@ -35,10 +38,11 @@ async function main() {
     goToShape(model, state, shape);
   };
   const portrait = new Portrait(model, state, { models: page.dataset.models !== undefined });
+  const facts = new Facts(model, state);
   const views = [
     new Heading(model, state, { links, go, site: page.dataset.site }),
     portrait,
-    new Facts(model, state),
+    facts,
     new Surroundings(model, state, { links, pointing: new Pointing(model), go }),
   ];
   for (const view of views) view.render();
@@ -55,7 +59,14 @@ async function main() {
   });
   window.addEventListener("hashchange", () => state.set(readShapeAddress(model)));
   watchTheme(() => state.set({ theme: currentTheme() }));
-  whenSeen(document.getElementById("by-features"), () => showFeatures(model, state, { links, portrait }));
+  let byFeatures = { similar: null, histograms: null };
+  watchTables(() => shapeTables(model, state, { facts, ...byFeatures }));
+  const load = async () => {
+    byFeatures = await showFeatures(model, state, { links, portrait });
+  };
+  // A bin that the address names is to be seen at once.
+  if (state.get("bin") !== null) load();
+  else whenSeen(document.getElementById("by-features"), load);
   document.documentElement.dataset.ready = "";
 }
 
@@ -79,13 +90,14 @@ async function showFeatures(model, state, { links, portrait }) {
   const [data, bytes, selection] = await Promise.all(["workbench", "bins", "selection"].map(chunk));
   const bins = new Bins(data, bytes);
   const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, state);
-  const histograms = new Histograms(model, bins, state, { spread: new Spread(model, bins), dimensions: selection.dimensions, card: new ValueCard(bins) });
+  const histograms = new Histograms(model, bins, state, { spread: new Spread(model, bins), dimensions: selection.dimensions, card: new ValueCard(bins, kind(model)) });
   const similar = new SimilarShapes(model, bins, state, { links, comparison, similarity: new Similarity(bins) });
   waiting.hidden = true;
   section.removeAttribute("aria-busy");
   document.getElementById("featured").hidden = false;
   for (const view of [similar, histograms]) view.render();
   portrait.know(bins, selection, comparison);
+  return { similar, histograms };
 }
 
 main();

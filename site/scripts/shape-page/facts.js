@@ -13,6 +13,7 @@ export class Facts {
   constructor(model, state) {
     Object.assign(this, { model, state });
     this.node = document.getElementById("facts");
+    this.groups = [];
     state.listen((changed) => {
       if (changed.has("shape")) this.render();
     });
@@ -21,18 +22,21 @@ export class Facts {
   async render() {
     const shape = this.state.get("shape");
     if (shape === null) return;
-    const { labelings, shapes } = await chunk("details");
+    const [{ labelings, shapes }, clusters] = await Promise.all([chunk("details"), chunk("clusters")]);
     if (this.state.get("shape") !== shape) return;
-    this.node.replaceChildren(...factGroups(this.model, shape, labelings, shapes[shape]).map(({ title, rows, note }) => section(title, rows, note)));
+    this.groups = factGroups(this.model, shape, labelings, shapes[shape], clusters);
+    this.node.replaceChildren(...this.groups.map(({ title, rows, note }) => section(title, rows, note)));
   }
 }
 
-/** All facts of a shape: `{ title, rows: [[name, value]], note }` a group, the most telling first. */
-export function factGroups(model, shape, labelings, known) {
+/** All facts of a shape: `{ title, rows: [[name, value]], note }` a group, whose it is first. */
+function factGroups(model, shape, labelings, known, clusters) {
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
   const others = known.metadata.filter((pair) => rank(pair) < 0);
   const labels = labelings.map((labeling, place) => [labeling, known.labels[place]]).filter(([, label]) => label !== null && label !== undefined);
+  // Where clusters stand in for labels, the cluster stands below the name already.
+  if (clusters !== null && !clusters.standIn) labels.push(["cluster", clusters.clusters[clusters.of[shape]].name]);
   const [wide, high, deep] = known.extents.map(measured);
   return [
     { title: "Licence and source", rows: rights },

@@ -1,8 +1,7 @@
 // Which shape it is, the way back to all shapes, and those before and after it in its class.
 
-import { Finder } from "../bins-page/finder.js";
-import { classLine } from "../card.js";
-import { element } from "../dom.js";
+import { findShapes } from "../bins-page/shape-finder.js";
+import { element, swatch } from "../dom.js";
 import { pageAddress } from "../place.js";
 import { writeSelection } from "../selection.js";
 import { grouped } from "../words.js";
@@ -10,15 +9,9 @@ import { grouped } from "../words.js";
 export class Heading {
   constructor(model, state, { links, go, site }) {
     Object.assign(this, { model, state, links, site });
-    const texts = model.ids.map((id, index) => `${id}\n${model.names[index]}\n${model.className(model.groups[index])}`.toLocaleLowerCase());
-    new Finder("shape", {
-      find: (text) => {
-        const words = text.toLocaleLowerCase().split(/\s+/);
-        return [...texts.keys()].filter((index) => words.every((word) => texts[index].includes(word)));
-      },
-      label: (index) => [element("bdi", {}, model.names[index]), " ", model.labelled && element("span", { class: "quiet" }, element("bdi", {}, model.className(model.groups[index])))].filter(Boolean),
-      choose: go,
-    });
+    findShapes(model, go);
+    this.choose = document.getElementById("choose");
+    this.choose.addEventListener("click", () => this.#toggle());
     state.listen((changed) => {
       if (["shape", "unknown", "theme", "selection"].some((name) => changed.has(name))) this.render();
     });
@@ -30,8 +23,9 @@ export class Heading {
     const name = shape === null ? "No such shape" : model.names[shape];
     document.title = `${name} · ${this.site}`;
     document.getElementById("name").textContent = name;
-    document.getElementById("of-class").replaceChildren(...(shape !== null && model.labelled ? [classLine(model, model.groups[shape])] : []));
-    document.getElementById("way-back").replaceChildren(element("a", { href: this.#gallery() }, "All shapes"));
+    document.getElementById("of-class").replaceChildren(...(shape !== null && model.labelled ? this.#group(model.groups[shape]) : []));
+    document.getElementById("way-back").replaceChildren(element("a", { href: this.#gallery(), title: shape === null ? null : "The gallery, at this shape" }, "All shapes"));
+    this.#offerSelection(shape);
     document.getElementById("turn-over").replaceChildren(...(shape === null ? [] : this.#turnOver(shape)));
     document.getElementById("known").hidden = shape === null;
     const nowhere = document.getElementById("nowhere");
@@ -39,10 +33,32 @@ export class Heading {
     nowhere.replaceChildren(...(shape === null ? this.#nowhere(state.get("unknown")) : []));
   }
 
+  #group(group) {
+    const { model } = this;
+    return [swatch(model.symbol(group), model.color(group)), element("bdi", {}, model.className(group))];
+  }
+
   #gallery() {
     const query = new URLSearchParams();
     writeSelection(query, this.model, this.state.get("selection"));
+    if (this.state.get("shape") !== null) query.set("at", this.model.ids[this.state.get("shape")]);
     return pageAddress("shapes.html", query);
+  }
+
+  /** To collect this shape, as the gallery and the maps do. */
+  #offerSelection(shape) {
+    const selection = this.state.get("selection");
+    const chosen = selection.has(shape);
+    this.choose.hidden = shape === null;
+    this.choose.setAttribute("aria-pressed", String(chosen));
+    this.choose.textContent = selection.size === 0 ? "Select" : `${chosen ? "Selected" : "Select"} (${grouped(selection.size)})`;
+  }
+
+  #toggle() {
+    const selection = new Set(this.state.get("selection"));
+    const shape = this.state.get("shape");
+    if (!selection.delete(shape)) selection.add(shape);
+    this.state.set({ selection });
   }
 
   #nowhere(id) {

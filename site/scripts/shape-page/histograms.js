@@ -3,13 +3,17 @@
 import { joinNames } from "../address.js";
 import { axisEnd } from "../bin-bars.js";
 import { percent } from "../bin-card.js";
+import { quantityInWords } from "../bins-page/legend.js";
 import { dimensionOf } from "../bins-page/look.js";
 import { element } from "../dom.js";
 import { shortened } from "../words.js";
 import { hue } from "./hue.js";
+import { kind } from "./kind.js";
 import { whole } from "./similar-shapes.js";
 
 const LONGEST = 90;
+/** Below so much of the axis, half a class or database is a line. */
+const FLAT = 0.02;
 
 export class Histograms {
   /** `dimensions` are those of the chunk "selection": what each measures, and where its bins end. */
@@ -55,9 +59,21 @@ export class Histograms {
     return {
       own: told(this.bins.share(column, shape)),
       fellows: fellows && half(fellows),
-      all: half(all),
-      rank: whole(this.spread.rank(column, shape)),
+      all: this.model.count > 1 ? half(all) : null,
+      rank: this.model.count > 1 ? `${whole(this.spread.rank(column, shape))} of all` : null,
     };
+  }
+
+  /** What is in sight, bin by bin, for the tables: `[name, own, fellows, all]` each. */
+  rows() {
+    const shape = this.state.get("shape");
+    return this.bins.features.flatMap(({ start, bins: width }, feature) => {
+      const first = start + this.partOf(feature, shape) * width;
+      return Array.from({ length: width }, (_, place) => {
+        const { own, fellows, all } = this.tell(first + place, shape);
+        return [this.bins.names[first + place], own, fellows ?? "–", all ?? "–"];
+      });
+    });
   }
 
   #key(shape) {
@@ -70,8 +86,8 @@ export class Histograms {
     };
     return [
       element("span", {}, mark("own"), "this shape"),
-      group >= 0 && element("span", {}, mark("fellows", model.color(group)), "the middle half of the others in ", element("bdi", {}, shortened(model.className(group), 40))),
-      element("span", {}, mark("all"), "the middle half of all shapes"),
+      this.spread.fellows(0, shape) && element("span", {}, mark("fellows", model.color(group)), "the middle half of the others in ", element("bdi", {}, shortened(model.className(group), 40))),
+      model.count > 1 && element("span", {}, mark("all"), "the middle half of all shapes"),
     ].filter(Boolean);
   }
 
@@ -129,8 +145,8 @@ export class Histograms {
     const all = columns.map((column) => spread.all(column));
     const end = Math.min(axisEnd(Math.max(...own, ...fellows.map((band) => band?.high ?? 0), ...all.map(({ high }) => high))), 1);
     const height = (value) => `${Math.min((100 * value) / end, 100)}%`;
-    const band = (kind, { low, high }, color) => {
-      const node = element("i", { class: kind });
+    const band = (name, { low, high }, color) => {
+      const node = element("i", { class: high - low < FLAT * end ? `${name} flat` : name });
       node.style.bottom = height(low);
       node.style.height = `max(${height(high - low)}, 2px)`;
       if (color) node.style.borderColor = color;
@@ -146,11 +162,11 @@ export class Histograms {
           const bar = element("i", { class: "own" });
           bar.style.height = height(own[place]);
           bar.style.background = bins.color(column);
-          return this.#button(column, place === 0, shape, [band("all", all[place]), bar, fellows[place] && band("fellows", fellows[place], model.color(group))]);
+          return this.#button(column, place === 0, shape, [model.count > 1 && band("all", all[place]), bar, fellows[place] && band("fellows", fellows[place], model.color(group))]);
         }),
       ),
       element("div", { class: "ticks", "aria-hidden": "true" }, edges.slice(1, -1).map((edge) => element("span", {}, measured(edge)))),
-      element("p", { class: "quantity" }, `${quantity.charAt(0).toLocaleUpperCase()}${quantity.slice(1)}${unit === "" ? "" : `, in ${unit}`}`),
+      element("p", { class: "quantity" }, quantityInWords(quantity, unit)),
     ];
   }
 
@@ -160,8 +176,8 @@ export class Histograms {
     const all = spread.all(column);
     const fellows = spread.fellows(column, shape);
     const across = (value) => `${all.most > all.least ? (100 * (value - all.least)) / (all.most - all.least) : 50}%`;
-    const band = (kind, { low, high }, color) => {
-      const node = element("i", { class: kind });
+    const band = (name, { low, high }, color) => {
+      const node = element("i", { class: name });
       node.style.left = across(low);
       node.style.width = `max(calc(${across(high)} - ${across(low)}), 2px)`;
       if (color) node.style.borderColor = color;
@@ -171,7 +187,7 @@ export class Histograms {
     own.style.left = across(bins.share(column, shape));
     own.style.background = bins.color(column);
     return [
-      element("div", { class: "value-strip" }, this.#button(column, true, shape, [band("all", all), fellows && band("fellows", fellows, model.color(model.groups[shape])), own])),
+      element("div", { class: "value-strip" }, this.#button(column, true, shape, [model.count > 1 && band("all", all), fellows && band("fellows", fellows, model.color(model.groups[shape])), own])),
       element("div", { class: "strip-ends", "aria-hidden": "true" }, [all.least, all.most].map((value) => element("span", {}, measured(value)))),
       element("p", { class: "quantity" }, "A feature that was brought along: its value, from the least to the most of all shapes"),
     ];
@@ -181,7 +197,7 @@ export class Histograms {
     const { bins } = this;
     const show = (event) => this.card.show(column, this.tell(column, this.state.get("shape")), event.currentTarget);
     const { own, fellows, all } = this.tell(column, shape);
-    const said = [`${bins.names[column]}: this shape ${own}`, fellows && `others of its class ${fellows}`, `all shapes ${all}`].filter(Boolean).join(", ");
+    const said = [`${bins.names[column]}: this shape ${own}`, fellows && `others of its ${kind(this.model)} ${fellows}`, all && `all shapes ${all}`].filter(Boolean).join(", ");
     return element(
       "button",
       {

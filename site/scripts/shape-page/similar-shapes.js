@@ -6,6 +6,7 @@ import { pageAddress } from "../place.js";
 import { writeSelection } from "../selection.js";
 import { count, figure, shortened } from "../words.js";
 import { hue } from "./hue.js";
+import { kind } from "./kind.js";
 
 const FIRST = 12;
 const MOST = 48;
@@ -90,9 +91,9 @@ export class SimilarShapes {
     }
     if (own >= 0 && model.separable) {
       const fellows = found.filter(({ row }) => model.groups[row] === own).length;
-      words.push(element("b", {}, `${fellows} of these ${found.length}`), " are of its class. ");
+      words.push(element("b", {}, `${fellows} of these ${found.length}`), ` are of its ${kind(model)}. `);
     }
-    return [...words, `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. Bars and percentages say how many of all shapes are farther away in one feature alone: 100 % means nobody is more alike in it.`];
+    return [...words, `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. Bars and percentages say how many of all shapes are farther away in one feature alone: 100 % means that no shape is more alike in it.`];
   }
 
   #card(shape, { row, distance, closer }) {
@@ -111,7 +112,7 @@ export class SimilarShapes {
         element("p", { class: "quiet" }, `distance ${figure(distance)}`),
         this.#bars(closer),
         element("p", { class: "why" }, this.#reasons(closer)),
-        differ && element("p", {}, element("a", { href: compareAddress(model, { kind: "class", group: own }, { kind: "class", group }) }, "Compare the classes")),
+        differ && element("p", {}, element("a", { href: compareAddress(model, { kind: "class", group: own }, { kind: "class", group }) }, `Compare ${model.data.standIn ? "clusters" : "classes"}`)),
       ),
     );
   }

@@ -5,6 +5,7 @@ import { element } from "../dom.js";
 import { pageAddress } from "../place.js";
 import { styleColor } from "../theme.js";
 import { count, figure } from "../words.js";
+import { kind } from "./kind.js";
 
 /** Above so many shapes, marks are small. */
 const MANY = 1500;
@@ -57,7 +58,7 @@ export class Surroundings {
     document.getElementById("nh").replaceChildren(...this.#tell(shape, near, model.methods[method]));
     document.getElementById("neighbours").replaceChildren(...near.map((other) => this.links.pictured(other, 64, { stranger: stranger(other) })));
     document.getElementById("neighbours-key").replaceChildren(
-      near.some(stranger) ? "Underlined: of another class. " : "",
+      near.some(stranger) ? `Underlined: of another ${kind(model)}. ` : "",
       element("a", { href: this.#overview(shape) }, "Open on the Overview"),
     );
   }
@@ -80,11 +81,11 @@ export class Surroundings {
     const listed = census.slice(0, MOST_CLASSES).flatMap(([group, number], place) => [
       place > 0 ? ", " : "",
       `${number} `,
-      group === own ? "of its own class" : element("bdi", {}, model.className(group)),
+      group < 0 ? "without label" : group === own ? `of its own ${kind(model)}` : element("bdi", {}, model.className(group)),
     ]);
     words.push(`Its ${count(near.length, "nearest neighbour")}: `, ...listed, census.length > MOST_CLASSES ? ", and others. " : ". ");
     if (hit[shape] === null) return words;
-    return [...words, "Neighbourhood hit (NH), the share that is of its class: ", element("b", {}, figure(hit[shape])), `; its class on average ${figure(hitOfClass[own])}.`];
+    return [...words, `Neighbourhood hit (NH), the share that is of its ${kind(model)}: `, element("b", {}, figure(hit[shape])), `; its ${kind(model)} on average ${figure(hitOfClass[own])}.`];
   }
 
   #mark(index) {

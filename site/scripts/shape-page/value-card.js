@@ -6,8 +6,9 @@ import { hue } from "./hue.js";
 const GAP = 8;
 
 export class ValueCard {
-  constructor(bins) {
-    this.bins = bins;
+  /** `kind` is what the groups are, a class or a cluster. */
+  constructor(bins, kind) {
+    Object.assign(this, { bins, kind });
     this.node = element("div", { class: "card value-card", hidden: true });
     document.getElementById("content").append(this.node);
     window.addEventListener("scroll", () => this.hide(), { passive: true });
@@ -20,7 +21,7 @@ export class ValueCard {
     node.replaceChildren(
       element("p", { class: "name" }, hue(bins.color(column)), element("bdi", {}, bins.names[column])),
       element("p", {}, bins.sentence(column)),
-      element("dl", {}, row("this shape", own), row("half of its class", fellows), row("half of all shapes", all), row("more than", `${rank} of all`)),
+      element("dl", {}, row("this shape", own), row(`half of its ${this.kind}`, fellows), row("half of all shapes", all), row("more than", rank)),
     );
     node.hidden = false;
     const box = bar.getBoundingClientRect();
