@@ -1,5 +1,6 @@
 // The selection goes along: whichever link to a page of the site a reader follows, the shapes stay selected there.
 
+import { element } from "./dom.js";
 import { linkedPage, pageAddress, readHash } from "./place.js";
 import { isSelection, writeSelection } from "./selection.js";
 
@@ -15,6 +16,14 @@ export function carrySelection(model, state) {
 /** The same on a page that knows nothing of shapes: it hands on what its address says. */
 export function carryAddress() {
   carry(() => new URLSearchParams([...readHash()].filter(([name]) => isSelection(name))));
+}
+
+/** Go to a page of the site as if a link had been followed. */
+export function follow(address) {
+  const link = element("a", { href: address, hidden: true });
+  document.body.append(link);
+  link.click();
+  link.remove();
 }
 
 function carry(selection) {

@@ -82,6 +82,7 @@ export function readView(model, data, neighbours) {
     space: data.spaces.includes(query.get("by")) ? query.get("by") : data.spaces[0],
     row: group("row"),
     column: group("column"),
+    selection: readSelection(query, model),
   };
 }
 
@@ -94,6 +95,7 @@ export function writeView(model, state) {
   if (state.get("reading") !== READINGS[0]) query.set("reading", state.get("reading"));
   for (const name of ["of", "row", "column"]) if (state.get(name) !== null) query.set(name, model.classes[state.get(name)]);
   if (state.get("space") !== "features") query.set("by", state.get("space"));
+  writeSelection(query, model, state.get("selection"));
   replaceHash(query);
 }
 

@@ -1,6 +1,7 @@
 // The Compare page: what sets two groups apart, what they share, outliers, and classes that are alike.
 
 import { Bins } from "../bins.js";
+import { carrySelection, follow } from "../carry.js";
 import { chunk } from "../chunks.js";
 import { readView, writeView } from "../compare/address.js";
 import { compareTables } from "../compare/compare-tables.js";
@@ -10,9 +11,11 @@ import { Neighbours } from "../compare/neighbours.js";
 import { Outliers } from "../compare/outliers.js";
 import { Tabs } from "../compare/tabs.js";
 import { Model } from "../model.js";
+import { pageAddress } from "../place.js";
 import { State } from "../state.js";
 import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
+import { Tray } from "../tray.js";
 
 async function main() {
   const [overview, data, bytes, clusters] = await Promise.all(["overview", "compare", "neighbours", "clusters"].map(chunk));
@@ -31,6 +34,9 @@ async function main() {
   const outliers = new Outliers(model, data, neighbours, state, { bins, announce });
   const matrix = new Matrix(model, data, neighbours, state, { announce });
   new Tabs(state);
+  const open = (index) => follow(pageAddress("shape.html", { id: model.ids[index] }));
+  new Tray(model, state, { open });
+  carrySelection(model, state);
   groups.compare();
   outliers.render();
   matrix.render();

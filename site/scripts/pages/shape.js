@@ -2,6 +2,7 @@
 
 import { Pointing } from "../bins-page/pointing.js";
 import { Bins } from "../bins.js";
+import { carrySelection } from "../carry.js";
 import { chunk } from "../chunks.js";
 import { Model } from "../model.js";
 import { Similarity } from "../similar.js";
@@ -31,6 +32,7 @@ async function main() {
   const page = document.getElementById("content");
   const live = document.getElementById("live");
   const state = new State({ ...readShapeAddress(model), theme: currentTheme() });
+  carrySelection(model, state);
   let opened = false;
   const links = new ShapeLinks(model, state, { opened: () => (opened = true) });
   const go = (shape) => {

@@ -1,8 +1,7 @@
 // The Shapes page: all shapes as pictures, to search, filter, group, sort, and select.
 
-import { carrySelection } from "../carry.js";
+import { carrySelection, follow } from "../carry.js";
 import { chunk } from "../chunks.js";
-import { element } from "../dom.js";
 import { readGalleryAddress, writeGalleryAddress } from "../gallery/address.js";
 import { Arrangement } from "../gallery/arrangement.js";
 import { Cells } from "../gallery/cells.js";
@@ -85,7 +84,7 @@ async function main() {
       write();
     },
   });
-  const open = (index) => element("a", { href: pageAddress("shape.html", { id: model.ids[index] }) }).click();
+  const open = (index) => follow(pageAddress("shape.html", { id: model.ids[index] }));
   new Tray(model, state, { open });
   carrySelection(model, state);
   watchSearch(state);
