@@ -183,13 +183,12 @@ def _add_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
         if option.name not in names:
             continue
         kind = str(option.type)
+        flag = "--" + option.name.replace("_", "-")
         if kind == "bool":
-            parser.add_argument(
-                "--" + option.name, action=argparse.BooleanOptionalAction, help=option.metadata["help"]
-            )
+            parser.add_argument(flag, action=argparse.BooleanOptionalAction, help=option.metadata["help"])
             continue
         parser.add_argument(
-            "--" + option.name.replace("_", "-"),
+            flag,
             metavar=option.metadata["metavar"],
             help=option.metadata["help"]
             + (f" ({option.default})" if type(option.default) in (int, float) else ""),
