@@ -92,7 +92,9 @@ export class Matrix {
             { "data-row": row, "data-column": column, tabindex: at[0] === row && at[1] === column ? "0" : "-1", class: row === column ? "own" : null, "aria-label": this.#sentence(row, column) },
             figures && share > 0 ? Math.round(100 * share) || "<1" : "",
           );
-          cell.style.setProperty("--much", row === column ? share * 0.5 : share > 0 ? 0.12 + 0.88 * Math.sqrt(share / highest) : 0);
+          const much = row === column ? share * 0.35 : share > 0 ? 0.12 + 0.88 * Math.sqrt(share / highest) : 0;
+          cell.style.setProperty("--much", much);
+          cell.classList.toggle("deep", much > 0.55);
           return cell;
         }),
       ),

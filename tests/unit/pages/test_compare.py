@@ -1,0 +1,84 @@
+"""What the Compare page gives its scripts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from reports import make_report, with_bins, with_external
+
+from shapeviz_report.features import PRESETS, scale
+from shapeviz_report.neighbours import find_nearest
+from shapeviz_report.pages.compare import ComparePage
+
+REPORT = make_report(["ant", "bird", "cup", None], 6, features=("Gc", "Sc", "Agd"))
+
+
+def parts(report):
+    """The neighbours by space, as the script reads them."""
+    content = ComparePage().content(report)
+    data = content.chunks["compare"]
+    numbers = np.frombuffer(content.chunks["neighbours"], "<u4")
+    return data, dict(
+        zip(data["spaces"], numbers.reshape(len(data["spaces"]), len(report.labels), data["k"]))
+    )
+
+
+def test_neighbours_are_those_of_every_map_and_of_all_features():
+    data, found = parts(REPORT)
+    assert data["spaces"] == ["features", "tsne", "umap", "pca"]
+    assert (found["features"] == find_nearest(scale(REPORT.features, PRESETS["default"]), data["k"])).all()
+    assert (found["umap"] == find_nearest(REPORT.projections["umap"][0].xy, data["k"])).all()
+
+
+def test_only_chosen_bins_count_where_the_maps_are_made_of_them():
+    _, every = parts(REPORT)
+    _, chosen = parts(with_bins(REPORT, ("Agd:3",)))
+    assert (every["features"] != chosen["features"]).any()
+    values = REPORT.features.values[:, REPORT.features.columns.index("Agd:3")]
+    nearest = chosen["features"][:, 0]
+    roots = np.sqrt(values)
+    others = np.abs(roots[:, None] - roots) + np.diag(np.full(len(roots), np.inf))
+    assert np.allclose(np.abs(roots - roots[nearest]), others.min(axis=1))
+
+
+def test_fits_are_there_for_shapes_with_a_label():
+    data, _ = parts(REPORT)
+    known = [fit is not None for fit in data["fit"]]
+    assert known == [label is not None for label in REPORT.labels]
+    assert sorted(data["order"]) == [0, 1, 2]
+
+
+def test_words_match_the_columns():
+    report = with_external(REPORT)
+    data, _ = parts(report)
+    assert len(data["where"]) == len(report.features.columns)
+    assert data["where"][-1] is None
+    assert data["whole"] == "the surface"
+    assert len(data["weights"]) == len(report.features.blocks)
+    # One histogram a feature has sides; several, and values of one's own, have not.
+    assert [side is not None for side in data["sides"]] == [True, False, True, False]
+    below, above = data["sides"][2]["below"], data["sides"][2]["above"]
+    assert len(below) == len(above) == 9
+    assert below[0].endswith("is below 0.1 times the shape's radius")
+    assert above[8].endswith("is 0.9 times the shape's radius or more")
+
+
+def test_the_order_of_the_shapes_has_no_say():
+    turned = np.arange(len(REPORT.labels))[::-1]
+    backwards = replace(
+        REPORT,
+        labels=tuple(REPORT.labels[row] for row in turned),
+        features=replace(REPORT.features, values=REPORT.features.values[turned]),
+        projections={
+            name: (replace(projection, xy=projection.xy[turned]), hits)
+            for name, (projection, hits) in REPORT.projections.items()
+        },
+    )
+    assert parts(backwards)[0]["fit"] == parts(REPORT)[0]["fit"][::-1]
+
+
+def test_one_shape_has_no_neighbours():
+    data, _ = parts(make_report(["ant"], 1))
+    assert data["k"] == 0
+    assert data["fit"] == [None]
