@@ -28,7 +28,7 @@ export class RetrievalSection {
         this.render();
       });
     }
-    this.rows.addEventListener("pointerover", (event) => this.#point(event.target.closest("tr").dataset.key));
+    this.rows.addEventListener("pointerover", (event) => this.#point(event.target.closest("tr")?.dataset.key ?? null));
     this.rows.addEventListener("pointerleave", () => this.#point(null));
     this.rows.addEventListener("focusin", (event) => this.#point(event.target.closest("tr").dataset.key));
     this.rows.addEventListener("focusout", () => this.#point(null));
