@@ -87,10 +87,10 @@ def describe_fields(report: Report) -> list[dict[str, object]]:
         values = [shape.metadata.get(name) for shape in report.shapes]
         if values != columns.get(name):
             found.append(_column(f"column:{name}", name, values))
-    for key, title, unit, measure in _FACTS:
-        found.append(_numbers(f"fact:{key}", title, [measure(facts) for facts in report.facts], unit))
     if report.clusters is not None and not report.clusters.stand_in:
         found.append(_clusters(report.clusters))
+    for key, title, unit, measure in _FACTS:
+        found.append(_numbers(f"fact:{key}", title, [measure(facts) for facts in report.facts], unit))
     tight = ["watertight" if facts.watertight else "open" for facts in report.facts]
     found.append(_column("fact:watertight", "Surface", tight))
     return [field for field in found if field is not None]

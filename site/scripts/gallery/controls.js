@@ -1,9 +1,11 @@
 // How the gallery is arranged: grouped, sorted, and how large its pictures are.
 
 import { element } from "../dom.js";
+import { count } from "../words.js";
 
 export class Controls {
-  constructor(fields, state) {
+  constructor(model, fields, state) {
+    this.model = model;
     this.fields = fields;
     this.state = state;
     this.group = document.getElementById("group");
@@ -11,6 +13,7 @@ export class Controls {
     this.down = document.getElementById("down");
     this.size = document.getElementById("size");
     this.fold = document.getElementById("fold");
+    this.note = document.getElementById("sort-note");
     const option = (field) => element("option", { value: field.key }, field.title);
     this.group.append(element("option", { value: "" }, "Nothing"), ...fields.groupable.map(option));
     this.sort.append(element("option", { value: "" }, "Name"), ...fields.sortable.map(option));
@@ -32,6 +35,14 @@ export class Controls {
     this.size.value = state.get("size");
     this.down.textContent = this.#direction();
     this.fold.hidden = state.get("group") === "";
+    const sorted = this.fields.byKey.get(state.get("sort"));
+    this.note.hidden = !sorted?.hit;
+    if (sorted?.hit) this.note.textContent = this.#onHit();
+  }
+
+  #onHit() {
+    const { neighbours } = this.model.methods[0];
+    return `NH, the neighbourhood hit: the share of a shape’s ${count(neighbours, "nearest neighbour")} on the map that are of its own class. Near 0 it lies among others.`;
   }
 
   /** The order in words; a click turns it round. */

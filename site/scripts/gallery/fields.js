@@ -14,7 +14,9 @@ export class Fields {
     const folders = deep
       .filter(({ key }) => key === "folders")
       .map((tree) => ({ ...NOTHING, key: tree.key, title: tree.title, tree }));
-    this.all = [...own, ...folders, ...hits(model)];
+    const measured = own.filter(({ key }) => key.startsWith("fact:"));
+    const given = own.filter((field) => !measured.includes(field));
+    this.all = [...given, ...folders, ...hits(model), ...measured];
     for (const field of this.all) if (field.tree) field.tree.ways = ways(field.tree.nodes);
     this.byKey = new Map(this.all.map((field) => [field.key, field]));
     this.active = this.all.find(({ active }) => active) ?? null;

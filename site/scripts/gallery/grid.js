@@ -1,7 +1,7 @@
 // The gallery itself: of thousands of shapes only the rows in sight, and a few around them, are in the page.
 
 import { element } from "../dom.js";
-import { HEAD, layOut, rowAt } from "./layout.js";
+import { layOut, rowAt } from "./layout.js";
 
 /** Pixels above and below the window that are drawn already. */
 const AHEAD = 500;
@@ -63,7 +63,8 @@ export class Grid {
   #layOut() {
     this.width = this.node.clientWidth;
     const { lines } = this.#cells;
-    this.layout = layOut(this.#groups, this.state.get("closed"), { width: this.width, size: this.state.get("size"), lines });
+    const text = parseFloat(getComputedStyle(document.documentElement).fontSize);
+    this.layout = layOut(this.#groups, this.state.get("closed"), { width: this.width, size: this.state.get("size"), lines, text });
     this.placeOf.fill(-1);
     for (const [place, shape] of this.layout.sequence.entries()) this.placeOf[shape] = place;
     this.#rows.clear();
@@ -99,14 +100,15 @@ export class Grid {
     (this.#framed() ? this.scroller : window).scrollBy({ top: distance, behavior: "instant" });
   }
 
-  /** The first shape in sight, and how far below the upper edge it lies. */
+  /** The first shape that is whole in sight, and how far below the upper edge it lies. */
   #anchor() {
     if (!this.layout || this.layout.rows.length === 0) return null;
     const { top } = this.#window();
-    const { rows, sequence } = this.layout;
-    const index = Math.min(rowAt(rows, Math.max(top, 0)), rows.length - 1);
-    const row = rows.slice(index).find(({ head }) => !head);
-    return row && top > 0 ? { shape: sequence[row.start], offset: row.top - top } : null;
+    if (top <= 0) return null;
+    const { rows, sequence, head } = this.layout;
+    const edge = top + (this.#groups[0].title === null ? 0 : head);
+    const row = rows.slice(rowAt(rows, edge)).find((found) => !found.head && found.top >= edge);
+    return row ? { shape: sequence[row.start], offset: row.top - top } : null;
   }
 
   #hold(anchor) {
@@ -285,7 +287,7 @@ export class Grid {
     if (index === null) return;
     const { top: rowTop, height, head } = this.layout.rows[index];
     const { top, bottom } = this.#window();
-    const above = head || this.#groups[0].title === null ? 0 : HEAD;
+    const above = head || this.#groups[0].title === null ? 0 : this.layout.head;
     const [start, end] = [rowTop - above, rowTop + height];
     if (end < top - AHEAD || start > bottom + AHEAD) this.#scrollBy((start + end - top - bottom) / 2);
     else if (start < top) this.#scrollBy(start - top);

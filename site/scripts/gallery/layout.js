@@ -1,8 +1,9 @@
 // Where every row of the gallery lies. Numbers only: nothing is drawn here.
 
-export const GAP = 12;
-export const HEAD = 40;
-const LINE = 19;
+const GAP = 12;
+/** The height of a head and of a line of text, in sizes of the reader's text. */
+const HEAD = 2.5;
+const LINE = 1.1875;
 
 /** The width from which on there is room for a caption below a picture. */
 export const CAPTIONED = 92;
@@ -14,19 +15,19 @@ export const CAPTIONED = 92;
  * `{ block, head: false, top, height, start, end }`; `start` and `end` count within `sequence`, all shapes that are not
  * folded away; `rowOf` has the row of each of them. `blocks` holds a group each, with its `top` and `height`.
  */
-export function layOut(groups, closed, { width, size, lines }) {
+export function layOut(groups, closed, { width, size, lines, text }) {
   const gap = size < CAPTIONED ? GAP / 2 : GAP;
   const columns = Math.max(Math.floor((width + gap) / (size + gap)), 1);
   const cell = Math.floor((width - gap * (columns - 1)) / columns);
-  const pitch = cell + (size < CAPTIONED ? 0 : lines * LINE + 4) + gap;
+  const pitch = cell + (size < CAPTIONED ? 0 : lines * LINE * text + 4) + gap;
   const [rows, blocks, sequence, rowOf] = [[], [], [], []];
   let top = 0;
   for (const [block, { key, title, rows: members }] of groups.entries()) {
     const start = top;
     const folded = title !== null && closed.has(key);
     if (title !== null) {
-      rows.push({ block, head: true, top, height: HEAD });
-      top += HEAD;
+      rows.push({ block, head: true, top, height: HEAD * text });
+      top += HEAD * text;
     }
     for (let first = 0; first < members.length && !folded; first += columns) {
       const next = members.slice(first, first + columns);
@@ -40,7 +41,7 @@ export function layOut(groups, closed, { width, size, lines }) {
     if (title !== null && !folded) top += GAP;
     blocks.push({ top: start, height: top - start, folded });
   }
-  return { rows, blocks, sequence, rowOf, columns, cell, gap, captioned: size >= CAPTIONED, height: top };
+  return { rows, blocks, sequence, rowOf, columns, cell, gap, captioned: size >= CAPTIONED, head: HEAD * text, height: top };
 }
 
 /** The first row that ends below a place. */

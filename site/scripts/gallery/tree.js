@@ -1,7 +1,7 @@
 // A tree of classes to walk down into, and to filter by.
 
 import { element } from "../dom.js";
-import { NONE } from "./fields.js";
+import { NONE, valueName } from "./fields.js";
 import { grouped } from "../words.js";
 
 /** Nodes at the top up to which a lone one stands open. */
@@ -15,12 +15,14 @@ export class Tree {
     this.field = field;
     this.sieve = sieve;
     this.change = change;
-    const { nodes } = field.tree;
-    this.children = new Map([[NONE, []], ...nodes.map((_, node) => [node, []])]);
-    for (const [node, { parent }] of nodes.entries()) this.children.get(parent).push(node);
-    const tops = this.children.get(NONE);
-    if (tops.length <= FEW_TOPS) for (const top of tops) this.#open.add(top);
-    this.active = tops[0];
+    const { nodes, of } = field.tree;
+    this.tops = [];
+    this.children = new Map([...nodes.keys(), NONE].map((node) => [node, []]));
+    for (const [node, { parent }] of nodes.entries()) (parent < 0 ? this.tops : this.children.get(parent)).push(node);
+    if (this.tops.length <= FEW_TOPS) for (const top of this.tops) this.#open.add(top);
+    // Shapes without a class are found too, below all others.
+    if (of.includes(NONE)) this.tops.push(NONE);
+    this.active = this.tops[0];
     this.node = element("ul", {
       class: "tree",
       role: "tree",
@@ -32,7 +34,7 @@ export class Tree {
   }
 
   #parent(node) {
-    return this.field.tree.nodes[node].parent;
+    return node === NONE ? undefined : this.field.tree.nodes[node].parent;
   }
 
   #above(node) {
@@ -53,8 +55,8 @@ export class Tree {
   #draw() {
     const focused = this.node.contains(document.activeElement);
     this.#items.clear();
-    this.node.replaceChildren(...this.children.get(NONE).map((node) => this.#item(node, 1)));
-    if (!this.#items.has(this.active)) this.active = this.children.get(NONE)[0];
+    this.node.replaceChildren(...this.tops.map((node) => this.#item(node, 1)));
+    if (!this.#items.has(this.active)) this.active = this.tops[0];
     this.#items.get(this.active).tabIndex = 0;
     if (focused) this.#items.get(this.active).focus();
   }
@@ -62,7 +64,7 @@ export class Tree {
   #item(node, level) {
     const children = this.children.get(node);
     const open = this.#open.has(node);
-    const number = this.counts[node];
+    const number = this.counts.at(node);
     const item = element(
       "li",
       {
@@ -78,13 +80,17 @@ export class Tree {
         { class: number === 0 && !this.filter?.has(node) ? "node none" : "node" },
         element("span", { class: "chevron", "aria-hidden": "true" }),
         element("span", { class: "box", "aria-hidden": "true" }),
-        element("bdi", { class: "value" }, this.field.tree.nodes[node].name),
+        element("bdi", { class: node === NONE ? "value quiet" : "value" }, node === NONE ? this.#without() : this.field.tree.nodes[node].name),
         element("span", { class: "size" }, grouped(number)),
       ),
       open && children.length > 0 && element("ul", { role: "group" }, children.map((child) => this.#item(child, level + 1))),
     );
     this.#items.set(node, item);
     return item;
+  }
+
+  #without() {
+    return this.field.names === null ? "no folder" : valueName(this.field, NONE);
   }
 
   #checked(node) {
@@ -133,14 +139,14 @@ export class Tree {
     else if (event.key === "Home") this.#go(order[0]);
     else if (event.key === "End") this.#go(order.at(-1));
     else if (event.key === "ArrowRight" && parts.length > 0) open ? this.#go(parts[0]) : this.#fold(node, true);
-    else if (event.key === "ArrowLeft") open && parts.length > 0 ? this.#fold(node, false) : this.#go(this.#parent(node));
+    else if (event.key === "ArrowLeft") open && parts.length > 0 ? this.#fold(node, false) : this.#go(this.#above(node)[0]);
     else if (event.key === "Enter" || event.key === " ") this.#toggle(node);
     else return;
     event.preventDefault();
   }
 
   #go(node) {
-    if (node === undefined || node < 0) return;
+    if (!this.#items.has(node)) return;
     this.#items.get(this.active).tabIndex = -1;
     this.active = node;
     this.#items.get(node).tabIndex = 0;

@@ -39,7 +39,7 @@ async function main() {
   const facets = new Facets(model, fields, sieve, state);
   const panel = new Panel(sieve, state);
   const showActions = watchActions(model, sieve, grid, state);
-  new Controls(fields, state);
+  new Controls(model, fields, state);
 
   let cells = null;
   const arrange = (fromTop) => {
