@@ -40,11 +40,11 @@ def with_everything(report: Report) -> Report:
     for add in (
         with_clusters,
         with_search,
-        with_scores,
         with_bin_search,
         with_paintings,
         with_models,
         with_external,
+        with_scores,
     ):
         report = add(report)
     return report
