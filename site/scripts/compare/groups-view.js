@@ -167,7 +167,7 @@ export class GroupsView {
     const list = document.getElementById("apart-bins");
     list.classList.toggle("within", within);
     list.replaceChildren(...columns.map((column) => binCard(column, view)));
-    document.getElementById("more-bins").hidden = columns.length < this.shown;
+    document.getElementById("more-bins").hidden = oneOfDimension(contrast.ranked, bins, columns.length + 1).length <= columns.length;
   }
 
   #shared() {
