@@ -22,6 +22,7 @@ import { ValueCard } from "../shape-page/value-card.js";
 import { State } from "../state.js";
 import { watchTables } from "../tables.js";
 import { currentTheme, watchTheme } from "../theme.js";
+import { Tray } from "../tray.js";
 import { grouped } from "../words.js";
 
 /** How far below the window the features may be when they are loaded. */
@@ -31,7 +32,7 @@ async function main() {
   const model = new Model(await chunk("overview"), currentTheme);
   const page = document.getElementById("content");
   const live = document.getElementById("live");
-  const state = new State({ ...readShapeAddress(model), theme: currentTheme() });
+  const state = new State({ ...readShapeAddress(model), brushing: false, theme: currentTheme() });
   carrySelection(model, state);
   let opened = false;
   const links = new ShapeLinks(model, state, { opened: () => (opened = true) });
@@ -59,8 +60,12 @@ async function main() {
       opened = false;
     } else if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name))) writeShapeAddress(model, state);
   });
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) state.set({ selection: new Set() });
+  });
   window.addEventListener("hashchange", () => state.set(readShapeAddress(model)));
   watchTheme(() => state.set({ theme: currentTheme() }));
+  new Tray(model, state, { open: go });
   let byFeatures = { similar: null, histograms: null };
   watchTables(() => shapeTables(model, state, { facts, ...byFeatures }));
   const load = async () => {

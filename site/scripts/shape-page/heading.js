@@ -47,11 +47,10 @@ export class Heading {
 
   /** To collect this shape, as the gallery and the maps do. */
   #offerSelection(shape) {
-    const selection = this.state.get("selection");
-    const chosen = selection.has(shape);
+    const chosen = this.state.get("selection").has(shape);
     this.choose.hidden = shape === null;
     this.choose.setAttribute("aria-pressed", String(chosen));
-    this.choose.textContent = selection.size === 0 ? "Select" : `${chosen ? "Selected" : "Select"} (${grouped(selection.size)})`;
+    this.choose.textContent = chosen ? "Selected" : "Select";
   }
 
   #toggle() {
