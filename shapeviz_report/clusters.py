@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -44,7 +43,10 @@ STEADY = 0.7
 """Steadiness that is enough, so that groups are not made larger than they must be. Cuts through an even cloud stay
 below (docs/clusters.md)."""
 
-TRIALS = 5
+RUNS = 5
+"""Times that groups are sought; the best are kept."""
+
+TRIALS = 15
 """Parts of the database in which groups are sought again."""
 
 PART = 0.8
@@ -108,24 +110,19 @@ def part(scaled: FloatArray, *, seed: int = 0, limit: int = SAMPLE_LIMIT) -> Par
     different = scaled[order[is_new]]
     if len(different) < SMALLEST:
         return None
-    sample = different
-    if len(different) > limit:
-        drawn = np.random.default_rng(seed).permutation(len(different))[:limit]
-        sample = different[np.sort(drawn)]
+    chosen = np.sort(np.random.default_rng(seed).permutation(len(different))[:limit])
+    sample = different[chosen]
     with threadpool_limits(limits=1):
         distances = squareform(pdist(sample))
         codes, steadiness = _find_steady(distances, seed)
         if codes.max() == 0:
             return None
         silhouette = float(silhouettes(distances, codes).mean())
-        if len(sample) < len(different):
-            means = np.stack([sample[codes == code].mean(axis=0) for code in range(codes.max() + 1)])
-            own = np.empty(len(different), np.int32)
-            own[:] = cdist(different, means, "sqeuclidean").argmin(axis=1)
-            own[np.sort(drawn)] = codes
-            codes = own
+        means = np.stack([sample[codes == code].mean(axis=0) for code in range(codes.max() + 1)])
+        joined = cdist(different, means, "sqeuclidean").argmin(axis=1).astype(np.int32)
+    joined[chosen] = codes
     of = np.empty(len(scaled), np.int32)
-    of[order] = codes[np.cumsum(is_new) - 1]
+    of[order] = joined[np.cumsum(is_new) - 1]
     sizes = np.bincount(of)
     first = [int((of == code).argmax()) for code in range(len(sizes))]
     rank = np.argsort(np.lexsort((first, -sizes))).astype(np.int32)
@@ -139,7 +136,7 @@ def _find_steady(distances: FloatArray, seed: int) -> tuple[IntArray, float]:
     parts = [np.sort(random.permutation(count)[: int(PART * count)]) for _ in range(TRIALS)]
     best, steadiest = np.zeros(count, np.int32), 0.0
     for k in NEIGHBOURS:
-        codes = find_communities(_tie(distances, min(k, count // 4)), seed)
+        codes = find_communities(_tie(distances, min(k, count // 4)), seed, runs=RUNS)
         if codes.max() == 0:
             break
         agreements = []
@@ -172,7 +169,7 @@ def _tie(distances: FloatArray, k: int) -> csr_matrix:
     return (graph + graph.T) / 2
 
 
-def find_communities(ties: csr_matrix, seed: int) -> IntArray:
+def find_communities(ties: csr_matrix, seed: int, *, runs: int = 1) -> IntArray:
     """The groups of a graph with the highest modularity that is found.
 
     Parameters
@@ -180,7 +177,9 @@ def find_communities(ties: csr_matrix, seed: int) -> IntArray:
     ties : (n, n) sparse matrix
         Symmetric weights, none negative.
     seed : int
-        Of the order in which nodes are tried.
+        Of the orders in which nodes are tried.
+    runs : int
+        Number of orders; that with the highest modularity counts.
 
     Returns
     -------
@@ -188,8 +187,11 @@ def find_communities(ties: csr_matrix, seed: int) -> IntArray:
         Codes from 0 without gaps.
     """
     graph = networkx.from_scipy_sparse_array(ties)
+    seek, rate = networkx.community.louvain_communities, networkx.community.modularity
+    found = [seek(graph, seed=seed * runs + run) for run in range(runs)]
+    best = max(found, key=lambda groups: rate(graph, groups))
     codes = np.empty(len(graph), np.int32)
-    for code, members in enumerate(networkx.community.louvain_communities(graph, seed=seed)):
+    for code, members in enumerate(best):
         codes[list(members)] = code
     return codes
 
@@ -257,12 +259,11 @@ def _find_central(scaled: FloatArray, rows: npt.NDArray[np.intp]) -> int:
 
 
 def _name(central: Sequence[ShapeEntry]) -> list[str]:
-    """A name for the cluster of each of some shapes; with the shape's id where its name alone is not enough."""
-    counts = Counter(shape.name for shape in central)
-    return [
-        f"like {shape.name}" if counts[shape.name] == 1 else f"like {shape.name} ({shape.id})"
-        for shape in central
-    ]
+    """A name for the cluster of each of some shapes, made of their names, or of their ids where two share a name."""
+    names = [shape.name for shape in central]
+    if len(set(names)) < len(names):
+        names = [shape.id for shape in central]
+    return [f"like {name}" for name in names]
 
 
 def _word_typical(

@@ -10,6 +10,9 @@ from scipy.spatial.distance import cdist
 from shapeviz_report.quality import neighbour_weights
 from shapeviz_report.types import BinSearch, FeatureTable, FloatArray
 
+PAIRS = 4_000_000
+"""Most pairs of points whose distances are held at once."""
+
 
 def find_centres(scaled: FloatArray, labels: Sequence[str | None]) -> dict[str, int]:
     """The most central shape of every class: the one nearest to the mean of the class, as a row.
@@ -47,7 +50,7 @@ def find_rivals(xy: FloatArray, labels: Sequence[str | None], k: int) -> dict[st
     members = np.array([[label == name for label in labels] for name in classes], dtype=float)
     shares = members @ neighbour_weights(xy, k) @ members.T
     means = members / members.sum(axis=1, keepdims=True)
-    distances = means @ cdist(xy, xy) @ means.T
+    distances = _mean_distances(xy, means)
     np.fill_diagonal(shares, -1)
     np.fill_diagonal(distances, np.inf)
     rivals = {}
@@ -55,6 +58,17 @@ def find_rivals(xy: FloatArray, labels: Sequence[str | None], k: int) -> dict[st
         nearest = shares[number].argmax() if shares[number].max() > 0 else distances[number].argmin()
         rivals[name] = classes[int(nearest)]
     return rivals
+
+
+def _mean_distances(xy: FloatArray, means: FloatArray) -> FloatArray:
+    """The mean distances (c, c) between groups of points (n, 2); ``means`` (c, n) averages over each group."""
+    total = np.zeros((len(means),) * 2)
+    # Not all pairs at once: of 10,000 points they would take 800 MB.
+    step = max(1, PAIRS // len(xy))
+    for start in range(0, len(xy), step):
+        part = slice(start, start + step)
+        total += means[:, part] @ cdist(xy[part], xy) @ means.T
+    return total
 
 
 def choose_contrasts(

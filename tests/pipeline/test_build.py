@@ -226,6 +226,39 @@ def test_nothing_usable_is_an_error_and_keeps_the_old_site(tmp_path, built) -> N
     assert read_site(site) == read_site(built[0])
 
 
+def test_clusters_stand_in_for_labels(built, database, cache, tmp_path) -> None:
+    flat = tmp_path / "Some solids"
+    flat.mkdir()
+    for path in database.rglob("*.off"):
+        shutil.copy(path, flat / f"{path.parent.name} {path.name}")
+    site = tmp_path / "site"
+    report = shapeviz_report.build(flat, site, cache=cache, **WITH_SEARCH)
+    clusters = report.clusters
+    assert clusters.stand_in
+    assert report.database.labelings == ()
+    assert report.labeling == "clusters"
+    assert report.labels == tuple(clusters.clusters[code].name for code in clusters.of)
+    # The same meshes in class folders have the same clusters, beside their classes.
+    assert not built[1].clusters.stand_in
+    np.testing.assert_array_equal(built[1].clusters.of, clusters.of)
+    kinds = {shape.id.split(" ")[0] for shape, code in zip(report.shapes, clusters.of) if code == 0}
+    assert len(kinds) == 1, "the largest cluster is of one kind"
+    # All that needs labels has them.
+    names = sorted(cluster.name for cluster in clusters.clusters)
+    assert list(report.scores.classes) == list(report.search.classes) == names
+    assert report.projections["tsne"][1].nh_s > report.projections["tsne"][1].null_mean
+    assert report.bins is not None
+    with open(site / "data/shapes.csv", newline="", encoding="utf-8") as file:
+        assert [row["cluster"] for row in csv.DictReader(file)] == list(report.labels)
+    summary = json.loads((site / "data/summary.json").read_text())
+    assert (summary["labeling"], summary["unlabelled"]) == ("clusters", 0)
+    assert [c["shapes"] for c in summary["clusters"]["clusters"]] == [c.size for c in clusters.clusters]
+    notices = [(page.name, 'class="stand-in"' in page.read_text()) for page in site.glob("*.html")]
+    assert notices
+    assert all(there for _, there in notices)
+    assert 'class="stand-in"' not in (built[0] / "index.html").read_text()
+
+
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_few_shapes_without_labels(tmp_path, cache, count) -> None:
     database = tmp_path / "few"

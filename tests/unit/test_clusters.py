@@ -113,18 +113,22 @@ def test_a_cluster_has_the_name_of_its_most_central_shape() -> None:
         )
         for k in range(3)
     ]
-    names = ["thing"] * 31
-    names[centres[2]] = "stool"
+    names = [f"thing {row}" for row in range(31)]
     found = describe_clusters(
         partition, entries(names), table, values, np.empty((0, 11)), PRESET, stand_in=False
     )
     assert [cluster.central for cluster in found.clusters] == centres
     assert [cluster.size for cluster in found.clusters] == [12, 10, 9]
-    # Two central shapes share a name: then their ids tell them apart.
+    assert [cluster.name for cluster in found.clusters] == [f"like thing {row}" for row in centres]
+    names[centres[0]] = names[centres[1]]
+    found = describe_clusters(
+        partition, entries(names), table, values, np.empty((0, 11)), PRESET, stand_in=False
+    )
+    # Two central shapes share a name: then ids tell all apart.
     assert [cluster.name for cluster in found.clusters] == [
-        f"like thing ({centres[0]:03})",
-        f"like thing ({centres[1]:03})",
-        "like stool",
+        f"like {centres[0]:03}",
+        f"like {centres[1]:03}",
+        f"like {centres[2]:03}",
     ]
 
 
