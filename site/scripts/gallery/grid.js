@@ -19,6 +19,7 @@ export class Grid {
   #pending = null;
   #unpictured = new Set();
   #top = 0;
+  #held = null;
 
   constructor(model, state) {
     this.model = model;
@@ -105,7 +106,11 @@ export class Grid {
     if (!this.layout || this.layout.rows.length === 0) return null;
     const { top } = this.#window();
     if (top <= 0) return null;
-    const { rows, sequence, head } = this.layout;
+    const { rows, sequence, rowOf, head } = this.layout;
+    // Who pulls at the size, and does not scroll, keeps one shape through all sizes.
+    if (this.#held !== null && Math.abs(this.#held.top - top) < 2 && this.placeOf[this.#held.shape] >= 0) {
+      return { shape: this.#held.shape, offset: rows[rowOf[this.placeOf[this.#held.shape]]].top - top };
+    }
     const edge = top + (this.#groups[0].title === null ? 0 : head);
     const row = rows.slice(rowAt(rows, edge)).find((found) => !found.head && found.top >= edge);
     return row ? { shape: sequence[row.start], offset: row.top - top } : null;
@@ -115,6 +120,7 @@ export class Grid {
     const place = anchor === null ? -1 : this.placeOf[anchor.shape];
     if (place < 0) return;
     this.#scrollBy(this.layout.rows[this.layout.rowOf[place]].top - anchor.offset - this.#window().top);
+    this.#held = { shape: anchor.shape, top: this.#window().top };
   }
 
   #drawSoon() {
