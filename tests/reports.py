@@ -33,15 +33,19 @@ from shapeviz_report.search.bins import (
 )
 from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.types import (
+    Accent,
     BinScores,
     BinSearch,
     Database,
     Failure,
     FeatureBlock,
     FeatureTable,
+    Licence,
+    Logo,
     Mesh,
     Painting,
     Projection,
+    Publication,
     Report,
     Retrieval,
     ShapeEntry,
@@ -153,6 +157,23 @@ def with_clusters(report: Report) -> Report:
         for method, (projection, _) in report.projections.items()
     }
     return replace(report, labeling="clusters", labels=labels, projections=projections)
+
+
+def with_publication(report: Report) -> Report:
+    """The report of a database whose owner has said all that can be said."""
+    said = Publication(
+        introduction="Vessels of **two** museums.\n\n## What is here\n\nAll [shapes](shapes.html) of the museums.",
+        logo=Logo(
+            ".svg",
+            b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20"><circle cx="10" cy="10" r="9"/></svg>',
+        ),
+        accent=Accent("#a01346", "#d86b93"),
+        licence=Licence("CC BY 4.0: Attribution", "https://creativecommons.org/licenses/by/4.0/"),
+        citation="N. N.: Vessels of two museums, 2019.",
+        creator="Two museums",
+        url="https://example.org/vessels/",
+    )
+    return replace(report, publication=said)
 
 
 def with_search(report: Report, *, limit: int = 1000) -> Report:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -18,6 +20,7 @@ _GROUND = "#faf8f4"
 _MARGIN = 16
 _MOST_PICTURES = 90
 _DOT = 3.5
+_APART = 0.75  # thumbnails have an empty margin
 
 
 def draw_preview(report: Report) -> bytes:
@@ -26,7 +29,7 @@ def draw_preview(report: Report) -> bytes:
     projection, _ = next(iter(report.projections.values()))
     side = int(np.clip(np.sqrt(WIDTH * HEIGHT / min(len(report.shapes), _MOST_PICTURES)) * 0.95, 84, 300))
     centres = _place(projection.xy, side)
-    shown = _apart(centres, side)
+    shown = _apart(centres, side, _order(report.labels))
     colors = _colors(report)
     image = Image.new("RGB", (WIDTH, HEIGHT), _GROUND)
     pen = ImageDraw.Draw(image)
@@ -55,11 +58,21 @@ def _place(xy: FloatArray, side: int) -> FloatArray:
     return edge + share * (np.array([WIDTH, HEIGHT]) - 2 * edge)
 
 
-def _apart(centres: FloatArray, side: int) -> list[int]:
-    """Shapes whose pictures cover no other, taken in the order of the shapes."""
+def _order(labels: Sequence[str | None]) -> list[int]:
+    """The rows of the first shape of every class, then those of the second, and so on."""
+    met = Counter[str | None]()
+    turns = []
+    for row, label in enumerate(labels):
+        turns.append((met[label], row))
+        met[label] += 1
+    return [row for _, row in sorted(turns)]
+
+
+def _apart(centres: FloatArray, side: int, order: Sequence[int]) -> list[int]:
+    """Shapes whose pictures hardly touch: who comes first has the place."""
     taken: list[int] = []
-    for row, centre in enumerate(centres):
-        if all(np.abs(centres[other] - centre).max() >= 0.86 * side for other in taken):
+    for row in order:
+        if all(np.abs(centres[other] - centres[row]).max() >= _APART * side for other in taken):
             taken.append(row)
     return taken
 

@@ -19,11 +19,13 @@ from reports import (
     with_bin_search,
     with_bins,
     with_clusters,
+    with_clusters,
     with_columns,
     with_external,
     with_models,
     with_paintings,
     with_parents,
+    with_publication,
     with_scores,
     with_search,
 )
@@ -55,9 +57,13 @@ SITES = {
         [f"kind {letter}" for letter in "abcdefghijkl"], 10, name="Twelve kinds", metadata={"artist": "N. N."}
     ),
     "nasty": lambda: make_report([*NASTY_LABELS, None], 4, name='<img src=x onerror="alert(1)">'),
+    "published": lambda: with_publication(make_report(["ant", "bird", "cup"], 6, name="Vessels")),
     "one shape": lambda: make_report(["ant"], 1),
     "one class": lambda: make_report(["ant"], 12),
     "no labels": lambda: make_report([None, None], 12),
+    "clusters": lambda: with_scores(
+        with_search(with_clusters(make_report([None] * 4, 8, features=FEATURES[:3])))
+    ),
     "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),
     "searched": lambda: with_search(
         make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)

@@ -32,7 +32,7 @@ export class Stage {
   }
 
   #impossible() {
-    if (this.load === null) return "This site was built without 3D data of its shapes (--no-meshes).";
+    if (this.load === null) return "This site holds no 3D data of its shapes: it was built with --no-meshes, or as one file.";
     this.capable ??= canDraw();
     return this.capable ? null : "This browser cannot draw in 3D: WebGL 2 is missing or switched off.";
   }

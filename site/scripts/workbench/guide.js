@@ -2,6 +2,7 @@
 
 import { ranked } from "../bin-list.js";
 import { element, swatch } from "../dom.js";
+import { readHash } from "../place.js";
 import { count, figure } from "../words.js";
 import { DEFAULT_SCORER } from "./address.js";
 import { difference } from "./figures.js";
@@ -27,7 +28,7 @@ export class Guide {
       if (["originalMap", "refinedMap", "refinedStatus", "originalStatus", "scores", "scoresStatus", "bins", "hidden", "theme"].some((name) => changed.has(name))) this.render();
     });
     // Who comes with a link has come for something else.
-    if (window.location.hash.length > 1 || dismissed()) this.#close();
+    if ([...readHash()].length > 0 || dismissed()) this.#close();
     else this.#open(0);
   }
 
