@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from shapeviz_report.bins import word_whole
+from shapeviz_report.features import PRESETS
 from shapeviz_report.pages.base import PageContent
 from shapeviz_report.types import Report
 
@@ -15,4 +17,5 @@ class ShapePage:
     within = "shapes"
 
     def content(self, report: Report) -> PageContent:
-        return PageContent(context={"models": report.models is not None})
+        preset = PRESETS[str(report.parameters["preset"])]
+        return PageContent(context={"models": report.models is not None, "whole": word_whole(preset.by_area)})

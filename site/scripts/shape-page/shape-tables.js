@@ -23,7 +23,7 @@ export function shapeTables(model, state, { facts, similar, histograms }) {
         [...heads, "Distance", ...features.map(({ name }) => name)],
         similar.found.map(({ row, distance, closer }) => [...named(row), figure(distance), ...closer.map(whole)]),
       ),
-      histograms && table("Its features: shares of its surface", ["Bin", "This shape", model.data.standIn ? "Half of its cluster" : "Half of its class", "Half of all shapes"], histograms.rows()),
+      histograms && table("Its features", ["Bin", "This shape", model.data.standIn ? "Half of its cluster" : "Half of its class", "Half of all shapes"], histograms.rows()),
     ].filter(Boolean),
   };
 }
