@@ -94,7 +94,6 @@ export class Matrix {
           );
           const much = row === column ? share * 0.35 : share > 0 ? 0.12 + 0.88 * Math.sqrt(share / highest) : 0;
           cell.style.setProperty("--much", much);
-          cell.classList.toggle("deep", much > 0.55);
           return cell;
         }),
       ),
