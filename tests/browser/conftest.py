@@ -26,6 +26,7 @@ from reports import (
     with_paintings,
     with_parents,
     with_publication,
+    with_retrieval,
     with_scores,
     with_search,
 )
@@ -43,6 +44,7 @@ def with_everything(report: Report) -> Report:
         with_clusters,
         with_search,
         with_bin_search,
+        with_retrieval,
         with_paintings,
         with_models,
         with_external,

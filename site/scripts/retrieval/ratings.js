@@ -17,23 +17,28 @@ export class Ratings {
     return this.features.filter((_, feature) => this.data.members[row][feature] === "1");
   }
 
+  /** Whether more was rated than each feature alone and all together, so that one can be called the best. */
+  get choosable() {
+    return this.data.members.length > this.features.length + 1;
+  }
+
   /** Where a feature alone stands. */
   alone(feature) {
     return this.find([this.features[feature]]);
   }
 
   /**
-   * What is drawn and listed: the chosen subset, all features, the best subset, each feature alone, bins, chance. What
-   * is two of these stands there once. `row` is that of a subset, else undefined.
+   * What is drawn and listed: the chosen subset, all features, the best subset where there was a choice, each feature
+   * alone, bins, chance. What is two of these stands there once. `row` is that of a subset, else undefined.
    */
   choices(chosen) {
     const { data } = this;
     const subsets = [
       { key: "chosen", kind: "chosen", row: chosen },
       { key: "everything", kind: "everything", row: this.everything },
-      { key: "best", kind: "best", row: data.best },
+      this.choosable && !data.order.some((feature) => this.alone(feature) === data.best) && { key: "best", kind: "best", row: data.best },
       ...data.order.map((feature) => ({ key: `feature ${feature}`, kind: "feature", feature, row: this.alone(feature) })),
-    ];
+    ].filter(Boolean);
     const rows = subsets.map(({ row }) => row);
     const once = subsets.filter(({ row }, place) => rows.indexOf(row) === place).map((choice) => ({ ...choice, rating: data.subsets[choice.row] }));
     const others = [

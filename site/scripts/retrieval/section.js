@@ -82,7 +82,7 @@ export class RetrievalSection {
     return element(
       "tr",
       { "data-key": choice.key },
-      element("th", { scope: "row" }, element("span", { class: "rating-of" }, lineMark(choice.kind, this.#color(choice)), this.#name(choice))),
+      element("th", { scope: "row", title: this.#words(choice) }, element("span", { class: "rating-of" }, lineMark(choice.kind, this.#color(choice)), this.#name(choice))),
       values.map((value, place) => element("td", { class: place === values.length - 1 ? "number rating-main" : "number" }, figure(value))),
     );
   }
@@ -107,7 +107,7 @@ export class RetrievalSection {
     const notes = [
       kind === "chosen" && this.choose !== null && "chosen",
       row === ratings.everything && "all features",
-      row === ratings.data.best && ratings.data.members.length > 1 && "best of all",
+      row === ratings.data.best && ratings.choosable && "best of all",
     ].filter(Boolean);
     if (notes.length === 0) return listed;
     const note = notes.join(", ");
