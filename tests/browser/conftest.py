@@ -19,7 +19,6 @@ from reports import (
     with_bin_search,
     with_bins,
     with_clusters,
-    with_clusters,
     with_columns,
     with_external,
     with_models,
