@@ -23,6 +23,7 @@ OPENED = {
     "shape.html": f"#id={SHAPE}",
 }
 ADDRESSES = [page.file + OPENED.get(page.file, "") for page in PAGES]
+ADDRESSES += ["compare.html#view=outliers", "compare.html#view=classes"]
 
 
 @pytest.fixture(scope="module")
