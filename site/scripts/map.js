@@ -4,8 +4,7 @@ import { Labels } from "./labels.js";
 import { drawChart } from "./chart.js";
 import { element, svg } from "./dom.js";
 import { Dots } from "./dots.js";
-import { CHOSEN, patient } from "./scene.js";
-
+import { CHOSEN, crowded } from "./scene.js";
 
 export class MapView {
   constructor(scene, figure) {
@@ -25,6 +24,7 @@ export class MapView {
     this.surface.append(this.node, this.overlay);
     this.pictured = [];
     this.sent = new Map();
+    this.started = false;
     this.measure();
   }
 
@@ -32,8 +32,15 @@ export class MapView {
     return this.figure.dataset.slot === "large";
   }
 
-  /** Draw the chart with the colours of the theme in use; called again when the theme changes. */
+  /** Draw the map with the colours of the theme in use; called again when the theme changes. */
   async start() {
+    if (!crowded(this.model)) await this.#startChart();
+    this.started = true;
+    performance.mark(`drawn: ${this.name}`);
+    this.settle();
+  }
+
+  async #startChart() {
     this.vega?.finalize();
     this.vega = null;
     this.sent.clear();
@@ -45,8 +52,6 @@ export class MapView {
     this.#choosePictures();
     this.#send();
     await vega.runAsync();
-    performance.mark(`drawn: ${this.name}`);
-    this.settle();
   }
 
   measure() {
@@ -75,14 +80,20 @@ export class MapView {
     return Math.min(room(this.width) / width, room(this.clearHeight) / height) * this.scene.camera().zoom;
   }
 
+  /** How the plane lies on the screen at this moment, for who wants the places of many shapes. */
+  lay() {
+    const camera = this.scene.camera();
+    const scale = this.scale;
+    return { scale, left: this.width / 2 - camera.x * scale, top: this.clearHeight / 2 + camera.y * scale };
+  }
+
   screen(index) {
     return this.toScreen(this.scene.x[index], this.scene.y[index]);
   }
 
   toScreen(x, y) {
-    const camera = this.scene.camera();
-    const scale = this.scale;
-    return [this.width / 2 + (x - camera.x) * scale, this.clearHeight / 2 - (y - camera.y) * scale];
+    const { scale, left, top } = this.lay();
+    return [left + x * scale, top - y * scale];
   }
 
   toPlane(x, y) {
@@ -92,7 +103,7 @@ export class MapView {
   }
 
   get markSize() {
-    const many = Math.min(Math.max(42000 / this.model.count, 26), 150);
+    const many = Math.min(Math.max(42000 / this.scene.present, 26), 150);
     const size = this.large ? many * Math.min(Math.max(this.width / 800, 0.5), 1) : Math.max(many * 0.22, 9);
     return size * Math.min(this.scene.camera().zoom, 4) ** 0.5;
   }
@@ -113,25 +124,25 @@ export class MapView {
 
   /** The visible shape at a place on the screen, or null. */
   at(x, y, reach) {
-    const half = this.pictureSize / 2;
+    const { scale, left, top } = this.lay();
+    const [pictureReach, markReach] = [this.pictureSize / 2, this.markRadius + reach];
     let [best, least] = [null, Infinity];
     for (let index = 0; index < this.model.count; index += 1) {
       if (!this.scene.visible(index)) continue;
-      const [px, py] = this.screen(index);
-      const near = this.pictured[index] ? half : this.markRadius + reach;
-      const distance = Math.hypot(px - x, py - y);
-      if (distance <= near && distance < least) [best, least] = [index, distance];
+      const distance = Math.hypot(left + this.scene.x[index] * scale - x, top - this.scene.y[index] * scale - y);
+      if (distance <= (this.pictured[index] ? pictureReach : markReach) && distance < least) [best, least] = [index, distance];
     }
     return best;
   }
 
   /** Visible shapes in a rectangle of the screen. */
-  inside(left, top, right, bottom) {
+  inside(west, north, east, south) {
+    const { scale, left, top } = this.lay();
     const found = [];
     for (let index = 0; index < this.model.count; index += 1) {
       if (!this.scene.visible(index)) continue;
-      const [x, y] = this.screen(index);
-      if (x >= left && x <= right && y >= top && y <= bottom) found.push(index);
+      const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
+      if (x >= west && x <= east && y >= north && y <= south) found.push(index);
     }
     return found;
   }
@@ -139,37 +150,31 @@ export class MapView {
   // Drawing
 
   draw() {
-    this.#drawRings();
+    this.drawRings();
     this.labels.follow((index) => this.screen(index));
-    if (!this.vega) return;
-    if (this.scene.moving) {
-      this.dots ??= new Dots(this);
-      this.dots.draw();
-    } else if (patient(this.model)) {
-      this.#stretch();
-    } else {
+    if (!this.started) return;
+    if (this.scene.moving || crowded(this.model)) this.#drawDots();
+    else if (this.vega) {
       this.#send();
       this.#run();
     }
   }
 
-  /** Move the picture drawn last to where its part of the plane is now: what a large map shows until it settles. */
-  #stretch() {
-    const { x_domain: x, y_domain: y, target } = Object.fromEntries(this.sent);
-    if (target !== this.scene.target) return;
-    const [left, top] = this.toScreen(x[0], y[1]);
-    const [right] = this.toScreen(x[1], y[1]);
-    this.node.style.transform = `translate(${left}px, ${top}px) scale(${(right - left) / this.width})`;
+  #drawDots() {
+    this.dots ??= new Dots(this);
+    this.dots.draw();
   }
 
   /** After the last of a series of changes: what would be too slow or too restless for every frame. */
   settle() {
-    if (!this.vega || this.scene.moving) return;
+    if (!this.started || this.scene.moving) return;
     this.#choosePictures();
-    this.#send();
-    this.#run();
-    this.node.style.transform = "";
-    this.#drawRings();
+    if (crowded(this.model)) this.#drawDots();
+    else if (this.vega) {
+      this.#send();
+      this.#run();
+    }
+    this.drawRings();
     if (this.large) this.#name();
     else this.labels.clear();
   }
@@ -223,7 +228,8 @@ export class MapView {
     }
   }
 
-  #drawRings() {
+  /** What is pointed at and what is open. */
+  drawRings() {
     this.#drawTies();
     const radius = (index) => (this.pictured[index] ? this.pictureSize / 2 + 2 : this.markRadius + 4);
     for (const [ring, index] of [
@@ -257,28 +263,30 @@ export class MapView {
     const { emphasis } = this.scene;
     const apart = this.pictureSize * (this.model.count > MOST_PICTURES ? 0.8 : 0.5);
     const taken = new Map();
+    const cell = (column, row) => row * 100000 + column;
     const free = (x, y) => {
       const [column, row] = [Math.floor(x / apart), Math.floor(y / apart)];
       for (let i = -1; i <= 1; i += 1) {
         for (let j = -1; j <= 1; j += 1) {
-          for (const [px, py] of taken.get(`${column + i},${row + j}`) ?? []) {
+          for (const [px, py] of taken.get(cell(column + i, row + j)) ?? []) {
             if (Math.max(Math.abs(px - x), Math.abs(py - y)) < apart) return false;
           }
         }
       }
-      const key = `${column},${row}`;
+      const key = cell(column, row);
       if (!taken.has(key)) taken.set(key, []);
       taken.get(key).push([x, y]);
       return true;
     };
     const half = this.pictureSize / 2;
+    const { scale, left, top } = this.lay();
     const pictured = new Array(this.model.count).fill(false);
     let room = MOST_PICTURES;
     for (const chosen of [true, false]) {
       for (const index of this.#scattered()) {
         if (room === 0) break;
         if (!this.scene.visible(index) || (emphasis[index] === CHOSEN) !== chosen) continue;
-        const [x, y] = this.screen(index);
+        const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
         if (x < -half || y < -half || x > this.width + half || y > this.height + half || !free(x, y)) continue;
         pictured[index] = true;
         room -= 1;
@@ -294,10 +302,11 @@ export class MapView {
   }
 
   #name() {
+    const { scale, left, top } = this.lay();
     const points = [];
     for (let index = 0; index < this.model.count; index += 1) {
       if (!this.scene.visible(index)) continue;
-      const [x, y] = this.screen(index);
+      const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
       if (x < 0 || y < 0 || x > this.width || y > this.clearHeight) continue;
       points.push({ index, group: this.model.groups[index], x, y });
     }

@@ -79,12 +79,18 @@ export class Model {
 
   #findNeighbours(index, methodIndex) {
     const { x, y, neighbours } = this.methods[methodIndex];
-    const distances = x.map((value, other) => (value - x[index]) ** 2 + (y[other] - y[index]) ** 2);
-    return x
-      .map((_, other) => other)
-      .filter((other) => other !== index && Number.isFinite(distances[other]))
-      .sort((a, b) => distances[a] - distances[b] || a - b)
-      .slice(0, neighbours);
+    // The nearest so far, nearest first: few, where a sort would go over all shapes.
+    const found = [];
+    for (let other = 0; other < x.length; other += 1) {
+      const distance = (x[other] - x[index]) ** 2 + (y[other] - y[index]) ** 2;
+      if (other === index || !Number.isFinite(distance)) continue;
+      if (found.length === neighbours && distance >= found[neighbours - 1].distance) continue;
+      let place = found.length;
+      while (place > 0 && found[place - 1].distance > distance) place -= 1;
+      found.splice(place, 0, { other, distance });
+      if (found.length > neighbours) found.pop();
+    }
+    return found.map(({ other }) => other);
   }
 
   /** Classes among some shapes with their counts, most frequent first. */

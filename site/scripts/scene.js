@@ -6,16 +6,16 @@ import { calm } from "./dom.js";
 const DURATION = 650;
 const COVER_DURATION = 180;
 const LARGEST_ZOOM = 40;
-const PATIENT = 1500;
+const CROWD = 1500;
 
 export const HIDDEN = 0;
 export const FAINT = 1;
 export const NORMAL = 2;
 export const CHOSEN = 3;
 
-/** Whether there are so many shapes that charts are drawn anew only when a movement has ended. */
-export function patient(model) {
-  return model.count > PATIENT;
+/** Whether there are so many shapes that maps draw them themselves: a chart would take a second for every change. */
+export function crowded(model) {
+  return model.count > CROWD;
 }
 
 export class Scene {
@@ -38,21 +38,25 @@ export class Scene {
     state.listen((changed) => {
       if (changed.has("method")) this.#travel(state.get("method"));
       if (["hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.weigh();
-      if ([camera, "hidden", "selection", "matches", "pointedGroup", "pointed", "opened"].some((name) => changed.has(name))) this.draw();
+      if ([camera, "hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.draw();
+      else if (changed.has("pointed") || changed.has("opened")) for (const view of this.views) view.drawRings();
     });
   }
 
-  /** Draw all maps with the next frame. */
+  /** Draw all maps with the next frame; small ones of a crowd with every fourth, and when all is still. */
   draw() {
     this.#frame ??= requestAnimationFrame(() => {
       this.#frame = null;
-      for (const view of this.views) view.draw();
+      this.#frames += 1;
+      const few = crowded(this.model) && this.#frames % 4 > 0;
+      for (const view of this.views) if (view.large || !few) view.draw();
     });
     clearTimeout(this.#settling);
     this.#settling = setTimeout(() => this.#settle(), 160);
   }
 
   #frame = null;
+  #frames = 0;
   #settling = null;
 
   /** The large map first, each in a frame of its own, so that no frame takes long. */
@@ -93,7 +97,7 @@ export class Scene {
     const camera = this.state.get(this.cameraName);
     this.#voyage?.abort();
     this.#voyage = new AbortController();
-    animate(patient(this.model) ? 0 : DURATION, this.#voyage.signal, (linear) => {
+    animate(DURATION, this.#voyage.signal, (linear) => {
       this.#place(eased(linear));
       const mix = (a, b) => a + this.progress * (b - a);
       this.bounds = {
@@ -126,6 +130,7 @@ export class Scene {
     const selection = this.state.get("selection");
     const matches = this.state.get("matches");
     const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
+    this.present = this.x.reduce((number, value) => number + !Number.isNaN(value), 0);
     this.emphasis = this.model.groups.map((group, index) => {
       if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
       if (pointed !== null) return group === pointed ? CHOSEN : FAINT;

@@ -42,6 +42,16 @@ def drawn(page, selector) -> np.ndarray:
     return np.asarray(Image.open(io.BytesIO(page.locator(selector).screenshot())).convert("RGB")).astype(int)
 
 
+def pictured(page) -> float:
+    """The share of the large map that is well inside of something that is drawn on it."""
+    picture = drawn(page, LARGE)
+    filled = np.abs(picture - picture[5, 5]).max(axis=2) > 40
+    inside = np.logical_and.reduce(
+        [np.roll(filled, (x, y), axis=(0, 1)) for x in range(-6, 7, 3) for y in range(-6, 7, 3)]
+    )
+    return inside.mean()
+
+
 def point(page, key) -> tuple[float, float]:
     """Go to a shape with an arrow key; where it then is on the screen."""
     page.focus(LARGE)
@@ -473,7 +483,13 @@ class TestStates:
     def test_a_large_database_draws_some_pictures_and_all_points(self, open_page):
         page = open_page("large")
         page.keyboard.press("3")
-        eventually(page, lambda: 20 < page.locator("figure[data-view=thumbnail] svg image").count() <= 500)
+        # The pictures of the tests are grey on nothing, larger than any dot: they fill a part of the map.
+        eventually(page, lambda: pictured(page) > 0.004)
+        before = pictured(page)
+        page.keyboard.press("+")
+        page.keyboard.press("+")
+        eventually(page, lambda: pictured(page) > 1.2 * before)
+        page.keyboard.press("0")
         brush(page, left=0.01, top=0.01, right=0.99, bottom=0.93)
         eventually(page, lambda: selected(page) > 1000)
         assert page.locator("#tray .shape").count() == 200

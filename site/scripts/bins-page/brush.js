@@ -47,7 +47,14 @@ export function watchBrush(surface, plot, state) {
     state.set({ selection: index === null ? new Set() : toggled(state.get("selection"), index) });
   };
   surface.addEventListener("click", click, { capture: true });
-  state.listen((changed) => changed.has("selection") && plot.draw());
+  let frame = null;
+  const draw = () => {
+    frame = null;
+    plot.draw();
+  };
+  state.listen((changed) => {
+    if (changed.has("selection")) frame ??= requestAnimationFrame(draw);
+  });
 }
 
 function placeOn(surface, { clientX, clientY }) {
