@@ -123,7 +123,9 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument(
         "--list", action="store_true", help="print the id of every shape, in order, and no more"
     )
-    _add_options(check, ["layout", "labeling", "external", "bins", *PUBLICATION, "time_limit", "jobs", "cache"])
+    _add_options(
+        check, ["layout", "labeling", "external", "bins", *PUBLICATION, "time_limit", "jobs", "cache"]
+    )
     check.set_defaults(command=_check)
 
     query = commands.add_parser(

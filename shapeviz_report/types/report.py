@@ -12,8 +12,8 @@ from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
 from shapeviz_report.types.mesh import ShapeFacts
-from shapeviz_report.types.retrieval import Retrieval
 from shapeviz_report.types.publication import Publication
+from shapeviz_report.types.retrieval import Retrieval
 from shapeviz_report.types.search import FeatureSearch
 
 
