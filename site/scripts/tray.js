@@ -3,6 +3,7 @@
 import { compareAddress } from "./compare/address.js";
 import { element, picture, swatch } from "./dom.js";
 import { saveCsv, saveJson } from "./export.js";
+import { galleryOf } from "./gallery/link.js";
 import { pageAddress } from "./place.js";
 import { writeSelection } from "./selection.js";
 import { count, shortened } from "./words.js";
@@ -92,7 +93,7 @@ export class Tray {
     writeSelection(query, model, selection);
     const rest = selection.size < model.count;
     return [
-      here !== "page-shapes" && ["Open in Shapes", pageAddress("shapes.html", query)],
+      here !== "page-shapes" && ["Open in Shapes", galleryOf(model, selection)],
       here !== "page-overview" && ["Show on the map", pageAddress("index.html", query)],
       here !== "page-compare" && rest && ["Compare with the rest", compareAddress(model, { kind: "shapes", shapes: selection }, { kind: "rest" })],
     ].filter(Boolean);

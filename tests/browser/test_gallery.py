@@ -344,6 +344,26 @@ class TestSelecting:
         page.wait_for_selector("html[data-ready]", state="attached")
         assert page.inner_text("#tray h2") == "48 shapes selected"
 
+    def test_only_the_selected_are_shown_as_another_page_asks(self, open_page):
+        page = open_page("museum", "index.html#find=K-000")
+        page.wait_for_selector("#search-select:not([hidden])")
+        page.click("#search-select")
+        page.click("#tray >> text=Open in Shapes")
+        page.wait_for_url(re.compile("shapes.html#only"))
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert names(page) == [f"ant {row}" for row in range(10)]
+        page.locator(".cell a").nth(3).focus()
+        page.keyboard.press("Space")
+        assert shown(page) == 9
+        assert "ant 3" not in names(page)
+        assert focused(page) == "ant 4"
+        page.click("#chips button")
+        assert shown(page) == 144
+        page.click("#only-selected")
+        assert shown(page) == 9
+        page.click("#tray >> text=Clear")
+        assert shown(page) == 144
+
     def test_they_are_compared_with_the_rest(self, open_page):
         page = open_page("museum", "shapes.html#find=K-0002")
         page.click("#compare-shown")

@@ -2,6 +2,7 @@
 
 import { element, picture } from "../dom.js";
 import { writeSelection } from "../selection.js";
+import { galleryOf } from "../gallery/link.js";
 import { pageAddress } from "../place.js";
 import { shortNames } from "../workbench/bin-names.js";
 import { Inquiry } from "../workbench/inquiry.js";
@@ -98,7 +99,7 @@ export class GroupsView {
       const query = new URLSearchParams();
       writeSelection(query, model, new Set(group.shapes));
       node.replaceChildren(
-        element("p", {}, group.mark(), element("b", {}, count(group.shapes.length, "shape")), " ", element("a", { href: pageAddress("shapes.html", query) }, "Show in Shapes"), " ", element("a", { href: pageAddress("index.html", query) }, "on the map")),
+        element("p", {}, group.mark(), element("b", {}, count(group.shapes.length, "shape")), " ", element("a", { href: galleryOf(model, new Set(group.shapes)) }, "Show in Shapes"), " ", element("a", { href: pageAddress("index.html", query) }, "on the map")),
         element("div", { class: "faces" }, faces(group.shapes).map((index) => picture(model, index, 64))),
       );
     }

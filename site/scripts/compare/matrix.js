@@ -1,6 +1,7 @@
 // Which classes are alike: of the nearest neighbours of each class, how many belong to each other class.
 
 import { element, picture, swatch } from "../dom.js";
+import { galleryOf } from "../gallery/link.js";
 import { pageAddress } from "../place.js";
 import { writeSelection } from "../selection.js";
 import { count, shortened } from "../words.js";
@@ -175,7 +176,7 @@ export class Matrix {
     const ways = [
       row !== column && element("a", { href: compareAddress(model, { kind: "class", group: row }, { kind: "class", group: column }) }, "Compare these classes"),
       row !== column && element("a", { href: pageAddress("workbench.html", [["class", model.classes[row]], ["class", model.classes[column]]]) }, "Into the Workbench"),
-      all.size > 0 && element("a", { href: pageAddress("shapes.html", query) }, `Show the ${count(all.size, "shape")}`),
+      all.size > 0 && element("a", { href: galleryOf(model, all) }, `Show the ${count(all.size, "shape")}`),
       all.size > 0 && element("a", { href: pageAddress("index.html", query) }, "On the map"),
     ].filter(Boolean);
     const own = row === column;

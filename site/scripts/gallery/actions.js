@@ -14,6 +14,11 @@ export function watchActions(model, sieve, grid, state) {
     const closed = state.get("closed").size > 0 ? [] : grid.groups.map(({ key }) => key);
     state.set({ closed: new Set(closed) });
   });
+  const only = document.getElementById("only-selected");
+  only.addEventListener("click", () => state.set({ only: true }));
+  const showOnly = () => {
+    only.hidden = state.get("only") || state.get("selection").size === 0;
+  };
   // Many shapes make long addresses; they are made when they are wanted.
   const aim = (link, address) => {
     for (const kind of ["pointerdown", "focus", "click"]) {
@@ -33,8 +38,10 @@ export function watchActions(model, sieve, grid, state) {
   };
   state.listen((changed) => {
     if (changed.has("closed")) showFold();
+    if (changed.has("selection") || changed.has("only")) showOnly();
   });
   showFold();
+  showOnly();
   return () => {
     const some = sieve.size > 0 && sieve.size < model.count;
     select.hidden = sieve.size === 0;

@@ -19,16 +19,18 @@ export function readGalleryAddress(model, fields) {
   const standard = usual(model, fields);
   const group = query.get("group");
   const sort = query.get("sort") ?? "";
+  const selection = readSelection(query, model);
   const size = Number(query.get("size") ?? standard.size);
   return {
     query: query.get("find") ?? "",
+    only: query.has("only") && selection.size > 0,
     filters: readFilters(query, fields),
     group: group === "" || fields.groupable.some(({ key }) => key === group) ? group : standard.group,
     sort: fields.sortable.some(({ key }) => key === sort) ? sort : standard.sort,
     down: query.has("down"),
     size: size >= SIZES.least && size <= SIZES.most ? size : standard.size,
     closed: new Set(query.getAll("closed")),
-    selection: readSelection(query, model),
+    selection,
     at: model.indexOfId.get(query.get("at")) ?? null,
   };
 }
@@ -41,6 +43,7 @@ function galleryQuery(model, fields, state) {
   const query = new URLSearchParams();
   const standard = usual(model, fields);
   if (state.get("query") !== "") query.set("find", state.get("query"));
+  if (state.get("only")) query.set("only", "");
   for (const [key, filter] of state.get("filters")) writeFilter(query, fields.byKey.get(key), filter);
   if (state.get("group") !== standard.group) query.set("group", state.get("group"));
   if (state.get("sort") !== standard.sort) query.set("sort", state.get("sort"));

@@ -7,11 +7,12 @@ import { numberText, valueName } from "./fields.js";
 const MOST_NAMES = 3;
 const LONGEST = 40;
 
-/** The filters in use, in words: `{ key, title, text }`; the search first. */
+/** The filters in use, in words: `{ key, title, text }`; the search first, then the selection. */
 export function activeFilters(fields, state) {
   const query = state.get("query");
   const search = query === "" ? [] : [{ key: "search", title: "Search", text: `“${shortened(query, LONGEST)}”` }];
-  return [...search, ...[...state.get("filters")].map(([key, filter]) => describe(fields.byKey.get(key), key, filter))];
+  const only = state.get("only") ? [{ key: "only", title: "Only", text: "the selected shapes" }] : [];
+  return [...search, ...only, ...[...state.get("filters")].map(([key, filter]) => describe(fields.byKey.get(key), key, filter))];
 }
 
 function describe(field, key, filter) {
@@ -39,13 +40,13 @@ export class Chips {
   }
 
   clear() {
-    this.state.set({ query: "", filters: new Map() });
+    this.state.set({ query: "", only: false, filters: new Map() });
   }
 
   /** Take one filter back. */
   remove(key) {
-    if (key === "search") {
-      this.state.set({ query: "" });
+    if (key === "search" || key === "only") {
+      this.state.set(key === "search" ? { query: "" } : { only: false });
       return;
     }
     const filters = new Map(this.state.get("filters"));

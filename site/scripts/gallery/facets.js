@@ -104,12 +104,13 @@ class Choice {
     const counts = sieve.counts(field);
     const typed = this.find ? this.find.value.trim().toLocaleLowerCase() : "";
     const found = typed === "" ? this.values : this.values.filter((value) => valueName(field, value).toLocaleLowerCase().includes(typed));
-    const few = this.#all || typed !== "" || field.active ? MOST : FEW;
+    const usual = typed !== "" || field.active ? MOST : FEW;
+    const few = this.#all && typed === "" ? Infinity : usual;
     const shown = found.filter((value, place) => place < few || filter?.has(value));
     const focused = this.list.contains(document.activeElement) ? document.activeElement.value : null;
     this.list.replaceChildren(...shown.map((value) => this.#item(value, counts.at(value), filter?.has(value) ?? false)));
     if (focused !== null) this.list.querySelector(`input[value="${focused}"]`)?.focus();
-    this.more.hidden = found.length <= FEW || typed !== "" || field.active && found.length <= MOST;
+    this.more.hidden = found.length <= usual || typed !== "";
     this.more.textContent = this.#all ? "Fewer" : `All ${grouped(found.length)}`;
   }
 

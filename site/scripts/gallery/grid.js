@@ -37,13 +37,19 @@ export class Grid {
   /** Show groups of shapes as cells; what is at the top stays there if it can, unless `fromTop`. */
   show(groups, cells, fromTop) {
     const anchor = fromTop ? null : this.#anchor();
+    const focused = this.node.contains(document.activeElement);
+    const place = this.active.shape === null ? -1 : this.placeOf[this.active.shape];
     if (cells !== this.#cells) this.#made.clear();
     this.#groups = groups;
     this.#cells = cells;
     this.#layOut();
     if (fromTop) this.#scrollBy(-Math.max(this.#window().top, 0));
     else this.#hold(anchor);
+    const { sequence } = this.layout;
+    // Where the shape with the focus has gone, the one in its place has it.
+    if (focused && place >= 0 && this.placeOf[this.active.shape] < 0) this.active = { shape: sequence[Math.min(place, sequence.length - 1)] ?? null, head: null };
     this.draw();
+    if (focused) this.#stop()?.focus({ preventScroll: true });
     this.#showPictures(false);
   }
 

@@ -15,12 +15,14 @@ export class Sieve {
   }
 
   /**
-   * Sift the shapes: `matches` is a set of shapes or null, `filters` a map from the key of a field to a set of values
+   * Sift the shapes: `matches` (of the search) and `only` are sets of shapes or null, `filters` a map from the key of a field to a set of values
    * (or nodes), or to a range `{ low, high }`. Both are never changed, only replaced.
    */
-  sift(matches, filters) {
+  sift(matches, only, filters) {
     this.conditions = new Map();
-    if (matches !== null) this.conditions.set("search", this.#of(matches, () => (row) => matches.has(row)));
+    for (const [key, shapes] of [["search", matches], ["only", only]]) {
+      if (shapes !== null) this.conditions.set(key, this.#of(shapes, () => (row) => shapes.has(row)));
+    }
     for (const [key, filter] of filters) this.conditions.set(key, this.#of(filter, () => passing(this.fields.byKey.get(key), filter)));
     this.failures = this.everything;
     if (this.conditions.size > 0) {

@@ -52,7 +52,7 @@ async function main() {
     grid.mark();
   };
   const sift = () => {
-    sieve.sift(state.get("matches"), state.get("filters"));
+    sieve.sift(state.get("matches"), state.get("only") ? state.get("selection") : null, state.get("filters"));
     chips.show();
     facets.show();
     panel.show();
@@ -67,15 +67,19 @@ async function main() {
   state.listen((changed) => {
     const has = (...names) => names.some((name) => changed.has(name));
     if (has("query")) search(model, state);
-    if (has("matches", "filters")) {
+    // Who takes back the last of the selected shapes sees all again.
+    if (has("selection") && state.get("only") && state.get("selection").size === 0) state.set({ only: false });
+    const taken = has("selection") && state.get("only");
+    if (taken || has("matches", "only", "filters")) {
       sift();
       say();
     }
-    if (has("matches", "filters", "group", "sort", "down")) arrange(true);
+    if (has("matches", "only", "filters", "group", "sort", "down")) arrange(true);
+    else if (taken) arrange(false);
     else if (has("theme")) arrange(false);
     else if (has("size", "closed")) grid.rearrange();
     if (has("selection")) grid.mark();
-    if (has("query", "filters", "group", "sort", "down", "size", "closed", "selection", "at")) later();
+    if (has("query", "only", "filters", "group", "sort", "down", "size", "closed", "selection", "at")) later();
   });
   new Keys(grid, state, {
     leave: (at) => {
