@@ -54,6 +54,31 @@ def test_build_tells_what_it_did(database, built, tmp_path, flags) -> None:
     assert "left" in done.stderr
 
 
+def test_a_site_in_one_file_is_built_and_a_missing_licence_is_told(database, built, tmp_path, flags) -> None:
+    file = tmp_path / "report.html"
+    done = run("build", database, "-o", file, "--single-file", *flags)
+    assert done.returncode == 0
+    assert done.stdout.rstrip().endswith(str(file))
+    assert "Note: No licence is named" in done.stdout
+    assert list(tmp_path.iterdir()) == [file]
+    assert b'<html lang="en" data-single-file>' in file.read_bytes()[:100]
+
+
+def test_check_asks_for_a_licence_until_one_is_named(database, cache) -> None:
+    bare = run("check", database, "--cache", cache).stdout
+    told = run("check", database, "--cache", cache, "--licence", "CC0-1.0").stdout
+    assert "Note: No licence is named" in bare
+    assert "Note:" not in told
+
+
+def test_what_cannot_be_published_ends_the_build_before_it_begins(database, tmp_path, flags) -> None:
+    done = run("build", database, "-o", tmp_path / "site", *flags, "--accent", "reddish")
+    assert done.returncode == 1
+    assert "accent must be a colour such as #1f5f99" in done.stderr
+    assert "Preparing" not in done.stderr
+    assert not (tmp_path / "site").exists()
+
+
 def test_failures_do_not_fail_the_build(tmp_path, flags) -> None:
     database = write_database(tmp_path / "d", per_class=1)
     (database / "box" / "bad\x1b[31m.off").write_text("OFF\n")
