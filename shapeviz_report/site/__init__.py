@@ -139,9 +139,8 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
         if single_file:
             write_atomically(destination, _whole(report))
             return
-        files = _files(report)
         with replaced_folder(destination) as folder:
-            for name, content in files.items():
+            for name, content in _files(report):
                 path = folder / name
                 path.parent.mkdir(exist_ok=True)
                 path.write_bytes(content)
@@ -149,8 +148,9 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
         raise SiteError(f"the site cannot be written to {destination}: {error}") from error
 
 
-def _files(report: Report) -> dict[str, bytes]:
-    """Every file of the site: path below its folder -> content."""
+def _files(report: Report) -> Iterator[tuple[str, bytes]]:
+    """Every file of the site: path below its folder, and content. Models come last and one by one: those of 10,000
+    shapes are nearly a gigabyte."""
     contents = _contents(report)
     assets = {
         **{name: text.encode() for name, text in _scripts().items()},
@@ -170,17 +170,16 @@ def _files(report: Report) -> dict[str, bytes]:
             if name.startswith("chunk-")
         }
     )
-    return {
+    yield from {
         **{page.file: _encode(text) for page, text in _pages(environment, report, contents)},
         **{f"assets/{name}": content for name, content in assets.items()},
         **_pictures(report),
         "preview.png": preview.draw_preview(report),
-        **{
-            f"models/{model_name(model)}.js": _handing_over(f"model-{model_name(model)}", "bytes", model)
-            for model in report.models or ()
-        },
         **_data(report),
-    }
+    }.items()
+    for model in report.models or ():
+        name = model_name(model)
+        yield f"models/{name}.js", _handing_over(f"model-{name}", "bytes", model)
 
 
 def _whole(report: Report) -> bytes:
