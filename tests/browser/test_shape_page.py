@@ -370,7 +370,7 @@ def test_sites_of_all_kinds_have_their_words(shape):
     assert one.locator(".surroundings").is_hidden()
     assert one.locator("#similar").is_hidden()
     assert one.locator("#turn-over").inner_text() == ""
-    assert one.locator("#stage .empty").inner_text().startswith("This site was built without 3D data")
+    assert one.locator("#stage .empty").inner_text().startswith("This site holds no 3D data")
     assert one.locator(".bars .own").count() == 20
     assert one.locator(".bars .all, .bars .fellows").count() == 0
     unlabelled = shape("no labels", "#id=class001/0002")
