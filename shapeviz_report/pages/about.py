@@ -171,6 +171,14 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
             else ()
         ),
         *(
+            (
+                ("retrieval.csv", "how well each subset of the features finds similar shapes"),
+                ("retrieval-classes.csv", "the same for the shapes of each class"),
+            )
+            if report.retrieval is not None
+            else ()
+        ),
+        *(
             (("selected-bins.txt", "a few bins that separate all classes, for build --bins"),)
             if report.bins is not None
             else ()

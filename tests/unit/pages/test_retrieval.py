@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from reports import make_report, with_bin_search, with_retrieval, with_search
 
+from shapeviz_report.pages.about import AboutPage
 from shapeviz_report.pages.features import FeaturesPage
 from shapeviz_report.retrieval import MEASURES, RECALL_LEVELS
 from shapeviz_report.site.data_files import data_files, summary
@@ -88,6 +89,8 @@ def test_summary_and_tables_agree_with_the_report(report) -> None:
     ]
     assert float(own["first_tier"]) == pytest.approx(told["features"]["Sc"]["first_tier"], abs=1e-6)
     assert float(own["precision:0.05"]) == pytest.approx(told["features"]["Sc"]["precision"][0], abs=1e-6)
+    offered = [file for file, _ in AboutPage().content(report).context["downloads"]]
+    assert {"retrieval.csv", "retrieval-classes.csv"} <= set(offered)
     classes = list(csv.DictReader(io.StringIO(files["retrieval-classes.csv"].decode())))
     assert len(classes) == 3 * (7 + 1 + 1)
     assert {(row["class"], row["queries"]) for row in classes} == {("ant", "6"), ("bird", "6"), ("cup", "6")}
