@@ -328,9 +328,7 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
                     raise DatabaseError(f"The demo shape {task} cannot be made: {outcome.reason}.")
                 write_atomically(demo.shape_path(root, *task[:2]), outcome.value)
                 advance()
-    config = replace(
-        config, title=config.title or "Demo shapes", licence=config.licence or "CC0-1.0", up="z"
-    )
+    config = replace(config, title=config.title or "Demo shapes", licence=config.licence or "CC0-1.0", up="z")
     return build_report(root, destination, config, progress)
 
 
