@@ -51,7 +51,7 @@ def point_at_another(page, surface, kind) -> None:
     """Move the mouse over a map until it is on a shape of a kind."""
     page.locator(surface).scroll_into_view_if_needed()
     box = page.locator(surface).bounding_box()
-    card = page.locator("body > .card:not(.bin-card)")
+    card = page.locator("#content > .card:not(.bin-card)")
     for x in np.linspace(8, box["width"] - 8, 24):
         for y in np.linspace(8, box["height"] - 8, 12):
             page.mouse.move(box["x"] + x, box["y"] + y)
@@ -75,7 +75,7 @@ def test_every_class_has_a_map_of_few_bins(bins):
     # A name says what it is where the pointer or the keyboard is.
     chip = cards.nth(1).locator(".bin-chip").first
     chip.hover()
-    card = page.locator("body > .bin-card")
+    card = page.locator("#content > .bin-card")
     assert card.locator(".name b").inner_text() == chip.inner_text()
     assert card.inner_text().find("What share of the surface") >= 0
     # The class that the bin separates stands above the others.
