@@ -62,9 +62,7 @@ SITES = {
     "one shape": lambda: make_report(["ant"], 1),
     "one class": lambda: make_report(["ant"], 12),
     "no labels": lambda: make_report([None, None], 12),
-    "clusters": lambda: with_scores(
-        with_search(with_clusters(make_report([None] * 4, 8, features=FEATURES[:3])))
-    ),
+    "clusters": lambda: with_clusters(make_report([None] * 4, 8, features=FEATURES[:3])),
     "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),
     "searched": lambda: with_search(
         make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)

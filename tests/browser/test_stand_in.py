@@ -1,0 +1,29 @@
+"""A site without labels in a browser: it works with clusters, and says so on every page."""
+
+from __future__ import annotations
+
+import pytest
+
+from shapeviz_report.pages import PAGES
+
+
+@pytest.mark.parametrize("page_file", [page.file for page in PAGES])
+def test_every_page_opens_and_says_that_clusters_stand_in(open_page, page_file) -> None:
+    page = open_page("clusters", page_file, viewport={"width": 390, "height": 800})
+    notice = page.get_by_role("note").filter(has_text="stand in for classes")
+    assert notice.is_visible()
+    box = notice.bounding_box()
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= 390
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    assert notice.get_by_role("link").get_attribute("href") == "about.html#clusters"
+
+
+def test_the_overview_fits_the_window_below_the_notice(open_page) -> None:
+    page = open_page("clusters")
+    assert page.evaluate("document.documentElement.scrollHeight") <= 900
+    assert page.locator("#tray").bounding_box()["y"] < 900
+    names = page.locator("#legend li").all_text_contents()
+    assert names
+    assert all("like shape" in name or "like class" in name for name in names)
+    assert "The clusters come from the same features" in page.locator("#quality").text_content()
