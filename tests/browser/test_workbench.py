@@ -336,6 +336,7 @@ class TestWorkThatTakesLong:
 @pytest.mark.parametrize(("width", "height"), [(1280, 720), (390, 844)])
 def test_it_fits_the_window(bench, width, height):
     page = bench("nasty workbench", "#bins=Gc", viewport={"width": width, "height": height})
+    assert page.evaluate("scrollY") == 0
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     if width > 1000:
         assert page.evaluate("document.documentElement.scrollHeight") <= height

@@ -35,8 +35,15 @@ export class HistoryStrip {
     this.undo.disabled = !history.canUndo;
     this.redo.disabled = !history.canRedo;
     const current = this.list.children[history.at].firstElementChild;
-    current.scrollIntoView({ block: "nearest", inline: "nearest" });
+    this.#reveal(current);
     if (focused !== undefined) (this.list.querySelector(`[data-step="${focused}"]`) ?? current).focus({ preventScroll: true });
+  }
+
+  /** Scroll the strip to a step, and nothing but the strip: on a phone it lies far below what one looks at. */
+  #reveal(step) {
+    const [strip, box] = [this.list.getBoundingClientRect(), step.getBoundingClientRect()];
+    if (box.left < strip.left) this.list.scrollLeft -= strip.left - box.left;
+    else if (box.right > strip.right) this.list.scrollLeft += box.right - strip.right;
   }
 
   #step(place) {
