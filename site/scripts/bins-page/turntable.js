@@ -34,10 +34,17 @@ export class Turntable {
     return shape ?? pictured(this.selection, this.model, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1);
   }
 
+  #extremes = null;
+
+  /** The first shape with the most (1) or the least (-1) of a bin; kept, since every mark of the map asks for it. */
   #extreme(column, sign) {
-    let best = 0;
-    for (let row = 1; row < this.bins.rows; row += 1) if (sign * (this.bins.value(column, row) - this.bins.value(column, best)) > 0) best = row;
-    return best;
+    if (this.#extremes?.column !== column) {
+      const { rows, steps } = this.bins;
+      const own = steps.subarray(column * rows, (column + 1) * rows);
+      const [least, most] = own.reduce(([low, high], value, row) => [value < own[low] ? row : low, value > own[high] ? row : high], [0, 0]);
+      this.#extremes = { column, least, most };
+    }
+    return sign > 0 ? this.#extremes.most : this.#extremes.least;
   }
 
   start() {
