@@ -19,13 +19,13 @@ export function compareAddress(model, a, b) {
 }
 
 /** Add two groups to the parameters of an address. */
-export function writeGroups(query, model, a, b) {
+function writeGroups(query, model, a, b) {
   writeGroup(query, model, "a", a);
   writeGroup(query, model, "b", b);
 }
 
 /** The groups that an address names, `{ a, b }`; null for one that it does not name, or that is no longer there. */
-export function readCompareAddress(query, model) {
+function readCompareAddress(query, model) {
   const [a, b] = [readGroup(query, model, "a"), readGroup(query, model, "b")];
   if (a !== null || query.has("a")) return { a, b };
   // The selection that came along from another page.

@@ -72,7 +72,7 @@ function valuesOf(bins, rows) {
 }
 
 /** What came out of a comparison. */
-export class Contrast {
+class Contrast {
   constructor(bins, sample, contests, { apart, both, ownRest, othersRest }) {
     Object.assign(this, { bins, sample, apart, both });
     const [{ first, second }] = contests;

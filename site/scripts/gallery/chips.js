@@ -8,7 +8,7 @@ const MOST_NAMES = 3;
 const LONGEST = 40;
 
 /** The filters in use, in words: `{ key, title, text }`; the search first, then the selection. */
-export function activeFilters(fields, state) {
+function activeFilters(fields, state) {
   const query = state.get("query");
   const search = query === "" ? [] : [{ key: "search", title: "Search", text: `“${shortened(query, LONGEST)}”` }];
   const only = state.get("only") ? [{ key: "only", title: "Only", text: "the selected shapes" }] : [];

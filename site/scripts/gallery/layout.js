@@ -6,7 +6,7 @@ const HEAD = 2.5;
 const LINE = 1.1875;
 
 /** The width from which on there is room for a caption below a picture. */
-export const CAPTIONED = 92;
+const CAPTIONED = 92;
 
 /**
  * Lay groups of shapes out in rows below each other.
