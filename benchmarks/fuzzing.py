@@ -26,7 +26,7 @@ import trimesh
 
 from shapeviz_report.executor import LocalExecutor
 from shapeviz_report.features import compute_histograms, fixed_edges
-from shapeviz_report.mesh import prepare
+from shapeviz_report.mesh import collect_files, prepare
 from shapeviz_report.mesh.read import read_mesh
 from shapeviz_report.types import Mesh
 
@@ -56,7 +56,7 @@ def try_case(path: Path) -> str:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, hard))
     if not np.isfinite(read_mesh(path).faces).all():
         return "! a face is not finite"
-    mesh, facts = prepare(path, EDGE_LENGTH)
+    mesh, facts = prepare(collect_files(path), EDGE_LENGTH)
     if not np.isfinite(mesh.vertices).all() or not np.isfinite(facts.deviation):
         return "! the prepared mesh is not finite"
     if np.linalg.norm(mesh.vertices, axis=1).max() > 1 + 1e-9:

@@ -12,7 +12,7 @@ import numpy as np
 from shapeviz_report import demo
 from shapeviz_report.config import Config
 from shapeviz_report.descriptors import Surface
-from shapeviz_report.mesh import prepare
+from shapeviz_report.mesh import collect_files, prepare
 from shapeviz_report.types import Mesh
 
 
@@ -36,7 +36,7 @@ def prepared_shapes(paths: list[Path], edge_length: float) -> Iterator[tuple[str
     """
     with tempfile.TemporaryDirectory() as folder:
         for path in paths or [demo.write_shape(Path(folder), c.name, 0) for c in demo.CLASSES]:
-            yield f"{path.parent.name}/{path.stem}", prepare(path, edge_length)[0]
+            yield f"{path.parent.name}/{path.stem}", prepare(collect_files(path), edge_length)[0]
 
 
 class RoundedSurface(Surface):

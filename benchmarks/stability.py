@@ -17,7 +17,7 @@ from benchmarks.shapes import parser_of_meshes
 from shapeviz_report import demo
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.features import BINS, compute_histograms, fixed_edges
-from shapeviz_report.mesh import normalise, prepare, read_mesh
+from shapeviz_report.mesh import collect_files, normalise, prepare, read_mesh
 from shapeviz_report.types import FloatArray, Mesh
 
 DENSER = 2**-0.5
@@ -93,16 +93,18 @@ def write(mesh: Mesh, path: Path) -> Path:
 def measure(path: Path, edge_length: float, folder: Path) -> dict[str, FloatArray]:
     """Move a mesh file in every way: name of the way -> (8,) differences; and ``noise``."""
     original = read_mesh(path)
-    mesh = prepare(path, edge_length)[0]
+    mesh = prepare(collect_files(path), edge_length)[0]
     before = describe(mesh)
     rows = {"noise": noise(mesh, before)}
     ways: dict[str, Callable[[Mesh], Mesh]] = {"rotated": rotate, "scaled": scale, "renumbered": renumber}
     for name, move in ways.items():
         rows[f"prepared mesh, {name}"] = difference(before, describe(normalise(move(mesh))))
-    rows["prepared mesh, denser"] = difference(before, describe(prepare(path, edge_length * DENSER)[0]))
+    rows["prepared mesh, denser"] = difference(
+        before, describe(prepare(collect_files(path), edge_length * DENSER)[0])
+    )
     for name, move in (ways | {"denser": refine}).items():
         moved = write(move(original), folder / f"{name}.off")
-        rows[f"file, {name}"] = difference(before, describe(prepare(moved, edge_length)[0]))
+        rows[f"file, {name}"] = difference(before, describe(prepare(collect_files(moved), edge_length)[0]))
     return rows
 
 

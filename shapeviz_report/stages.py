@@ -12,7 +12,6 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -24,7 +23,7 @@ from shapeviz_report.cache import code_version, make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.errors import MeshError
 from shapeviz_report.features import compute_histograms, describe, find_bins, measure, sample_values
-from shapeviz_report.mesh import clean, content_hash, prepare, read_mesh
+from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import (
@@ -62,8 +61,7 @@ def examine_shape(files: Mapping[str, bytes]) -> bytes:
         As :func:`~shapeviz_report.mesh.collect_files` finds them.
     """
     try:
-        with TemporaryDirectory() as folder:
-            return json.dumps({"repairs": clean(read_mesh(_write_files(files, Path(folder))))[1]}).encode()
+        return json.dumps({"repairs": clean(parse_mesh(files))[1]}).encode()
     except MeshError as error:
         return json.dumps({"refused": str(error)}).encode()
 
@@ -82,8 +80,7 @@ def prepare_shape(files: Mapping[str, bytes], edge_length: float) -> bytes:
     A mesh that cannot be used gives an archive too, with the reason: so that it costs its time only once.
     """
     try:
-        with TemporaryDirectory() as folder:
-            mesh, facts = prepare(_write_files(files, Path(folder)), edge_length)
+        mesh, facts = prepare(files, edge_length)
         return _pack(mesh, {"facts": asdict(facts)})
     except MeshError as error:
         return _pack(Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32)), {"refused": str(error)})
@@ -369,15 +366,6 @@ def fingerprint() -> str:
     )
     libraries = {library for stage in stages for library in stage.libraries}
     return code_version(("shapeviz_report",), tuple(sorted(libraries)))
-
-
-def _write_files(files: Mapping[str, bytes], folder: Path) -> Path:
-    """Write collected files below a folder; the path of the mesh file."""
-    for name, content in files.items():
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
-    return folder / next(iter(files))
 
 
 def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:

@@ -2,7 +2,7 @@
 
 from shapeviz_report.mesh.clean import clean
 from shapeviz_report.mesh.prepare import deviation, normalise, prepare
-from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
+from shapeviz_report.mesh.read import collect_files, content_hash, parse_mesh, read_mesh
 from shapeviz_report.mesh.remesh import remesh, surface_size
 
 __all__ = [
@@ -11,6 +11,7 @@ __all__ = [
     "content_hash",
     "deviation",
     "normalise",
+    "parse_mesh",
     "prepare",
     "read_mesh",
     "remesh",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+from collections.abc import Mapping
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -10,7 +10,7 @@ from trimesh.triangles import closest_point
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.clean import bounding_diagonal, clean, count_components, is_watertight
-from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
+from shapeviz_report.mesh.read import content_hash, parse_mesh
 from shapeviz_report.mesh.remesh import affordable_edge_length, remesh, surface_size
 from shapeviz_report.types import FloatArray, IntArray, Mesh, ShapeFacts
 
@@ -32,13 +32,13 @@ CANDIDATES = 8
 """Samples nearest to such a point whose faces are tried."""
 
 
-def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
+def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, ShapeFacts]:
     """Turn a mesh file into the mesh that is measured and shown.
 
     Parameters
     ----------
-    path : Path
-        A mesh file.
+    files : mapping of str to bytes
+        A mesh file, as :func:`~shapeviz_report.mesh.read.collect_files` finds it.
     edge_length : float
         Target edge length as a fraction of :func:`~shapeviz_report.mesh.remesh.surface_size`.
 
@@ -53,7 +53,7 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
     MeshError
         The file cannot be read, has no surface, cannot be remeshed, or the result strays from the input.
     """
-    original = read_mesh(path)
+    original = parse_mesh(files)
     cleaned, repairs = clean(original)
     parts = count_components(len(cleaned.vertices), cleaned.faces)
     if parts > MAX_PARTS:
@@ -75,7 +75,7 @@ def prepare(path: Path, edge_length: float) -> tuple[Mesh, ShapeFacts]:
     unit = bounding_diagonal(original)
     watertight = is_watertight(cleaned.faces)
     facts = ShapeFacts(
-        sha256=content_hash(collect_files(path)),
+        sha256=content_hash(files),
         faces_read=len(original.faces),
         vertices_read=len(original.vertices),
         faces=len(remeshed.faces),

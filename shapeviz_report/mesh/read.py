@@ -1,53 +1,78 @@
-"""Reading one mesh file.
-
-OFF, OBJ and PLY are read by modules of their own, which keep the file's vertices as they are and take
-polygons of any size; STL, glTF, 3MF and COLLADA by trimesh. No reader executes anything, uses the network, or
-opens a file outside the mesh's own folder.
-"""
+"""Reading one mesh file. Nothing is executed, fetched, or opened outside the mesh's own folder."""
 
 from __future__ import annotations
 
 import hashlib
-import logging
 import re
 import warnings
-from collections.abc import Callable, Mapping
-from io import BytesIO
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-import trimesh
-from trimesh.exchange.dae import load_collada
-from trimesh.exchange.gltf import load_glb, load_gltf
-from trimesh.exchange.stl import load_stl
-from trimesh.exchange.threemf import load_3MF
 
 from shapeviz_report.database.formats import MESH_FORMATS, suffix_of, why_not_read
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh import gltf
-from shapeviz_report.mesh.obj import read_obj
-from shapeviz_report.mesh.off import read_off
-from shapeviz_report.mesh.ply import read_ply
-from shapeviz_report.mesh.polygons import Indices, PolygonMesh, triangulate
-from shapeviz_report.types import FloatArray, Mesh
+from shapeviz_report.files import read_regular
+from shapeviz_report.mesh.readers import READERS
+from shapeviz_report.mesh.readers.gltf import buffer_files, read_gltf, read_header
+from shapeviz_report.mesh.readers.limits import check_faces
+from shapeviz_report.mesh.readers.polygons import PolygonMesh, check_indices, triangulate
+from shapeviz_report.types import Mesh
 
-_POLYGON_READERS: dict[str, Callable[[bytes], PolygonMesh]] = {
-    ".off": read_off,
-    ".obj": read_obj,
-    ".ply": read_ply,
-}
 _PLACE = re.compile(r"\b(?:line|row) \d")
 """What a parser says where it also names the place, which helps to find it."""
 
-# Trimesh logs tracebacks of what it takes for no error; without a handler they would go to the terminal.
-logging.getLogger("trimesh").addHandler(logging.NullHandler())
-
-_EXTERNAL_INSTANCE = re.compile(rb"""<instance_(?:geometry|node)\b[^>]*\burl\s*=\s*["'](?!\#)""")
-
 
 def read_mesh(path: Path) -> Mesh:
-    """Read the triangles of a mesh file.
+    """Read the triangles of a mesh file; see :func:`parse_mesh`.
+
+    Parameters
+    ----------
+    path : Path
+        A file with one of the suffixes in ``database.MESH_FORMATS``, in any case.
+
+    Raises
+    ------
+    MeshError
+        With the reason, without the path: also if the file, or one that it refers to, cannot be opened.
+    """
+    return parse_mesh(collect_files(path))
+
+
+def collect_files(path: Path) -> dict[str, bytes]:
+    """The content of all files that make up a mesh: the mesh file, and the buffers of a glTF.
+
+    Returns
+    -------
+    dict of str to bytes
+        By path relative to the mesh file's folder, the mesh file first.
+
+    Raises
+    ------
+    MeshError
+        If a file cannot be opened, or lies outside the mesh file's folder, links resolved.
+    """
+    suffix = suffix_of(path.name)
+    if suffix not in MESH_FORMATS:
+        raise MeshError(why_not_read(path.name))
+    files = {path.name: _read_bytes(path)}
+    if MESH_FORMATS[suffix] == "glTF" and files[path.name].strip():
+        folder = path.parent.resolve()
+        try:
+            names = buffer_files(read_header(files[path.name], binary=suffix == ".glb")).values()
+        except (AttributeError, KeyError, TypeError, ValueError) as error:
+            raise MeshError(
+                "it is not glTF, or damaged: its buffers are not listed as they should be"
+            ) from error
+        for name in names:
+            if not (folder / name).resolve().is_relative_to(folder):
+                raise MeshError(f"it refers to {name[:100]!r}, which is not a file in its own folder")
+            files[name] = _read_bytes(folder / name)
+    return files
+
+
+def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
+    """The triangles of a mesh.
 
     Polygons are triangulated, and the parts of a scene are put together where their transformations place
     them. Nothing else is done: no vertex is merged or removed, and nothing is validated except that every
@@ -55,8 +80,8 @@ def read_mesh(path: Path) -> Mesh:
 
     Parameters
     ----------
-    path : Path
-        A file with one of the suffixes in ``database.MESH_FORMATS``, in any case.
+    files : mapping of str to bytes
+        As :func:`collect_files` finds them.
 
     Returns
     -------
@@ -66,13 +91,11 @@ def read_mesh(path: Path) -> Mesh:
     Raises
     ------
     MeshError
-        With the reason, without the path: the file cannot be opened, is empty, is of another format than its
-        suffix says, is cut off or otherwise broken, has no faces, or has faces without vertices.
+        With the reason, without the path: the file is empty, is of another format than its suffix says, is cut off or
+        otherwise broken, has no faces, has faces without vertices, or too many.
     """
-    suffix = suffix_of(path.name)
-    if suffix not in MESH_FORMATS:
-        raise MeshError(why_not_read(path.name))
-    data = _read_bytes(path)
+    name, data = next(iter(files.items()))
+    suffix = suffix_of(name)
     if not data.strip():
         raise MeshError("the file is empty")
     try:
@@ -80,12 +103,10 @@ def read_mesh(path: Path) -> Mesh:
             warnings.simplefilter("ignore")
             # numpy stops at text that is no number and only warns; half a mesh is not a mesh
             warnings.filterwarnings("error", message="string or file could not be read")
-            if suffix in _POLYGON_READERS:
-                polygons = _POLYGON_READERS[suffix](data)
-                _check_indices(polygons.vertices, polygons.corners)
-                vertices, faces = polygons.vertices, triangulate(polygons)
-            else:
-                vertices, faces = _read_scene(data, suffix, path)
+            polygons = _read_polygons(suffix, data, files)
+            check_indices(polygons.vertices, polygons.corners)
+            check_faces(int(np.maximum(polygons.sizes - 2, 0).sum()))
+            vertices, faces = polygons.vertices, triangulate(polygons)
     except MeshError:
         raise
     except (
@@ -102,6 +123,20 @@ def read_mesh(path: Path) -> Mesh:
     )
 
 
+def content_hash(files: Mapping[str, bytes]) -> str:
+    """SHA-256, in hexadecimal, of what :func:`collect_files` found: of one file, that of its content."""
+    digest = hashlib.sha256()
+    for content in files.values():
+        digest.update(content)
+    return digest.hexdigest()
+
+
+def _read_polygons(suffix: str, data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
+    if MESH_FORMATS[suffix] == "glTF":
+        return read_gltf(data, files, binary=suffix == ".glb")
+    return READERS[suffix](data)
+
+
 def _explanation(error: Exception) -> str:
     """What a parser's exception tells the owner of a file; most speak of the parser's own insides."""
     if isinstance(error, MemoryError):
@@ -112,121 +147,8 @@ def _explanation(error: Exception) -> str:
     return f" ({detail[:200]})" if _PLACE.search(detail) else ""
 
 
-def collect_files(path: Path) -> dict[str, bytes]:
-    """The content of all files that :func:`read_mesh` would read: the mesh file, and the buffers of a glTF.
-
-    Returns
-    -------
-    dict of str to bytes
-        By path relative to the mesh file's folder, the mesh file first. Written to another folder under these
-        names, they are the same mesh.
-
-    Raises
-    ------
-    MeshError
-        If the file cannot be opened.
-    """
-    files = {path.name: _read_bytes(path)}
-    if MESH_FORMATS.get(suffix_of(path.name)) == "glTF":
-        try:
-            header = gltf.read_header(files[path.name], binary=suffix_of(path.name) == ".glb")
-            for buffer in gltf.buffer_files(header, path.parent).values():
-                files[buffer.relative_to(path.parent.resolve()).as_posix()] = _read_bytes(buffer)
-        except (
-            Exception
-        ):  # reading the mesh will say what is wrong with it; until then the file itself counts
-            return {path.name: files[path.name]}
-    return files
-
-
-def content_hash(files: Mapping[str, bytes]) -> str:
-    """SHA-256, in hexadecimal, of what :func:`collect_files` found: of one file, that of its content."""
-    digest = hashlib.sha256()
-    for content in files.values():
-        digest.update(content)
-    return digest.hexdigest()
-
-
 def _read_bytes(path: Path) -> bytes:
     try:
-        return path.read_bytes()
+        return read_regular(path)
     except OSError as error:
         raise MeshError(f"{path.name} cannot be opened: {error.strerror}") from error
-
-
-def _check_indices(vertices: FloatArray, indices: Indices) -> None:
-    if vertices.ndim != 2 or vertices.shape[1] != 3:
-        raise MeshError("its vertices do not have three coordinates")
-    if len(indices) and not (indices.min() >= 0 and indices.max() < len(vertices)):
-        worst = indices.max() if indices.min() >= 0 else indices.min()
-        raise MeshError(
-            f"a face refers to vertex {worst} (counted from 0), but there are {len(vertices)} vertices"
-        )
-
-
-def _read_scene(data: bytes, suffix: str, path: Path) -> tuple[FloatArray, Indices]:
-    """All triangles of a format that trimesh reads, where the scene places them."""
-    contents = _load(data, suffix, path)
-    parts = contents.get("geometry", {"mesh": contents})
-    parts = {name: _bare(part) for name, part in parts.items() if "faces" in part}
-    scene = trimesh.load_scene(
-        {"geometry": parts, "graph": contents.get("graph"), "base_frame": contents.get("base_frame", "world")}
-    )
-    vertices: list[FloatArray] = [np.empty((0, 3))]
-    faces: list[Indices] = [np.empty((0, 3), np.int64)]
-    count = 0
-    for node in scene.graph.nodes_geometry:
-        transform, name = scene.graph[node]
-        if name in scene.geometry:
-            part = scene.geometry[name]
-            _check_indices(part.vertices, part.faces.ravel())
-            vertices.append(trimesh.transform_points(part.vertices, transform))
-            faces.append(part.faces + count)
-            count += len(part.vertices)
-    return np.concatenate(vertices), np.concatenate(faces)
-
-
-def _bare(part: dict[str, Any]) -> dict[str, Any]:
-    """The arguments of a ``Trimesh`` without its looks, and kept as it is."""
-    return {"vertices": part["vertices"], "faces": part["faces"], "process": False}
-
-
-def _load(data: bytes, suffix: str, path: Path) -> dict[str, Any]:
-    """What trimesh's own loader makes of a file: the arguments of a scene or a mesh."""
-    match suffix:
-        case ".stl":
-            return load_stl(BytesIO(_decoded_stl(data)))
-        case ".3mf":
-            return load_3MF(BytesIO(data))
-        case ".dae":
-            _check_collada(data)
-            return load_collada(BytesIO(data))
-        case _:
-            binary = suffix == ".glb"
-            header = gltf.read_header(data, binary=binary)
-            gltf.check(header)
-            buffers = {uri: _read_bytes(file) for uri, file in gltf.buffer_files(header, path.parent).items()}
-            load = load_glb if binary else load_gltf
-            return load(BytesIO(data), resolver=buffers, skip_materials=True)
-
-
-def _decoded_stl(data: bytes) -> bytes:
-    """A binary STL as it is; a text STL, of which only names can be other than ASCII, as UTF-8."""
-    if len(data) == 84 + 50 * int.from_bytes(data[80:84], "little"):
-        return data
-    if b"facet" not in data.lower():
-        raise MeshError(
-            "it is neither text STL, nor binary STL of the length that it announces; it may be cut off"
-        )
-    return data.decode("latin-1").encode()
-
-
-def _check_collada(data: bytes) -> None:
-    """Refuse what COLLADA never needs, before a parser meets it that has no limits of its own."""
-    text = data.replace(b"\0", b"")  # UTF-16 and UTF-32 as well
-    if not text.lstrip(b"\xef\xbb\xbf\xff\xfe \t\r\n").startswith(b"<") or b"COLLADA" not in text:
-        raise MeshError("it is not COLLADA")
-    if b"<!DOCTYPE" in text:
-        raise MeshError("it has a document type declaration, which COLLADA does not use")
-    if _EXTERNAL_INSTANCE.search(text):
-        raise MeshError("it refers to geometry in another file, which is not read")

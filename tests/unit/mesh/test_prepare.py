@@ -10,7 +10,7 @@ import trimesh
 from solids import ball, from_trimesh, rotation, sheet
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh import deviation, normalise, prepare, remesh
+from shapeviz_report.mesh import collect_files, deviation, normalise, prepare, remesh
 from shapeviz_report.mesh.remesh import MAX_VERTICES, affordable_edge_length, surface_size
 from shapeviz_report.types import Mesh
 
@@ -51,7 +51,7 @@ def test_edges_are_as_long_however_a_shape_is_turned(tmp_path) -> None:
     lengths = []
     for name, turn in (("upright", np.eye(3)), ("turned", rotation(5))):
         trimesh.Trimesh(rod.vertices @ turn.T, rod.faces).export(tmp_path / f"{name}.off")
-        lengths.append(edge_lengths(prepare(tmp_path / f"{name}.off", 0.02)[0]).mean())
+        lengths.append(edge_lengths(prepare(collect_files(tmp_path / f"{name}.off"), 0.02)[0]).mean())
     assert lengths[1] == pytest.approx(lengths[0], rel=0.01)
 
 
@@ -59,7 +59,7 @@ def test_prepared_file(tmp_path) -> None:
     box = trimesh.creation.box(extents=(3, 2, 1))
     path = tmp_path / "box.ply"
     box.apply_translation([100, 0, 0]).export(path)
-    mesh, facts = prepare(path, 0.02)
+    mesh, facts = prepare(collect_files(path), 0.02)
     assert np.abs(mesh.vertices).max() <= 1
     assert np.linalg.norm(mesh.vertices, axis=1).max() == pytest.approx(1)
     assert mesh.vertices.mean(axis=0) == pytest.approx(0, abs=1e-9)
@@ -79,7 +79,7 @@ def test_prepared_file(tmp_path) -> None:
 def test_an_open_surface_has_no_volume(tmp_path) -> None:
     path = tmp_path / "lid.off"
     trimesh.Trimesh([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]).export(path)
-    _, facts = prepare(path, 0.03)
+    _, facts = prepare(collect_files(path), 0.03)
     assert (facts.watertight, facts.volume) == (False, None)
     assert (facts.area, facts.extents) == (pytest.approx(2), pytest.approx((2, 1, 0)))
 
@@ -92,14 +92,14 @@ def test_a_volume_out_of_range_is_unknown(tmp_path) -> None:
     ]
     path = tmp_path / "huge.obj"
     path.write_text("\n".join(lines))
-    _, facts = prepare(path, 0.02)
+    _, facts = prepare(collect_files(path), 0.02)
     assert (facts.volume, facts.area) == (None, pytest.approx(22e240))
 
 
 def test_preparing_is_deterministic(tmp_path) -> None:
     path = tmp_path / "a.off"
     trimesh.creation.torus(0.7, 0.3).export(path)
-    (first, _), (second, _) = prepare(path, 0.03), prepare(path, 0.03)
+    (first, _), (second, _) = prepare(collect_files(path), 0.03), prepare(collect_files(path), 0.03)
     assert (first.vertices == second.vertices).all()
     assert (first.faces == second.faces).all()
 
@@ -125,7 +125,7 @@ def test_deviation_sees_a_lost_limb() -> None:
 def test_flat_sheet_is_prepared(tmp_path) -> None:
     path = tmp_path / "sheet.off"
     trimesh.Trimesh(sheet(3).vertices, sheet(3).faces).export(path)
-    mesh, facts = prepare(path, 0.05)
+    mesh, facts = prepare(collect_files(path), 0.05)
     assert not facts.watertight
     assert mesh.vertices[:, 2] == pytest.approx(0, abs=1e-9)
 
@@ -148,7 +148,7 @@ def test_parts_without_number_are_refused(tmp_path, monkeypatch) -> None:
     small = [trimesh.creation.box().apply_translation([3 * i, 0, 0]) for i in range(4)]
     trimesh.util.concatenate(small).export(path)
     with pytest.raises(MeshError, match="4 parts that share no vertices, more than 3; join"):
-        prepare(path, 0.05)
+        prepare(collect_files(path), 0.05)
 
 
 def test_specks_are_refused_with_a_reason() -> None:

@@ -646,8 +646,9 @@ def test_hash_of_gltf_covers_its_buffers(tmp_path):
     assert content_hash(collect_files(path)) != before
 
 
-def test_hash_of_a_broken_or_missing_file(tmp_path):
-    path = write_text(tmp_path, "broken.gltf", "{")
-    assert content_hash(collect_files(path)) == hashlib.sha256(b"{").hexdigest()
+def test_files_of_a_broken_or_missing_mesh(tmp_path):
+    for broken in ("{", '{"buffers": [1]}', '{"buffers": 1}'):
+        with pytest.raises(MeshError, match="it is not glTF"):
+            collect_files(write_text(tmp_path, "broken.gltf", broken))
     with pytest.raises(MeshError, match="cannot be opened"):
         collect_files(tmp_path / "missing.off")

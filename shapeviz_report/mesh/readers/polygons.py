@@ -34,6 +34,11 @@ class PolygonMesh:
     corners: Indices
     sizes: Indices
 
+    @classmethod
+    def of_triangles(cls, vertices: FloatArray, faces: Indices) -> PolygonMesh:
+        """A mesh of vertices (n, 3) and triangles (m, 3)."""
+        return cls(vertices, faces.ravel(), np.full(len(faces), 3, dtype=np.int64))
+
 
 def whole_numbers(values: npt.NDArray[np.generic]) -> Indices:
     """Indices that were read as numbers. Raises ``MeshError`` if one is not whole."""
@@ -41,6 +46,17 @@ def whole_numbers(values: npt.NDArray[np.generic]) -> Indices:
     if (indices != values).any():
         raise MeshError("a face refers to a vertex by a number that is not whole")
     return indices
+
+
+def check_indices(vertices: FloatArray, indices: Indices) -> None:
+    """Refuse indices of vertices that are not there. Raises ``MeshError``."""
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise MeshError("its vertices do not have three coordinates")
+    if len(indices) and not (indices.min() >= 0 and indices.max() < len(vertices)):
+        worst = indices.max() if indices.min() >= 0 else indices.min()
+        raise MeshError(
+            f"a face refers to vertex {worst} (counted from 0), but there are {len(vertices)} vertices"
+        )
 
 
 def triangulate(mesh: PolygonMesh) -> Indices:

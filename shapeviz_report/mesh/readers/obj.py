@@ -11,7 +11,7 @@ import re
 import numpy as np
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.polygons import PolygonMesh
+from shapeviz_report.mesh.readers.polygons import PolygonMesh
 
 _COMMENT = re.compile(r"#[^\n]*")
 _TEXTURE_AND_NORMAL = re.compile(r"/\S*")

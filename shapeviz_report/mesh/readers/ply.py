@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.polygons import Indices, PolygonMesh, whole_numbers
+from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, whole_numbers
 
 Values = npt.NDArray[np.generic]
 Column = tuple[Indices, Values]

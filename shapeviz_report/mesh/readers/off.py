@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.polygons import PolygonMesh, whole_numbers
+from shapeviz_report.mesh.readers.polygons import PolygonMesh, whole_numbers
 
 # ModelNet has headers such as "OFF1568 1546 0"; the keyword itself is optional by the format's definition
 _HEADER = re.compile(r"\s*(?:(?:ST)?C?N?(?P<dimensions>4?n?)OFF\s*(?P<binary>BINARY)?)?")

@@ -1,18 +1,45 @@
-"""What has to be known of a glTF file before trimesh gets it: its other files, and what it needs."""
+"""glTF, by trimesh: which other files it needs, and what of it can be read."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from pathlib import Path
+from io import BytesIO
+from pathlib import PurePosixPath
 from typing import Any
 from urllib.parse import unquote, urlsplit
 
+from trimesh.exchange.gltf import load_glb, load_gltf
+
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.readers.polygons import PolygonMesh
+from shapeviz_report.mesh.readers.scene import join_scene
 
 _BINARY_MAGIC = b"glTF"
 _COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
 _TRIANGLE_FAN = 6
+
+
+def read_gltf(data: bytes, files: Mapping[str, bytes], *, binary: bool) -> PolygonMesh:
+    """Read glTF.
+
+    Parameters
+    ----------
+    data : bytes
+        The ``.gltf`` or (binary) ``.glb`` file.
+    files : mapping of str to bytes
+        Path below the file's folder -> content, for every file that :func:`buffer_files` names.
+    binary : bool
+
+    Raises
+    ------
+    MeshError, or what its parser raises, if it is anything else.
+    """
+    header = read_header(data, binary=binary)
+    check(header)
+    buffers = {uri: files[name] for uri, name in buffer_files(header).items()}
+    load = load_glb if binary else load_gltf
+    return join_scene(load(BytesIO(data), resolver=buffers, skip_materials=True))
 
 
 def read_header(data: bytes, *, binary: bool) -> dict[str, Any]:
@@ -33,8 +60,9 @@ def read_header(data: bytes, *, binary: bool) -> dict[str, Any]:
     return header
 
 
-def buffer_files(header: Mapping[str, Any], folder: Path) -> dict[str, Path]:
-    """The files that hold a glTF's geometry: URI, as it is written -> path. Embedded buffers need none.
+def buffer_files(header: Mapping[str, Any]) -> dict[str, str]:
+    """The files that hold a glTF's geometry: URI, as it is written -> path below the file's folder. Embedded buffers
+    need none.
 
     Raises
     ------
@@ -47,10 +75,10 @@ def buffer_files(header: Mapping[str, Any], folder: Path) -> dict[str, Path]:
         uri = buffer.get("uri")
         if uri is None or uri.startswith("data:"):
             continue
-        file = (folder / unquote(uri)).resolve()
-        if urlsplit(uri).scheme or urlsplit(uri).netloc or not file.is_relative_to(folder.resolve()):
+        path = PurePosixPath(unquote(uri))
+        if urlsplit(uri).scheme or urlsplit(uri).netloc or path.is_absolute() or ".." in path.parts:
             raise MeshError(f"it refers to {uri[:100]!r}, which is not a file in its own folder")
-        files[uri] = file
+        files[uri] = path.as_posix()
     return files
 
 

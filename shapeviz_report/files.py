@@ -1,0 +1,41 @@
+"""Reading files of strangers: regular ones only, and no larger than expected."""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+
+MOST_BYTES = 2 * 1024**3
+"""Size of the largest file that is read, in bytes: ten million triangles as text take one GiB or less."""
+
+
+def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:
+    """The content of a regular file.
+
+    A pipe or a device may never end, or never begin; it is not opened for more than a look.
+
+    Parameters
+    ----------
+    path : Path
+        Links are followed.
+    most : int
+        Bytes that the file may have.
+
+    Raises
+    ------
+    OSError
+        It cannot be opened, is no regular file, or is larger. ``strerror`` says which, in words for its owner.
+    """
+    # without O_NONBLOCK, opening a pipe waits for a writer
+    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(descriptor, "rb") as file:
+        status = os.fstat(descriptor)
+        if stat.S_ISDIR(status.st_mode):
+            raise IsADirectoryError(0, "Is a directory", str(path))
+        if not stat.S_ISREG(status.st_mode):
+            raise OSError(0, "it is not a regular file but a pipe, a socket or a device", str(path))
+        content = file.read(most + 1)
+    if len(content) > most:
+        raise OSError(0, f"it is larger than {most / 2**20:,.0f} MiB", str(path))
+    return content
