@@ -8,12 +8,13 @@ import numpy as np
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.readers.polygons import PolygonMesh, whole_numbers
+from shapeviz_report.mesh.readers.text import decode, parse_columns, parse_numbers, strip_comments
+from shapeviz_report.types import FloatArray
 
 # ModelNet has headers such as "OFF1568 1546 0"; the keyword itself is optional by the format's definition
-_HEADER = re.compile(r"\s*(?:(?:ST)?C?N?(?P<dimensions>4?n?)OFF\s*(?P<binary>BINARY)?)?")
+_HEADER = re.compile(r"\s*(?:(?P<prefix>(?:ST)?C?N?4?n?)OFF\s*(?P<binary>BINARY)?)?", re.IGNORECASE)
 # the number of edges is often missing
-_COUNTS = re.compile(r"\s*(\d+)\s+(\d+)(?:\s+\d+(?=\s*\n))?")
-_COMMENT = re.compile(r"#[^\n]*")
+_COUNTS = re.compile(r"\s*(\d+)\s+(\d+)(?P<edges>\s+\d+(?=\s*\n))?(?=\s|$)")
 
 
 def read_off(data: bytes) -> PolygonMesh:
@@ -24,13 +25,13 @@ def read_off(data: bytes) -> PolygonMesh:
     MeshError, ValueError
         If it is anything else.
     """
-    text = data.decode("latin-1").replace("\r", "\n")
-    if "#" in text:
-        text = _COMMENT.sub("", text)
+    text = strip_comments(decode(data))
     header = _HEADER.match(text)
     assert header is not None  # it matches the empty string
     counts = _COUNTS.match(text, header.end())
-    if header["dimensions"]:
+    prefix = header["prefix"] or ""
+    # a capital N is for normals, a small one for any number of dimensions; all in small letters, it is for normals
+    if "4" in prefix or (prefix.endswith("n") and not header[0].strip().islower()):
         raise MeshError("it is an OFF file of other than three dimensions")
     if header["binary"]:
         raise MeshError("it is a binary OFF file; only the text form is read")
@@ -38,12 +39,21 @@ def read_off(data: bytes) -> PolygonMesh:
         raise MeshError("it does not begin with OFF and the numbers of vertices and faces")
     vertex_count, face_count = int(counts[1]), int(counts[2])
     body = text[counts.end() :]
-    return _read_triangles(body, vertex_count, face_count) or _read_lines(body, vertex_count, face_count)
+    lines = [line for line in body.split("\n") if line and not line.isspace()]
+    if not prefix and (len(lines) != vertex_count + face_count):
+        numbers = parse_numbers(body)
+        return (
+            _read_stream(numbers, vertex_count, face_count)
+            # all on one line, so that the number of edges is not told from what follows
+            or (None if counts["edges"] else _read_stream(numbers[1:], vertex_count, face_count))
+            or _read_lines(lines, vertex_count, face_count)
+        )
+    return _read_triangles(body, vertex_count, face_count) or _read_lines(lines, vertex_count, face_count)
 
 
 def _read_triangles(body: str, vertex_count: int, face_count: int) -> PolygonMesh | None:
-    """The quick way, for plain triangles however they are broken into lines; None if there is more to it."""
-    numbers = np.fromstring(body, sep=" ")
+    """The quick way, for plain triangles; None if there is more to it."""
+    numbers = parse_numbers(body)
     if numbers.size != 3 * vertex_count + 4 * face_count:
         return None
     faces = numbers[3 * vertex_count :].reshape(-1, 4)
@@ -56,24 +66,46 @@ def _read_triangles(body: str, vertex_count: int, face_count: int) -> PolygonMes
     )
 
 
-def _read_lines(body: str, vertex_count: int, face_count: int) -> PolygonMesh:
+def _read_stream(numbers: FloatArray, vertex_count: int, face_count: int) -> PolygonMesh | None:
+    """Vertices and polygons however they are broken into lines; None if they do not end with the file."""
+    if numbers.size < 3 * vertex_count + face_count:
+        return None
+    rest = numbers[3 * vertex_count :]
+    values = rest.tolist()
+    sizes, position = [], 0
+    while len(sizes) < face_count and position < len(values):
+        size = values[position]
+        if not 0 <= size <= len(values) or size != int(size):
+            return None
+        sizes.append(int(size))
+        position += 1 + int(size)
+    if len(sizes) != face_count or position != len(values):
+        return None
+    counted = np.array(sizes, dtype=np.int64)
+    return PolygonMesh(
+        vertices=numbers[: 3 * vertex_count].reshape(-1, 3),
+        corners=whole_numbers(np.delete(rest, np.cumsum(counted + 1) - counted - 1)),
+        sizes=counted,
+    )
+
+
+def _read_lines(lines: list[str], vertex_count: int, face_count: int) -> PolygonMesh:
     """Line by line: what follows a vertex's position or a face's corners is colour and the like."""
-    lines = [line for line in body.split("\n") if line and not line.isspace()]
+    announced = f"it announces {vertex_count} vertices and {face_count} faces, and has"
     if len(lines) < vertex_count + face_count:
-        raise MeshError(
-            f"it announces {vertex_count} vertices and {face_count} faces, and has only {len(lines)} lines"
-        )
+        raise MeshError(f"{announced} only {len(lines)} lines")
+    if len(lines) > vertex_count + face_count:
+        raise MeshError(f"{announced} {len(lines)} lines: its header is wrong, or something was appended")
     sizes: list[int] = []
     corners: list[str] = []
-    for line in lines[vertex_count : vertex_count + face_count]:
+    for line in lines[vertex_count:]:
         size, *fields = line.split()
         sizes.append(int(size))
         if not 0 <= sizes[-1] <= len(fields):
             raise MeshError(f"a face announces {size} corners, but its line has {len(fields)}")
         corners.extend(fields[: sizes[-1]])
-    rows = lines[:vertex_count]
     return PolygonMesh(
-        vertices=np.loadtxt(rows, usecols=(0, 1, 2), ndmin=2, comments=None) if rows else np.empty((0, 3)),
-        corners=np.array(corners, dtype=np.int64),
+        vertices=parse_columns(lines[:vertex_count], 3),
+        corners=whole_numbers(parse_numbers(" ".join(corners))),
         sizes=np.array(sizes, dtype=np.int64),
     )

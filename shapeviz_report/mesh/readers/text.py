@@ -1,0 +1,135 @@
+"""Text of mesh files: its encoding, its line ends, its numbers."""
+
+from __future__ import annotations
+
+import codecs
+import re
+import warnings
+
+import numpy as np
+
+from shapeviz_report.errors import MeshError
+from shapeviz_report.types import FloatArray
+
+# UTF-32 first: its mark begins with that of UTF-16
+_MARKS = (
+    (codecs.BOM_UTF32_LE, "utf-32-le"),
+    (codecs.BOM_UTF32_BE, "utf-32-be"),
+    (codecs.BOM_UTF8, "latin-1"),
+    (codecs.BOM_UTF16_LE, "utf-16-le"),
+    (codecs.BOM_UTF16_BE, "utf-16-be"),
+)
+_SPECIAL = r"IND|INF|QNAN|SNAN|QNB|J"
+_COMMENT = re.compile(rf"(?!(?<=1\.)#(?:{_SPECIAL}))#[^\n]*", re.IGNORECASE)
+_FORTRAN_EXPONENT = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
+_NOT_A_NUMBER = re.compile(
+    r"(?<!\S)[+-]?(?:1\.#(?:IND|QNAN|SNAN|QNB)\d*|[qs]?nan(?:\([^()\s]*\)|[qs])?)(?!\S)", re.IGNORECASE
+)
+_INFINITE = re.compile(r"(?<!\S)([+-]?)1\.#(?:INF|J)\d*(?!\S)", re.IGNORECASE)
+_NUMBER = re.compile(
+    r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|inf|infinity|nan)(?:/[-\d/]*)?", re.IGNORECASE
+)
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:e[+-]?\d+)?,?", re.IGNORECASE)
+
+
+def decode(data: bytes) -> str:
+    r"""The text of a file, lines ended by ``\n``.
+
+    UTF-16 and UTF-32 are known by their byte order mark, or by where the zeros of the first characters stand. Anything
+    else is taken byte by byte: beyond names and comments a mesh is ASCII. Stray NULs become blanks.
+    """
+    for mark, encoding in _MARKS:
+        if data.startswith(mark):
+            text = data[len(mark) :].decode(encoding, errors="replace")
+            break
+    else:
+        text = data.decode(_encoding_without_mark(data[:64]), errors="replace")
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return text.replace("\0", " ")
+
+
+def _encoding_without_mark(head: bytes) -> str:
+    head = head[: len(head) // 4 * 4]
+    empty = [len(head) > 4 and not any(head[place::4]) for place in range(4)]
+    encodings = {
+        (False, True, True, True): "utf-32-le",
+        (True, True, True, False): "utf-32-be",
+        (False, True, False, True): "utf-16-le",
+        (True, False, True, False): "utf-16-be",
+    }
+    return encodings.get((empty[0], empty[1], empty[2], empty[3]), "latin-1")
+
+
+def strip_comments(text: str) -> str:
+    """Text without what follows a ``#``, except where it is part of a number (``1.#IND``)."""
+    return _COMMENT.sub("", text) if "#" in text else text
+
+
+def parse_numbers(text: str) -> FloatArray:
+    """All numbers of a text that has nothing else.
+
+    Also numbers with Fortran's exponents (``1.0D+00``), and what is no number as C libraries write it
+    (``-nan(ind)``, ``1.#QNAN``).
+
+    Raises
+    ------
+    MeshError
+        With the first word that is no number.
+    """
+    numbers = _scan(text)
+    if numbers is None:
+        text = mend_numbers(text)
+        numbers = _scan(text)
+    if numbers is None:
+        raise not_numbers(text)
+    return numbers
+
+
+def parse_columns(rows: list[str], width: int) -> FloatArray:
+    """The first ``width`` numbers of each row, whatever follows them: an array (number of rows, ``width``).
+
+    Raises
+    ------
+    MeshError
+        If a row has fewer, or anything else among them.
+    """
+    if not rows:
+        return np.empty((0, width))
+    try:
+        return np.loadtxt(rows, usecols=range(width), ndmin=2, comments=None)
+    except ValueError:
+        fields = [row.split()[:width] for row in mend_numbers("\n".join(rows)).split("\n")]
+    short = next((row for row, words in zip(rows, fields, strict=True) if len(words) < width), None)
+    if short is not None:
+        raise MeshError(f"a vertex has fewer than {width} coordinates: {short.strip()[:60]!r}")
+    words = [word for row in fields for word in row]
+    numbers = parse_numbers("\n".join(words))
+    if numbers.size != len(words):
+        raise not_numbers("\n".join(words))
+    return numbers.reshape(len(rows), width)
+
+
+def mend_numbers(text: str) -> str:
+    """Numbers that only some programs write, as all can read them."""
+    text = _FORTRAN_EXPONENT.sub("e", text)
+    text = _NOT_A_NUMBER.sub("nan", text)
+    return _INFINITE.sub(r"\1inf", text)
+
+
+def not_numbers(text: str) -> MeshError:
+    """What to say of a text that has other words than numbers."""
+    word = next((word for word in text.split() if not _NUMBER.fullmatch(word)), "")
+    if _DECIMAL_COMMA.fullmatch(word):
+        return MeshError(f"it has numbers with a decimal comma ({word[:20]}); export it with decimal points")
+    return MeshError(f"something else stands where a number belongs: {word[:40]!r}")
+
+
+def _scan(text: str) -> FloatArray | None:
+    """All numbers; None if numpy stops before the end, which it only warns of."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DeprecationWarning)
+        try:
+            return np.fromstring(text, sep=" ")
+        except (DeprecationWarning, ValueError):
+            return None
