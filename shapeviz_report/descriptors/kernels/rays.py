@@ -6,18 +6,36 @@ from numba import njit
 DEPTH = 64
 """Deeper than any tree gets: its boxes are numbered by 32 bits."""
 
+MARGIN = 1e-8
+"""Boxes are wider than their faces by this on every side.
+
+Faces reach beyond their edges by ``EDGE`` of a side, at most 2 long; and of a ray that runs within the side of a
+box, with a direction component of zero, either side of that side would count as outside without it."""
+
+EDGE = 1e-9
+"""Faces reach beyond their edges by this fraction of a side, so that no ray slips between two of them."""
+
+GRAZING = 1e-10
+"""A ray at a smaller angle to a face (in radians) lies in its plane and does not meet it."""
+
+
+@njit(error_model="numpy")
+def _cross(near, far, origin, inverse):  # pragma: no cover - compiled
+    """Where along one axis a ray enters a box and leaves it; ``near`` is the side that it meets first."""
+    margin = MARGIN if inverse > 0.0 else -MARGIN
+    return (near - margin - origin) * inverse, (far + margin - origin) * inverse
+
 
 @njit(error_model="numpy")
 def _enter(boxes, node, ox, oy, oz, ix, iy, iz):  # pragma: no cover - compiled
     """Where on a ray from o, with the inverse direction i, a box begins; infinite where it is not met."""
     near_x, near_y, near_z = 0 if ix > 0.0 else 3, 1 if iy > 0.0 else 4, 2 if iz > 0.0 else 5
-    enter_x, leave_x = (boxes[node, near_x] - ox) * ix, (boxes[node, 3 - near_x] - ox) * ix
-    enter_y, leave_y = (boxes[node, near_y] - oy) * iy, (boxes[node, 5 - near_y] - oy) * iy
-    enter_z, leave_z = (boxes[node, near_z] - oz) * iz, (boxes[node, 7 - near_z] - oz) * iz
+    enter_x, leave_x = _cross(boxes[node, near_x], boxes[node, 3 - near_x], ox, ix)
+    enter_y, leave_y = _cross(boxes[node, near_y], boxes[node, 5 - near_y], oy, iy)
+    enter_z, leave_z = _cross(boxes[node, near_z], boxes[node, 7 - near_z], oz, iz)
     enter = max(0.0, max(enter_x, max(enter_y, enter_z)))
     leave = min(leave_x, min(leave_y, leave_z))
-    # A box may be flat: leave room for rounding.
-    return enter if enter <= leave + 2e-12 else np.inf
+    return enter if enter <= leave else np.inf
 
 
 @njit(cache=True, error_model="numpy")
@@ -85,20 +103,23 @@ def cast_inward(
                     corners[place, 2, 1] - py,
                     corners[place, 2, 2] - pz,
                 )
-                hx, hy, hz = dy * e2z - dz * e2y, dz * e2x - dx * e2z, dx * e2y - dy * e2x
-                determinant = e1x * hx + e1y * hy + e1z * hz
-                if abs(determinant) < 1e-18:
+                nx, ny, nz = e1y * e2z - e1z * e2y, e1z * e2x - e1x * e2z, e1x * e2y - e1y * e2x
+                # Minus the cosine between ray and normal, times the length of the normal.
+                determinant = -(dx * nx + dy * ny + dz * nz)
+                if determinant * determinant <= GRAZING * GRAZING * (nx * nx + ny * ny + nz * nz):
                     continue
                 sx, sy, sz = ox - px, oy - py, oz - pz
+                t = (sx * nx + sy * ny + sz * nz) / determinant
+                if t <= tolerance or t >= best:
+                    continue
+                hx, hy, hz = dy * e2z - dz * e2y, dz * e2x - dx * e2z, dx * e2y - dy * e2x
                 a = (sx * hx + sy * hy + sz * hz) / determinant
-                if a < -1e-9 or a > 1.0 + 1e-9:
+                if a < -EDGE or a > 1.0 + EDGE:
                     continue
                 gx, gy, gz = sy * e1z - sz * e1y, sz * e1x - sx * e1z, sx * e1y - sy * e1x
                 b = (dx * gx + dy * gy + dz * gz) / determinant
-                if b < -1e-9 or a + b > 1.0 + 1e-9:
+                if b < -EDGE or a + b > 1.0 + EDGE:
                     continue
-                t = (e2x * gx + e2y * gy + e2z * gz) / determinant
-                if tolerance < t < best:
-                    best = t
+                best = t
         result[v] = best if best < np.inf else np.nan
     return result
