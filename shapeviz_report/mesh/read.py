@@ -17,6 +17,7 @@ from shapeviz_report.mesh.readers import READERS
 from shapeviz_report.mesh.readers.gltf import buffer_files, read_gltf, read_header
 from shapeviz_report.mesh.readers.limits import check_faces
 from shapeviz_report.mesh.readers.polygons import PolygonMesh, check_indices, triangulate
+from shapeviz_report.mesh.readers.sniff import what_it_seems
 from shapeviz_report.types import Mesh
 
 _PLACE = re.compile(r"\b(?:line|row) \d")
@@ -107,17 +108,20 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
             check_indices(polygons.vertices, polygons.corners)
             check_faces(int(np.maximum(polygons.sizes - 2, 0).sum()))
             vertices, faces = polygons.vertices, triangulate(polygons)
-    except MeshError:
-        raise
+        if not len(faces):
+            raise MeshError("it has vertices, but no faces" if len(vertices) else "it has no faces")
     except (
         Exception
     ) as error:  # a broken file can make a parser fail in any way; none of them may end a build
+        seems = what_it_seems(data)
+        if seems is not None and not seems.endswith(MESH_FORMATS[suffix]):
+            raise MeshError(f"it is not {MESH_FORMATS[suffix]}, but seems to be {seems}") from error
+        if isinstance(error, MeshError):
+            raise
         raise MeshError(
             f"it is damaged, cut off, or not {MESH_FORMATS[suffix]} at all{_explanation(error)}; "
             "open it in the program it comes from, and export it anew"
         ) from error
-    if not len(faces):
-        raise MeshError("it has vertices, but no faces" if len(vertices) else "it has no faces")
     return Mesh(
         vertices=np.ascontiguousarray(vertices, dtype=np.float64), faces=np.ascontiguousarray(faces, np.int32)
     )

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, whole_numbers
+from shapeviz_report.mesh.readers.text import decode, parse_numbers, without_mark
 
 Values = npt.NDArray[np.generic]
 Column = tuple[Indices, Values]
@@ -24,8 +25,9 @@ _KINDS = {
     "float": "f4", "float32": "f4", "double": "f8", "float64": "f8",
 }  # fmt: skip
 _BYTE_ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
-_END_OF_HEADER = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:\r\n|\r|\n|$)")
+_FIRST_LINE = re.compile(rb"ply[ \t]*(\r\n|\r|\n)", re.IGNORECASE)
 _CORNER_NAMES = ("vertex_indices", "vertex_index")
+_STRIP_NAMES = ("tristrips", "tristrip")
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,10 @@ class TextBody:
         self.position += count
         return values
 
+    def rest(self) -> int:
+        """How many numbers are left."""
+        return self.numbers.size - self.position
+
     def take_rows(self, columns: list[tuple[str, int]], count: int) -> list[Values]:
         """The next ``count`` rows of columns of a kind and a width, as one array (count, width) a column."""
         widths = [width for _, width in columns]
@@ -86,6 +92,10 @@ class BinaryBody:
         self.position = end
         return values
 
+    def rest(self) -> int:
+        """How many bytes are left."""
+        return len(self.data) - self.position
+
     def take_rows(self, columns: list[tuple[str, int]], count: int) -> list[Values]:
         """The next ``count`` rows of columns of a kind and a width, as one array (count, width) a column."""
         dtype = np.dtype([(str(i), self.order + kind, (width,)) for i, (kind, width) in enumerate(columns)])
@@ -105,43 +115,97 @@ def read_ply(data: bytes) -> PolygonMesh:
     MeshError, ValueError
         If the header cannot be followed, or the rest is not what it announces.
     """
-    end = _END_OF_HEADER.search(data)
-    if not data.startswith(b"ply") or end is None:
-        raise MeshError("it has no PLY header")
-    encoding, elements = _read_header(data[: end.start()].decode("latin-1"))
+    data = without_mark(data)
+    header, start = _split_header(data)
+    encoding, elements = _read_header(header)
     body: TextBody | BinaryBody
     if encoding == "ascii":
-        body = TextBody(np.fromstring(data[end.end() :].decode("latin-1"), sep=" "))
+        body = TextBody(parse_numbers(decode(data[start:])))
     else:
-        body = BinaryBody(data, _BYTE_ORDERS[encoding], end.end())
-    contents = {}
+        body = BinaryBody(data, _BYTE_ORDERS[encoding], start)
+    contents: dict[str, dict[str, Column]] = {}
     for element in elements:
         if element.count and element.properties:
+            begin = body.position
             contents[element.name] = _read_element(body, element)
+            _check_rest(body, (body.position - begin) / element.count if element is elements[-1] else None)
     try:
         vertices = np.column_stack([contents["vertex"][axis][1] for axis in "xyz"]).astype(np.float64)
     except KeyError as error:
         raise MeshError("it has no vertices with x, y and z") from error
-    faces = contents.get("face", {})
+    polygons = [_polygons(contents["face"])] if "face" in contents else []
+    polygons += [_strips(contents[name]) for name in _STRIP_NAMES if name in contents]
+    if not polygons and "range_grid" in contents:
+        raise MeshError("it is a range scan (range_grid) without faces, which is not read")
+    return PolygonMesh(
+        vertices,
+        corners=np.concatenate([np.empty(0, np.int64), *(corners for _, corners in polygons)]),
+        sizes=np.concatenate([np.empty(0, np.int64), *(sizes for sizes, _ in polygons)]),
+    )
+
+
+def _check_rest(body: TextBody | BinaryBody, row: float | None) -> None:
+    """Refuse a file that goes on after its last element by what may be rows of it. Raises ``MeshError``."""
+    rest = body.rest() if row else 0
+    if row and rest and (isinstance(body, TextBody) or rest % row == 0):
+        raise MeshError("it has more rows than its PLY header announces")
+
+
+def _split_header(data: bytes) -> tuple[str, int]:
+    """The header's text, and where what follows it begins.
+
+    Lines may end in any way, but a line feed behind a header of lone carriage returns is a byte of the first row.
+    """
+    first = _FIRST_LINE.match(data)
+    ends = rb"\r" if first and first[1] == b"\r" else rb"\r\n|\r|\n"
+    end = re.search(rb"[\r\n][ \t]*end_header[ \t]*(?:" + ends + rb"|$)", data, re.IGNORECASE)
+    if first is None or end is None:
+        raise MeshError("it has no PLY header")
+    return decode(data[: end.start()]), end.end()
+
+
+def _polygons(face: dict[str, Column]) -> tuple[Indices, Indices]:
+    """Sizes and corners of the element ``face``. Raises ``MeshError`` if it has none."""
     for name in _CORNER_NAMES:
-        if name in faces:
-            sizes, corners = faces[name]
-            return PolygonMesh(vertices, whole_numbers(corners), sizes)
-    return PolygonMesh(vertices, np.empty(0, np.int64), np.empty(0, np.int64))
+        if name in face:
+            sizes, corners = face[name]
+            return sizes, whole_numbers(corners)
+    raise MeshError(f"its faces have no list {_CORNER_NAMES[0]}, only {', '.join(face)[:100]}")
+
+
+def _strips(strips: dict[str, Column]) -> tuple[Indices, Indices]:
+    """Sizes and corners of the triangles of strips, each of which a negative number or the end of its list ends."""
+    lengths, values = _polygons(strips)
+    strip = np.repeat(np.arange(len(lengths)), lengths) * (len(values) + 1) + np.cumsum(values < 0)
+    inside = values >= 0
+    values, strip = values[inside], strip[inside]
+    begins = np.flatnonzero(np.diff(strip, prepend=-1)) if len(strip) else np.empty(0, np.int64)
+    place = np.arange(len(values)) - np.repeat(begins, np.diff(np.append(begins, len(values))))
+    first = np.flatnonzero(strip[2:] == strip[:-2])
+    odd = place[first] % 2 == 1
+    # every second triangle of a strip is turned over
+    triangles = values[np.stack([first + odd, first + 1 - odd, first + 2], axis=1)]
+    a, b, c = triangles.T
+    triangles = triangles[(a != b) & (b != c) & (c != a)]  # the others only join strips
+    return np.full(len(triangles), 3, np.int64), triangles.ravel()
 
 
 def _read_header(header: str) -> tuple[str, list[Element]]:
     encoding = ""
     elements: list[Element] = []
-    for line in header.splitlines()[1:]:
-        match line.split():
-            case ["format", name, _]:
+    for line in header.split("\n")[1:]:
+        match line.lower().split():
+            case ["format", name, *_]:
                 encoding = name
-            case ["element", name, count]:
+            case ["element", name, _] if any(element.name == name for element in elements):
+                raise MeshError(f"its PLY header announces {name} twice")
+            case ["element", name, count] if count.lstrip("-").isdecimal():
                 elements.append(Element(name, int(count)))
-            case ["property", "list", count_kind, kind, name] if elements:
+            case ["property", "list", count_kind, kind, name] if (
+                elements and {kind, count_kind} <= _KINDS.keys()
+            ):
                 elements[-1].properties.append(Property(name, _KINDS[kind], _KINDS[count_kind]))
-            case ["property", kind, name] if elements:
+            case ["property", kind, name] if elements and kind in _KINDS:
                 elements[-1].properties.append(Property(name, _KINDS[kind], None))
             case ["comment" | "obj_info", *_] | []:
                 pass
@@ -149,6 +213,10 @@ def _read_header(header: str) -> tuple[str, list[Element]]:
                 raise MeshError(f"its PLY header has a line that means nothing: {line.strip()[:60]!r}")
     if encoding != "ascii" and encoding not in _BYTE_ORDERS:
         raise MeshError(f"its PLY header names no known encoding, but {encoding!r}")
+    if any(
+        len({listed.name for listed in element.properties}) < len(element.properties) for element in elements
+    ):
+        raise MeshError("its PLY header announces a property twice")
     if any(element.count < 0 for element in elements):
         raise MeshError("its PLY header announces fewer than zero rows")
     return encoding, elements

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import manifold3d
@@ -13,8 +14,10 @@ from shapeviz_report.types import FloatArray
 
 Indices = npt.NDArray[np.int64]
 
-# a corner is reflex only if it turns back by more than this fraction of the polygon's area, not by rounding
-_REFLEX_TOLERANCE = 1e-9
+_LEAST_HEIGHT = 1e-6
+"""A triangle as flat as this, as a fraction of its longest side, has its corners on a line but for rounding."""
+_MOST_FANS = 64
+"""Corners of the largest polygon of which all fans are tried: they have s^2 triangles."""
 
 
 @dataclass(frozen=True)
@@ -62,9 +65,10 @@ def check_indices(vertices: FloatArray, indices: Indices) -> None:
 def triangulate(mesh: PolygonMesh) -> Indices:
     """Cut every polygon into triangles, in the order of the polygons.
 
-    Convex polygons become fans. A concave quad is cut at its reflex corner, and a larger concave polygon,
-    which a fan would fold over, is triangulated in the plane of its Newell normal. Polygons of fewer than
-    three corners vanish.
+    A polygon becomes a fan from its first corner, or from the corner that gives the least flat triangles if the first
+    folds over or has a triangle without area: a concave corner, or a straight one. Where no fan will do, the polygon
+    is triangulated in the plane of its Newell normal. A corner that is repeated at once counts once; polygons of
+    fewer than three corners vanish.
 
     Parameters
     ----------
@@ -76,16 +80,34 @@ def triangulate(mesh: PolygonMesh) -> Indices:
     (t, 3) int64 array
         With the orientation of the polygons.
     """
-    starts = np.cumsum(mesh.sizes) - mesh.sizes
+    corners, sizes = _drop_repeated(mesh.corners, mesh.sizes)
+    starts = np.cumsum(sizes) - sizes
     triangles = [np.empty((0, 3), np.int64)]
     owners = [np.empty(0, np.int64)]
-    for size in np.unique(mesh.sizes[mesh.sizes >= 3]):
-        which = np.flatnonzero(mesh.sizes == size)
-        polygons = mesh.corners[starts[which, None] + np.arange(size)]
+    for size in np.unique(sizes[sizes >= 3]):
+        which = np.flatnonzero(sizes == size)
+        polygons = corners[starts[which, None] + np.arange(size)]
         triangles.append(_cut(mesh.vertices, polygons).reshape(-1, 3))
         owners.append(np.repeat(which, size - 2))
+    if len(owners) == 2:
+        return triangles[1]
     order = np.argsort(np.concatenate(owners), kind="stable")
     return np.concatenate(triangles)[order]
+
+
+def _drop_repeated(corners: Indices, sizes: Indices) -> tuple[Indices, Indices]:
+    """Polygons of more than three corners without those that are the same as the next."""
+    if not (sizes > 3).any():
+        return corners, sizes
+    following = np.roll(corners, -1)
+    filled = sizes > 0
+    last = np.cumsum(sizes)[filled] - 1
+    following[last] = corners[last - sizes[filled] + 1]
+    repeated = (corners == following) & np.repeat(sizes > 3, sizes)
+    if not repeated.any():
+        return corners, sizes
+    owners = np.repeat(np.arange(len(sizes)), sizes)
+    return corners[~repeated], np.bincount(owners[~repeated], minlength=len(sizes))
 
 
 def _cut(vertices: FloatArray, polygons: Indices) -> Indices:
@@ -93,31 +115,116 @@ def _cut(vertices: FloatArray, polygons: Indices) -> Indices:
     size = polygons.shape[1]
     if size == 3:
         return polygons[:, None, :]
-    points = vertices[polygons]
-    with np.errstate(
-        all="ignore"
-    ):  # what is not finite compares false below, and is cut as if it were convex
-        points = points - points[:, :1]
-        points = points / np.abs(points).max(axis=(1, 2), keepdims=True)
-        normals = np.cross(points, np.roll(points, -1, axis=1)).sum(axis=1)
-        turns = np.cross(points - np.roll(points, 1, axis=1), np.roll(points, -1, axis=1) - points)
-        areas = np.einsum("pi,pi->p", normals, normals)
-        reflex = np.einsum("psi,pi->ps", turns, normals) < -_REFLEX_TOLERANCE * areas[:, None]
-    if size == 4:
-        first = np.argmax(reflex, axis=1)
-        polygons = np.take_along_axis(polygons, (first[:, None] + np.arange(4)) % 4, axis=1)
-    triangles = _fans(polygons)
-    if size > 4:
-        for index in np.flatnonzero(reflex.any(axis=1)):
-            planar = manifold3d.triangulate([_project(points[index], normals[index])])
-            if len(planar) == size - 2:
-                triangles[index] = polygons[index][planar]
+    triangles = np.empty((len(polygons), size - 2, 3), np.int64)
+    # in pieces: the coordinates of all polygons at once may take more memory than the mesh
+    step = max(1, 2**20 // size)
+    for first in range(0, len(polygons), step):
+        piece = slice(first, first + step)
+        triangles[piece] = _cut_piece(vertices[polygons[piece]], polygons[piece])
     return triangles
 
 
-def _fans(polygons: Indices) -> Indices:
-    first = np.broadcast_to(polygons[:, :1], (len(polygons), polygons.shape[1] - 2))
-    return np.stack([first, polygons[:, 1:-1], polygons[:, 2:]], axis=2)
+def _cut_piece(points: FloatArray, polygons: Indices) -> Indices:
+    size = polygons.shape[1]
+    fan = _fan(size)
+    cuts = np.broadcast_to(fan, (len(polygons), size - 2, 3)).copy()
+    # what is not finite compares false below, and is cut as if it were convex
+    with np.errstate(all="ignore"):
+        points = points - points[:, :1]
+        points = points / np.abs(points).max(axis=(1, 2), keepdims=True)
+        normals = np.cross(points, np.roll(points, -1, axis=1)).sum(axis=1)
+        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+        flatness = _least_height(points, normals, cuts)
+        for index in np.flatnonzero(flatness < _LEAST_HEIGHT):
+            corners, normal = points[index], normals[index]
+            cuts[index] = _cut_one(corners, normal, cuts[index], float(flatness[index]))
+    return np.take_along_axis(polygons, cuts.reshape(len(polygons), -1), axis=1).reshape(cuts.shape)
+
+
+def _cut_one(points: FloatArray, normal: FloatArray, fan: Indices, least: float) -> Indices:
+    """The best cut (s - 2, 3) of one polygon (s, 3) whose fan (s - 2, 3) has a triangle as flat as ``least``."""
+    size = len(points)
+    best = fan
+    if size <= _MOST_FANS:
+        fans = (fan + np.arange(size)[:, None, None]) % size
+        heights = _least_height(points, normal, fans)
+        first = int(np.argmax(heights))
+        if heights[first] > least:
+            best, least = fans[first], float(heights[first])
+    if least < _LEAST_HEIGHT:
+        planar = np.asarray(manifold3d.triangulate([_project(points, normal)]), np.int64)
+        if len(planar) == size - 2:
+            planar = _flip_flat(points, normal, planar)
+            if _least_height(points, normal, planar) > least:
+                best = planar
+    return best
+
+
+def _least_height(points: FloatArray, normal: FloatArray, cuts: Indices) -> FloatArray:
+    """The height of the flattest triangle as a fraction of its longest side, negative if one is turned over.
+
+    Points (..., s, 3), normals (..., 3) of length 1, cuts (..., t, 3).
+    """
+    if points.ndim == 3:
+        a, b, c = (np.take_along_axis(points, cuts[..., corner, None], axis=1) for corner in range(3))
+        normal = normal[:, None, :]
+    else:
+        a, b, c = (points[cuts[..., corner]] for corner in range(3))
+    u, v = b - a, c - a
+    areas = (np.cross(u, v) * normal).sum(axis=-1)
+    longest = np.maximum(np.maximum((u * u).sum(-1), (v * v).sum(-1)), ((c - b) ** 2).sum(-1))
+    return np.where(longest > 0, areas / longest, 0.0).min(axis=-1)
+
+
+def _flip_flat(points: FloatArray, normal: FloatArray, triangles: Indices) -> Indices:
+    """Exchange the diagonal that a flat triangle shares with its neighbour, where that makes the flatter one less flat.
+
+    A flat triangle has one corner between the two others; the side across is never a side of the polygon, which
+    goes through that corner.
+    """
+
+    def height(corners: tuple[int, int, int]) -> float:
+        return float(_least_height(points, normal, np.array([corners])))
+
+    cut = [tuple(triangle) for triangle in triangles.tolist()]
+    heights = [height(triangle) for triangle in cut]
+    for _ in range(4 * len(cut)):
+        flat = [index for index, value in enumerate(heights) if value < _LEAST_HEIGHT]
+        for index in flat:
+            if (flipped := _flip(cut, heights, index, height)) is not None:
+                other, pair = flipped
+                cut[index], cut[other] = pair
+                heights[index], heights[other] = height(pair[0]), height(pair[1])
+                break
+        else:
+            break
+    return np.array(cut, np.int64)
+
+
+def _flip(
+    cut: list[tuple[int, int, int]],
+    heights: list[float],
+    index: int,
+    height: Callable[[tuple[int, int, int]], float],
+) -> tuple[int, tuple[tuple[int, int, int], tuple[int, int, int]]] | None:
+    """The neighbour with which a triangle gains most by exchanging their diagonal, and the two that then are."""
+    best, gain = None, heights[index]
+    for turn in range(3):
+        a, b, c = (cut[index][(turn + corner) % 3] for corner in range(3))
+        for other, triangle in enumerate(cut):
+            if other != index and a in triangle and c in triangle:
+                (d,) = set(triangle) - {a, c} or (b,)
+                pair = ((a, b, d), (b, c, d))
+                least = min(height(pair[0]), height(pair[1]))
+                if d != b and least > min(gain, heights[other]):
+                    best, gain = (other, pair), least
+    return best
+
+
+def _fan(size: int) -> Indices:
+    """Triangles (s - 2, 3) from corner 0 of a polygon."""
+    following = np.arange(1, size - 1)
+    return np.stack([np.zeros(size - 2, np.int64), following, following + 1], axis=1)
 
 
 def _project(points: FloatArray, normal: FloatArray) -> FloatArray:

@@ -49,6 +49,17 @@ def decode(data: bytes) -> str:
     return text.replace("\0", " ")
 
 
+def without_mark(data: bytes) -> bytes:
+    """A file that may be binary behind a header of text, without a byte order mark; as bytes again if it is UTF-16 or
+    UTF-32, which only text can be."""
+    for mark, encoding in _MARKS:
+        if data.startswith(mark):
+            return data[len(mark) :] if encoding == "latin-1" else decode(data).encode("latin-1", "replace")
+    if _encoding_without_mark(data[:64]) != "latin-1":
+        return decode(data).encode("latin-1", "replace")
+    return data
+
+
 def _encoding_without_mark(head: bytes) -> str:
     head = head[: len(head) // 4 * 4]
     empty = [len(head) > 4 and not any(head[place::4]) for place in range(4)]

@@ -1,15 +1,333 @@
-"""3MF, by trimesh."""
+"""3MF: what the build places, with the production extension, as slicers write it.
+
+Trimesh takes all objects of all parts of the package, whether they are built or not, and mixes up those of the same
+number in different parts; so 3MF is read here.
+"""
 
 from __future__ import annotations
 
+import graphlib
+from array import array
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from io import BytesIO
+from typing import IO
+from urllib.parse import unquote
+from xml.parsers import expat
+from zipfile import BadZipFile, ZipFile, ZipInfo
 
-from trimesh.exchange.threemf import load_3MF
+import numpy as np
 
-from shapeviz_report.mesh.readers.polygons import PolygonMesh
-from shapeviz_report.mesh.readers.scene import join_scene
+from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.readers.limits import check_faces, check_unpacked
+from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, check_indices
+from shapeviz_report.types import FloatArray
+
+_CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+_PRODUCTION = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06"
+_READ_EXTENSIONS = frozenset(
+    {
+        _CORE,
+        _PRODUCTION,
+        "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",  # looks
+        "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07",  # groups of triangles, for selecting
+    }
+)
+_RELATIONSHIP = "http://schemas.openxmlformats.org/package/2006/relationships Relationship"
+_ROOT_TYPE = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"
+_MILLIMETRES = {
+    "micron": 1e-3,
+    "millimeter": 1.0,
+    "centimeter": 10.0,
+    "inch": 25.4,
+    "foot": 304.8,
+    "meter": 1e3,
+}
+_CHUNK = 2**20
+
+Key = tuple[str, str]
+"""Which object: the path of its part, the number it has there."""
+
+
+@dataclass
+class Object:
+    """An object: a mesh of its own, or other objects in their places.
+
+    Attributes
+    ----------
+    coordinates : array of float
+        Of its vertices, x, y, z in turns.
+    indices : array of int
+        Of the corners of its triangles, three in turns.
+    children : list of (Key, (4, 3) float64 array)
+        Objects, and the matrix that a row (x, y, z, 1) is multiplied with to place it.
+    """
+
+    coordinates: array[float] = field(default_factory=lambda: array("d"))
+    indices: array[int] = field(default_factory=lambda: array("q"))
+    children: list[tuple[Key, FloatArray]] = field(default_factory=list)
+
+
+@dataclass
+class Part:
+    """A model part of the package: what it builds, its objects by number, its unit in millimetres."""
+
+    build: Object = field(default_factory=Object)
+    objects: dict[str, Object] = field(default_factory=dict)
+    unit: float = 1.0
 
 
 def read_3mf(data: bytes) -> PolygonMesh:
-    """Read 3MF. Raises ``MeshError``, or what its parser raises, if it is anything else."""
-    return join_scene(load_3MF(BytesIO(data)))
+    """Read 3MF.
+
+    Raises
+    ------
+    MeshError
+        If it is anything else, or has geometry that is not read.
+    """
+    try:
+        with ZipFile(BytesIO(data)) as archive:
+            return _place(*_collect(Package(archive)))
+    except BadZipFile as error:
+        raise MeshError(f"it is not 3MF, or damaged: {error}") from error
+    except expat.ExpatError as error:
+        raise MeshError(f"its XML is broken ({error})") from error
+
+
+class Package:
+    """The files of a 3MF, by path in small letters, and how many bytes of them were unpacked."""
+
+    def __init__(self, archive: ZipFile) -> None:
+        self._archive = archive
+        self._entries: dict[str, ZipInfo] = {_normal(info.filename): info for info in archive.infolist()}
+        self._unpacked = 0
+
+    def parse(self, path: str, parser: expat.XMLParserType) -> None:
+        """Hand a file to a parser, piece by piece: no more of it is ever held. Raises ``MeshError``."""
+        entry = self._entries.get(path)
+        if entry is None:
+            raise MeshError(f"it refers to {path[:100]!r}, which is not in it")
+        if entry.flag_bits & 1:
+            raise MeshError("it is encrypted")
+        check_unpacked(self._unpacked + entry.file_size)
+        with self._archive.open(entry) as file:
+            self._feed(file, parser)
+
+    def _feed(self, file: IO[bytes], parser: expat.XMLParserType) -> None:
+        while piece := file.read(_CHUNK):
+            self._unpacked += len(piece)
+            check_unpacked(self._unpacked)
+            parser.Parse(piece, False)
+        parser.Parse(b"", True)
+
+    def root(self) -> str:
+        """The path of the part that says what is built."""
+        targets: list[str] = []
+
+        def start(name: str, attributes: dict[str, str]) -> None:
+            if name == _RELATIONSHIP and attributes.get("Type") == _ROOT_TYPE:
+                targets.append(_normal(attributes.get("Target", "")))
+
+        if "_rels/.rels" not in self._entries:
+            raise MeshError("it is not 3MF: it has no _rels/.rels, which says what its model is")
+        self.parse("_rels/.rels", _parser(start))
+        if not targets:
+            raise MeshError("it is not 3MF: no part of it is a 3D model")
+        return targets[0]
+
+
+def _normal(path: str) -> str:
+    """A path in the package as it is compared: without a slash in front, in small letters, nothing escaped."""
+    return unquote(path).replace("\\", "/").lstrip("/").lower()
+
+
+def _parser(start: Callable[[str, dict[str, str]], None]) -> expat.XMLParserType:
+    parser = expat.ParserCreate(namespace_separator=" ")
+    parser.StartElementHandler = start
+    parser.StartDoctypeDeclHandler = _refuse_document_type
+    return parser
+
+
+def _refuse_document_type(*_: object) -> None:
+    raise MeshError("it has a document type declaration, which 3MF does not use")
+
+
+def _collect(package: Package) -> tuple[Object, dict[Key, Object]]:
+    """What is built, and every object that it has, in one unit."""
+    root = package.root()
+    parts = {root: _read_part(package, root)}
+    build = parts[root].build
+    if not build.children:
+        raise MeshError("it builds nothing: no object is placed")
+    objects: dict[Key, Object] = {}
+    wanted = [key for key, _ in build.children]
+    while wanted:
+        key = path, number = wanted.pop()
+        if key in objects:
+            continue
+        if path not in parts:
+            parts[path] = _read_part(package, path)
+        part = parts[path]
+        if number not in part.objects:
+            raise MeshError(f"it places object {number[:20]!r} of {path[:100]!r}, which is not there")
+        objects[key] = part.objects[number]
+        wanted += [child for child, _ in objects[key].children]
+    # a component is placed in the unit of the part that places it
+    for part in parts.values():
+        for entry in [part.build, *part.objects.values()]:
+            entry.children = [
+                (key, _scaled(transform, parts[key[0]].unit / part.unit))
+                if key[0] in parts
+                else (key, transform)
+                for key, transform in entry.children
+            ]
+    return build, objects
+
+
+def _scaled(transform: FloatArray, factor: float) -> FloatArray:
+    return transform * np.array([[factor]] * 3 + [[1.0]])
+
+
+def _read_part(package: Package, path: str) -> Part:
+    reader = PartReader(path)
+    package.parse(path, reader.parser)
+    if not reader.is_model:
+        raise MeshError(f"{path[:100]!r} in it is not a 3MF model")
+    return reader.part
+
+
+class PartReader:
+    """What a parser tells of a model part becomes a :class:`Part`."""
+
+    def __init__(self, path: str) -> None:
+        self.part = Part()
+        self.is_model = False
+        self.parser = _parser(self._start)
+        self.parser.EndElementHandler = self._end
+        self.parser.StartNamespaceDeclHandler = self._declare
+        self._path = path
+        self._namespaces: dict[str | None, str] = {}
+        self._open: list[str] = []
+        self._object = Object()
+
+    def _declare(self, prefix: str | None, namespace: str) -> None:
+        self._namespaces.setdefault(prefix, namespace)
+
+    def _end(self, name: str) -> None:
+        self._open.pop()
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        parent = self._open[-1] if self._open else ""
+        self._open.append(name)
+        if name == _VERTEX and parent == _VERTICES:
+            self._object.coordinates.extend(
+                (float(attributes["x"]), float(attributes["y"]), float(attributes["z"]))
+            )
+        elif name == _TRIANGLE and parent == _TRIANGLES:
+            self._object.indices.extend((int(attributes["v1"]), int(attributes["v2"]), int(attributes["v3"])))
+        elif name == _MODEL and not parent:
+            self.is_model = True
+            self._begin_model(attributes)
+        elif name == _OBJECT:
+            check_faces(sum(len(each.indices) for each in self.part.objects.values()) // 3)
+            self._object = self.part.objects[attributes["id"]] = Object()
+        elif name == _COMPONENT:
+            self._object.children.append(self._placed(attributes))
+        elif name == _ITEM:
+            self.part.build.children.append(self._placed(attributes))
+        elif parent in (_OBJECT, _MESH) and name not in _WITHIN:
+            raise MeshError(f"an object of it has a <{name.rpartition(' ')[2][:40]}>, which is not read")
+
+    def _begin_model(self, attributes: dict[str, str]) -> None:
+        for prefix in attributes.get("requiredextensions", "").split():
+            namespace = self._namespaces.get(prefix, prefix)
+            if namespace not in _READ_EXTENSIONS:
+                raise MeshError(f"it requires an extension that is not read: {namespace[:100]}")
+        unit = attributes.get("unit", "millimeter")
+        if unit not in _MILLIMETRES:
+            raise MeshError(f"its unit means nothing: {unit[:40]!r}")
+        self.part.unit = _MILLIMETRES[unit]
+
+    def _placed(self, attributes: dict[str, str]) -> tuple[Key, FloatArray]:
+        path = attributes.get(f"{_PRODUCTION} path")
+        words = attributes.get("transform", "1 0 0 0 1 0 0 0 1 0 0 0").split()
+        if len(words) != 12:
+            raise MeshError(f"a transform of it has {len(words)} numbers, not 12")
+        key = (_normal(path) if path else self._path, attributes["objectid"])
+        return key, np.array(words, dtype=np.float64).reshape(4, 3)
+
+
+_MODEL, _OBJECT, _MESH, _COMPONENT, _ITEM, _VERTICES, _VERTEX, _TRIANGLES, _TRIANGLE = (
+    f"{_CORE} {name}"
+    for name in [
+        "model",
+        "object",
+        "mesh",
+        "component",
+        "item",
+        "vertices",
+        "vertex",
+        "triangles",
+        "triangle",
+    ]
+)
+_WITHIN = frozenset(
+    {_MESH, _VERTICES, _TRIANGLES, f"{_CORE} components", f"{_CORE} metadatagroup"}
+    | {"http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07 trianglesets"}
+)
+"""What an object and its mesh may have; anything else is geometry of an extension."""
+
+
+def _place(build: Object, objects: dict[Key, Object]) -> PolygonMesh:
+    """All triangles of what is built, where it is placed. Counted before anything is copied."""
+    try:
+        order = list(
+            graphlib.TopologicalSorter(
+                {key: [child for child, _ in each.children] for key, each in objects.items()}
+            ).static_order()
+        )
+    except graphlib.CycleError as error:
+        raise MeshError("an object of it is a part of itself") from error
+    counts: dict[Key, int] = {}
+    for key in order:
+        each = objects[key]
+        counts[key] = len(each.indices) // 3 + sum(counts[child] for child, _ in each.children)
+    check_faces(sum(counts[key] for key, _ in build.children))
+    # from what is built down to the meshes: every object's transforms (k, 4, 3), one for each time it is placed
+    transforms: dict[Key, list[FloatArray]] = {key: [] for key in objects}
+    for key, transform in build.children:
+        transforms[key].append(transform[None])
+    vertices: list[FloatArray] = [np.empty((0, 3))]
+    faces: list[Indices] = [np.empty((0, 3), np.int64)]
+    total = 0
+    for key in reversed(order):
+        placed = transforms.pop(key)
+        if not placed or not counts[key]:
+            continue
+        every, each = np.concatenate(placed), objects[key]
+        for child, transform in each.children:
+            moved = transform @ every[:, :3]
+            moved[:, 3] += every[:, 3]
+            transforms[child].append(moved)
+        if each.indices:
+            points, triangles = _mesh_of(each)
+            for transform in every:
+                vertices.append(points @ transform[:3] + transform[3])
+                # a mirror would turn the surface inside out
+                mirrored = np.linalg.det(transform[:3]) < 0
+                faces.append((triangles[:, ::-1] if mirrored else triangles) + total)
+                total += len(points)
+    return PolygonMesh.of_triangles(np.concatenate(vertices), np.concatenate(faces))
+
+
+def _mesh_of(each: Object) -> tuple[FloatArray, Indices]:
+    """Vertices (n, 3) and triangles (m, 3); of vertices only those that are used, so that n is 3 m at most."""
+    points = (
+        np.frombuffer(each.coordinates, np.float64).reshape(-1, 3) if each.coordinates else np.empty((0, 3))
+    )
+    triangles = np.frombuffer(each.indices, np.int64).reshape(-1, 3)
+    check_indices(points, triangles.ravel())
+    if len(points) > 3 * len(triangles):
+        used, triangles = np.unique(triangles, return_inverse=True)
+        points, triangles = points[used], triangles.reshape(-1, 3)
+    return points, triangles
