@@ -67,6 +67,41 @@ def shape_ids(relative_paths: Sequence[str]) -> list[str]:
     return ids
 
 
+def shape_names(ids: Sequence[str]) -> list[str]:
+    """A name a shape that tells it from all others, and is no longer than that needs.
+
+    The name is the last part of the id, the file's name. Shapes that share theirs have instead the last folders,
+    and the file's name, as many as are needed; folders that are the same in all of those, and a file name that is the
+    same in the whole database, are left out:
+    ``chair/1a04/models/model`` is ``1a04`` where every file is called ``models/model``.
+
+    Parameters
+    ----------
+    ids : sequence of str
+        As :func:`shape_ids` returns them: no two are equal.
+    """
+    parts = [id.split("/")[::-1] for id in ids]
+    times = Counter(own[0] for own in parts)
+    alike = [own for own in parts if times[own[0]] > 1]
+    values = [
+        {own[depth] for own in alike if depth < len(own)} for depth in range(max(map(len, alike), default=0))
+    ]
+    tells = [len(times) > 1, *(len(found) > 1 for found in values[1:])]
+    kept = [[part for part, told in zip(own, tells) if told] for own in alike]
+    endings = Counter(name for own in kept for name in endings_of(own))
+    endings.update(name for name, count in times.items() if count == 1)
+    shortest = iter(
+        next((name for name in endings_of(own) if endings[name] == 1), "/".join(whole[::-1]))
+        for own, whole in zip(kept, alike)
+    )
+    return [own[0] if times[own[0]] == 1 else next(shortest) for own in parts]
+
+
+def endings_of(parts: Sequence[str]) -> list[str]:
+    """The endings of a path whose parts are given from its end, from the shortest on."""
+    return ["/".join(parts[:end][::-1]) for end in range(1, len(parts) + 1)]
+
+
 def sorted_shapes(shapes: Iterable[ShapeEntry]) -> tuple[ShapeEntry, ...]:
     """Shapes in the order that a database has them in."""
     return tuple(sorted(shapes, key=lambda shape: shape.id))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
+from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import scan_folder
 from shapeviz_report.database.text import clean
 from shapeviz_report.types import Database, ShapeEntry
@@ -42,8 +42,8 @@ class ClassFolders(Layout):
             root=path,
             layout=self.name,
             shapes=sorted_shapes(
-                ShapeEntry(id, file.path, file.stem, label)
-                for id, file, label in zip(ids, found.files, labels)
+                ShapeEntry(id, file.path, name, label)
+                for id, name, file, label in zip(ids, shape_names(ids), found.files, labels)
             ),
             labelings=tuple(name for name in ("class", "folder") if any(name in label for label in labels)),
             parents={"folder": parents} if parents else {},

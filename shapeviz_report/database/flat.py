@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
+from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import scan_folder
 from shapeviz_report.types import Database, ShapeEntry
 
@@ -26,6 +26,8 @@ class FlatFolder(Layout):
             name=database_name(path),
             root=path,
             layout=self.name,
-            shapes=sorted_shapes(ShapeEntry(id, file.path, file.stem) for id, file in zip(ids, found.files)),
+            shapes=sorted_shapes(
+                ShapeEntry(id, file.path, name) for id, name, file in zip(ids, shape_names(ids), found.files)
+            ),
             failures=found.failures,
         )

@@ -58,6 +58,11 @@ class Found:
         return [*(file.relative for file in self.files), *(failure.path for failure in self.failures)]
 
 
+def _begins_with(name: str, stems: set[str]) -> bool:
+    parts = name.split(".")
+    return any(".".join(parts[:end]) in stems for end in range(1, len(parts)))
+
+
 def scan_folder(root: Path) -> Found:
     """Every mesh below a folder, and whatever looks like one and cannot be taken.
 
@@ -95,6 +100,8 @@ def scan_folder(root: Path) -> Found:
                 raise DatabaseError(f"The folder {root} cannot be opened: {error.strerror}.") from error
             fail(prefix.rstrip("/"), f"this folder cannot be opened: {error.strerror}")
             continue
+        # A file that begins with the name of a mesh beside it (.step, .solid.binvox) is that mesh's companion.
+        stems = {os.path.splitext(entry.name)[0] for entry in entries if is_read(entry.name)}
         for entry in entries:
             if entry.name.startswith(".") or entry.name in _NEVER_SHAPES:
                 continue
@@ -107,7 +114,7 @@ def scan_folder(root: Path) -> Found:
             if is_folder:
                 waiting.append((entry.path, relative + "/", above | {identity}))
             elif not is_read(entry.name):
-                if is_unread_mesh(entry.name):
+                if is_unread_mesh(entry.name) and not _begins_with(entry.name, stems):
                     fail(relative, why_not_read(entry.name))
             elif is_file:
                 files.append(MeshFile(entry.path, relative))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
+from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import MeshFile, scan_folder
 from shapeviz_report.database.text import clean
 from shapeviz_report.errors import DatabaseError
@@ -42,11 +42,11 @@ class ModelNet(Layout):
                 ShapeEntry(
                     id,
                     file.path,
-                    file.stem,
+                    name,
                     labels={"class": clean(file.folders[0])},
                     metadata={"split": file.folders[1].lower()},
                 )
-                for id, file in zip(ids, found.files)
+                for id, name, file in zip(ids, shape_names(ids), found.files)
             ),
             labelings=("class",) if found.files else (),
             failures=found.failures,

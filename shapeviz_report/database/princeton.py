@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 
-from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
+from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import MeshFile, scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, suffix_of
 from shapeviz_report.database.text import clean, decode
@@ -35,6 +35,8 @@ ROOT_CLASS = "0"
 NO_CLASS = "-1"
 
 _SPLIT_NAME = re.compile(r"(.*?)[-_ ]?(train|test)", re.IGNORECASE)
+
+_PADDED_NAME = re.compile(r"[A-Za-z]*[-_]?0*([0-9]+)")
 
 
 @dataclass(frozen=True)
@@ -107,6 +109,7 @@ class Princeton(Layout):
         if unlisted:
             warnings.append(f"{unlisted} mesh files below {root} are in no .cla file and are left out.")
         models = sorted(meshes, key=lambda model: (meshes[model].relative, model))
+        ids = shape_ids([meshes[model].relative for model in models])
         labelings = {
             name: (classification, classes)
             for classification in classifications
@@ -125,13 +128,13 @@ class Princeton(Layout):
                 ShapeEntry(
                     id,
                     meshes[model].path,
-                    meshes[model].stem,
+                    name,
                     labels={
                         name: classes[model] for name, (_, classes) in labelings.items() if model in classes
                     },
                     metadata={"split": splits[model]} if model in splits else {},
                 )
-                for id, model in zip(shape_ids([meshes[model].relative for model in models]), models)
+                for id, name, model in zip(ids, shape_names(ids), models)
             ),
             labelings=tuple(labelings),
             parents=parents,
@@ -299,7 +302,8 @@ def _parents_of(classification: Classification, labels: set[str]) -> dict[str, s
 def _find_models(models: Mapping[str, Path], root: Path) -> tuple[dict[str, MeshFile], int]:
     """The mesh of every model that has one, and how many meshes belong to no model.
 
-    The model 123 is the file ``m123.off`` as in the benchmark, or else ``123.off``. Of several such files the
+    The model 123 is the file ``m123.off`` as in the benchmark, or else ``123.off``, or else the only one whose
+    name is that number after other letters or zeros, as ``D00123.off``. Of several such files the
     one with the first suffix in ``MESH_FORMATS`` is taken, then the first path.
     """
     suffixes = list(MESH_FORMATS)
@@ -307,6 +311,15 @@ def _find_models(models: Mapping[str, Path], root: Path) -> tuple[dict[str, Mesh
     by_stem: dict[str, MeshFile] = {}
     for file in sorted(files, key=lambda file: (suffixes.index(suffix_of(file.relative)), file.relative)):
         by_stem.setdefault(file.stem, file)
-    found = {model: mesh for model in models if (mesh := by_stem.get(f"m{model}") or by_stem.get(model))}
+    padded: dict[str, list[MeshFile]] = {}
+    for stem, file in by_stem.items():
+        if match := _PADDED_NAME.fullmatch(stem):
+            padded.setdefault(match[1], []).append(file)
+    found = {}
+    for model in models:
+        exact = by_stem.get(f"m{model}") or by_stem.get(model)
+        loose = padded.get(model.lstrip("0") or "0", []) if model.isascii() and model.isdigit() else []
+        if mesh := exact or (loose[0] if len(loose) == 1 else None):
+            found[model] = mesh
     taken = {file.stem for file in found.values()}
     return found, sum(file.stem not in taken for file in files)

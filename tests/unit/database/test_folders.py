@@ -38,7 +38,7 @@ def test_class_folders(tmp_path):
     assert database.labelings == ("class",)
     assert labels(database, "class") == {"ant/1": "ant", "cup/1": "cup", "cup/2": "cup"}
     assert [shape.id for shape in database.shapes] == ["ant/1", "cup/1", "cup/2"]
-    assert [shape.name for shape in database.shapes] == ["1", "1", "2"]
+    assert [shape.name for shape in database.shapes] == ["ant/1", "cup/1", "2"]
     assert database.shapes[0].path == tmp_path / "zoo" / "ant" / "1.OFF"
     assert not database.failures
     assert not database.parents
@@ -264,3 +264,24 @@ def test_choice_of_layout_name_and_labeling(tmp_path):
 def test_no_labeling_to_choose(tmp_path):
     with pytest.raises(DatabaseError, match="labelings: none"):
         read_database(make(tmp_path, "1.off"), labeling="class")
+
+
+def test_names_tell_shapes_apart(tmp_path):
+    files = [
+        f"{shape}/models/model.obj" for shape in ("chair/1a04", "chair/1b21", "table/2c77", "table/1a04")
+    ]
+    database = read_database(make(tmp_path / "net", *files))
+    assert {shape.id: shape.name for shape in database.shapes} == {
+        "chair/1a04/models/model": "chair/1a04",
+        "chair/1b21/models/model": "1b21",
+        "table/1a04/models/model": "table/1a04",
+        "table/2c77/models/model": "2c77",
+    }
+    database = read_database(make(tmp_path / "twice", "cup.off", "cup.ply", "ant.off"))
+    assert [shape.name for shape in database.shapes] == ["ant", "cup.off", "cup.ply"]
+
+
+def test_companions_of_a_mesh_are_no_failures(tmp_path):
+    files = ["a/cup.obj", "a/cup.solid.binvox", "a/cup.step", "a/cup.obj.gz", "a/ant.step", "b/cup.binvox"]
+    database = read_database(make(tmp_path / "net", *files))
+    assert set(failures(database)) == {"a/ant.step", "b/cup.binvox"}

@@ -170,3 +170,12 @@ def test_file_that_is_wrong(tmp_path, text, reason):
 def test_folder_without_cla_by_name(tmp_path):
     with pytest.raises(DatabaseError, match=r"no \.cla file"):
         read_database(models(tmp_path, 1), layout="princeton")
+
+
+def test_padded_numbers_where_only_one_mesh_has_them(tmp_path):
+    cla(tmp_path / "c.cla", "PSB 1\n1 3\ncup 0 3\n1\n2\n3\n")
+    for name in ("D00001", "D2", "E2", "T3_x"):
+        (tmp_path / f"{name}.off").write_text("OFF")
+    database = read_database(tmp_path)
+    assert [shape.id for shape in database.shapes] == ["D00001"]
+    assert [failure.path for failure in database.failures] == ["m2.off", "m3.off"]
