@@ -325,7 +325,10 @@ def _print_summary(report: Report, destination: Path) -> None:
     ]
     for name, (_, quality) in report.projections.items():
         if quality.nh_s is not None and quality.null_mean is not None:
-            rows.append((f"NH_s {name}", f"{quality.nh_s:.3f}  (random labels: {quality.null_mean:.3f})"))
+            beside = f"random labels: {quality.null_mean:.3f}"
+            if quality.range.highest is not None and quality.range.highest < 1:
+                beside += f", at most {quality.range.highest:.3f}"
+            rows.append((f"NH_s {name}", f"{quality.nh_s:.3f}  ({beside})"))
     total, total_cpu = sum(report.seconds.values()), sum(report.cpu_seconds.values())
     stages = "  ".join(f"{name} {seconds:.1f}" for name, seconds in report.seconds.items())
     rows.append(("seconds", f"{total:.1f}  ({stages})"))

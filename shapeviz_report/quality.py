@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
 from scipy.sparse import csr_matrix
 
-from shapeviz_report.types import FloatArray, Quality
+from shapeviz_report.types import FloatArray, HitRange, Quality
 
 NEIGHBOURS = 10
 """k of the paper (3.5)."""
@@ -53,7 +54,7 @@ def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, 
     labelled = codes >= 0
     nh = np.full(count, np.nan)
     if k < 1 or not classes:
-        return Quality(max(k, 0), nh, {}, None, None, None)
+        return Quality(max(k, 0), nh, {}, None, None, None, hit_range(labels, k))
 
     weights = neighbour_weights(xy, k)
     hits = neighbourhood_hits(weights, codes)
@@ -75,7 +76,62 @@ def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, 
         nh_s=float(nh[labelled].mean()),
         null_mean=float(null.mean()),
         null_std=float(null.std()),
+        range=hit_range(labels, k),
     )
+
+
+def hit_range(labels: Sequence[str | None], k: int = NEIGHBOURS) -> HitRange:
+    """Between what chance gives and what no map exceeds NH of these shapes lies.
+
+    Parameters
+    ----------
+    labels : m labels
+        Of the shapes of a map; None for a shape without one.
+    k : int
+        Number of neighbours; less where there are fewer other shapes.
+    """
+    named = Counter(label for label in labels if label is not None)
+    others = len(labels) - 1
+    if not named or min(k, others) < 1:
+        return HitRange({}, {}, None, None)
+    sizes = dict(sorted(named.items()))
+    codes = np.repeat(np.arange(len(sizes)), list(sizes.values()))
+    highest = highest_hits(codes, min(k, others))
+    return HitRange(
+        highest_of_class={label: float(highest[codes == i][0]) for i, label in enumerate(sizes)},
+        chance_of_class={label: (size - 1) / others for label, size in sizes.items()},
+        highest=float(highest.mean()),
+        chance=float(np.mean([(sizes[label] - 1) / others for label in named.elements()])),
+    )
+
+
+def highest_hits(codes: np.ndarray, k: int) -> FloatArray:
+    """The highest NH that each shape can have: min(k, n - 1) / k in a class of n.
+
+    Parameters
+    ----------
+    codes : (m,) int array
+        The class of each shape; -1 without one, which gives 0.
+    k : int
+        From 1 to m - 1.
+
+    Returns
+    -------
+    (m,) float64 array
+    """
+    sizes = np.bincount(codes[codes >= 0], minlength=1)
+    return np.where(codes >= 0, np.minimum(sizes[codes] - 1, k) / k, 0.0)
+
+
+def share_of_range(value: float | None, chance: float | None, highest: float | None) -> float | None:
+    """How far a hit lies on the way from chance (0) to the maximum (1); negative below chance.
+
+    None where the two are equal, which is so where every map reaches the same: there is but one class, or a class of
+    one shape, or all other shapes are neighbours.
+    """
+    if value is None or chance is None or highest is None or highest - chance < 1e-9:
+        return None
+    return (value - chance) / (highest - chance)
 
 
 def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:

@@ -26,8 +26,13 @@ class Trace:
     considered: int
 
 
-def climb(feature_count: int, s: int, scores_of: Callable[[Sequence[int]], Sequence[float]]) -> Trace:
-    """Change up to ``s`` features at a time, always to the best neighbour, until none is better.
+def climb(
+    feature_count: int,
+    s: int,
+    scores_of: Callable[[Sequence[int]], Sequence[float]],
+    highest: float = float("inf"),
+) -> Trace:
+    """Change up to ``s`` features at a time, always to the best neighbour, until none is better, or none can be.
 
     Starts from the empty set, which has no map and loses against any. Among equals the change of fewer, then of
     earlier features wins.
@@ -39,6 +44,8 @@ def climb(feature_count: int, s: int, scores_of: Callable[[Sequence[int]], Seque
         From 1 to ``feature_count``.
     scores_of : callable
         The scores of some subsets; higher is better. The passes ask for all neighbours at once.
+    highest : float
+        What no score exceeds but by rounding: who reaches it looks no further.
     """
     changes = [
         sum(1 << i for i in chosen)
@@ -59,3 +66,5 @@ def climb(feature_count: int, s: int, scores_of: Callable[[Sequence[int]], Seque
             return Trace(tuple(path), frozenset(evaluated), considered)
         current, current_score = neighbours[best], float(scores[best])
         path.append((current, current_score))
+        if current_score > highest - 1e-9:
+            return Trace(tuple(path), frozenset(evaluated), considered)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, vstack
 
 from shapeviz_report.projections import turn_towards
-from shapeviz_report.quality import NEIGHBOURS, neighbour_weights, neighbourhood_hits
+from shapeviz_report.quality import NEIGHBOURS, highest_hits, neighbour_weights, neighbourhood_hits
 from shapeviz_report.search.certainty import (
     best_by_chance,
     compare_spreads,
@@ -113,6 +113,7 @@ class _Search:
         self.labelled = self.codes >= 0
         self.k = min(k, len(labels) - 1)
         self.scored = self.k >= 1 and bool(self.classes)
+        self.highest = highest_hits(self.codes, max(self.k, 1))
         self.maps: dict[int, np.ndarray] = {}
         self.weights: dict[int, csr_matrix] = {}
         self.hits: dict[tuple[int, int], np.ndarray] = {}
@@ -195,7 +196,7 @@ class _Search:
             self.need(seed, subsets)
             return [self.score(seed, subset) for subset in subsets]
 
-        return climb(len(self.space.features), s, scores_of)
+        return climb(len(self.space.features), s, scores_of, float(self.highest[self.labelled].mean()))
 
     def fill_table(
         self, rounds: int, exhaustive: bool
@@ -261,7 +262,8 @@ class _Search:
             else:
                 chosen, seen = self.climb_seeing(fold).path[-1]
             hits = [float(self.hits[self.seed, s][fold].mean()) for s in (chosen, everything)]
-            folds.append(HeldOutFold(self.space.names(chosen), len(fold), seen, hits[0], hits[1]))
+            nh_max = float(self.highest[fold].mean())
+            folds.append(HeldOutFold(self.space.names(chosen), len(fold), seen, hits[0], hits[1], nh_max))
         return tuple(folds)
 
     def climb_seeing(self, held_out: np.ndarray) -> Trace:

@@ -15,12 +15,21 @@ from pathlib import Path
 
 import numpy as np
 
+from shapeviz_report.quality import hit_range, share_of_range
 from shapeviz_report.site.retrieval_data import (
     retrieval_class_rows,
     retrieval_rows,
     retrieval_summary,
 )
-from shapeviz_report.types import BinSearch, BinSelection, Clusters, FeatureSearch, HeldOutBins, Report
+from shapeviz_report.types import (
+    BinSearch,
+    BinSelection,
+    Clusters,
+    FeatureSearch,
+    HeldOutBins,
+    HitRange,
+    Report,
+)
 
 #: Tells a folder that this package wrote from one that it must not replace.
 GENERATOR = "shapeviz-report"
@@ -107,13 +116,14 @@ def summary(report: Report, version: str) -> dict[str, object]:
                 "k": quality.k,
                 "nh_s": _finite(quality.nh_s),
                 "nh_c": {name: _finite(value) for name, value in quality.nh_c.items()},
+                **_range(quality.range, quality.nh_s, quality.null_mean),
                 "null": {"mean": _finite(quality.null_mean), "std": _finite(quality.null_std)},
             }
             for method, (projection, quality) in report.projections.items()
         },
         "clusters": None if report.clusters is None else _clusters(report, report.clusters),
-        "search": None if report.search is None else _search(report.search),
-        "bins": None if report.bins is None else _bins(report.bins),
+        "search": None if report.search is None else _search(report, report.search),
+        "bins": None if report.bins is None else _bins(report, report.bins),
         "retrieval": None if report.retrieval is None else retrieval_summary(report.retrieval),
         "seconds": dict(report.seconds),
         "cpu_seconds": dict(report.cpu_seconds),
@@ -139,8 +149,19 @@ def _clusters(report: Report, found: Clusters) -> dict[str, object]:
     }
 
 
-def _search(search: FeatureSearch) -> dict[str, object]:
+def _range(limits: HitRange, nh_s: float | None, chance: float | None) -> dict[str, object]:
+    """What no map of the shapes exceeds, and how far NH_s is on the way from chance to it."""
+    return {
+        "nh_max": limits.highest,
+        "nh_share": share_of_range(_finite(nh_s), chance, limits.highest),
+        "nh_c_max": dict(limits.highest_of_class),
+        "nh_c_chance": dict(limits.chance_of_class),
+    }
+
+
+def _search(report: Report, search: FeatureSearch) -> dict[str, object]:
     subsets = search.subsets
+    limits = hit_range([report.labels[row] for row in search.rows], search.k)
     evaluated = {
         "runs": len(subsets.members),
         "seconds": float(subsets.cpu_seconds.sum()),
@@ -149,6 +170,7 @@ def _search(search: FeatureSearch) -> dict[str, object]:
                 "features": _members(search, row),
                 "nh_s": _finite(subsets.nh_s[row]),
                 "nh_c": {name: _finite(value) for name, value in zip(search.classes, subsets.nh_c[row])},
+                **_range(limits, subsets.nh_s[row], limits.chance),
                 "cpu_seconds": float(subsets.cpu_seconds[row]),
             }
             for row in _by_score(search)
@@ -161,7 +183,12 @@ def _search(search: FeatureSearch) -> dict[str, object]:
             "considered": run.considered,
             "seconds": run.cpu_seconds,
             "path": [
-                {"features": list(step.features), "changed": list(step.changed), "nh_s": step.nh_s}
+                {
+                    "features": list(step.features),
+                    "changed": list(step.changed),
+                    "nh_s": step.nh_s,
+                    "nh_max": limits.highest,
+                }
                 for step in run.path
             ],
         }
@@ -185,6 +212,7 @@ def _search(search: FeatureSearch) -> dict[str, object]:
                 "s": row.s,
                 "features": list(row.features),
                 "nh_s": row.nh_s,
+                "nh_max": limits.highest,
                 "runs": row.runs,
                 "seconds": row.cpu_seconds,
             }
@@ -194,6 +222,7 @@ def _search(search: FeatureSearch) -> dict[str, object]:
             {
                 "features": list(row.features),
                 "nh_s": row.nh_s.tolist(),
+                "nh_max": limits.highest,
                 "mean": row.mean,
                 "std": row.std,
                 "behind": row.behind,
@@ -209,6 +238,7 @@ def _search(search: FeatureSearch) -> dict[str, object]:
                 "nh_s_seen": fold.nh_s_seen,
                 "nh_s": fold.nh_s,
                 "nh_s_all": fold.nh_s_all,
+                "nh_max": fold.nh_max,
             }
             for fold in search.held_out
         ],
@@ -293,12 +323,15 @@ def _by_score(search: FeatureSearch) -> list[int]:
     return np.argsort(-search.subsets.nh_s, kind="stable").tolist()
 
 
-def _bins(found: BinSearch) -> dict[str, object]:
+def _bins(report: Report, found: BinSearch) -> dict[str, object]:
     automatic = found.automatic
+    limits = hit_range([report.labels[row] for row in automatic.rows], automatic.k)
     return {
         "automatic": {
             "bins": list(automatic.bins),
             "nh_s": automatic.nh_s,
+            "nh_max": limits.highest,
+            "nh_share": share_of_range(_finite(automatic.nh_s), limits.chance, limits.highest),
             "seconds": automatic.cpu_seconds,
             "seed": automatic.seed,
             "k": automatic.k,
@@ -311,6 +344,7 @@ def _bins(found: BinSearch) -> dict[str, object]:
                     "removed": list(step.removed),
                     "nh_space": step.nh_space,
                     "nh_s": step.nh_s,
+                    "nh_max": limits.highest,
                 }
                 for step in automatic.path
             ],
@@ -319,7 +353,12 @@ def _bins(found: BinSearch) -> dict[str, object]:
         },
         "minimal": {
             separated.label: [
-                {"bins": list(chosen.bins), "nh_c": chosen.nh_c, "nh_c_space": chosen.nh_c_space}
+                {
+                    "bins": list(chosen.bins),
+                    "nh_c": chosen.nh_c,
+                    "nh_c_space": chosen.nh_c_space,
+                    "nh_max": limits.highest_of_class[separated.label],
+                }
                 for chosen in separated.sets
             ]
             for separated in found.minimal
@@ -329,7 +368,7 @@ def _bins(found: BinSearch) -> dict[str, object]:
 
 def _folds(folds: Sequence[HeldOutBins]) -> dict[str, object]:
     """The folds, and their means with each shape counted once."""
-    names = ("nh_s_seen", "nh_space", "nh_s", "nh_s_all", "knn_accuracy", "knn_accuracy_all")
+    names = ("nh_s_seen", "nh_space", "nh_s", "nh_s_all", "nh_max", "knn_accuracy", "knn_accuracy_all")
     shapes = [fold.shapes for fold in folds]
     return {
         **{

@@ -18,7 +18,7 @@ from shapeviz_report.types.bins import (
 from shapeviz_report.types.clusters import Cluster, Clusters
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
-from shapeviz_report.types.maps import Projection, Quality
+from shapeviz_report.types.maps import HitRange, Projection, Quality
 from shapeviz_report.types.mesh import Mesh, ShapeFacts
 from shapeviz_report.types.publication import Accent, Licence, Logo, Publication
 from shapeviz_report.types.report import Report
@@ -53,6 +53,7 @@ __all__ = [
     "GreedyStep",
     "HeldOutBins",
     "HeldOutFold",
+    "HitRange",
     "IntArray",
     "Licence",
     "Logo",

@@ -113,6 +113,8 @@ class HeldOutBins:
         Mean NH of the held-out shapes among all, in the space of the bins and on their map.
     nh_s_all : float
         The same on the map of all features.
+    nh_max : float
+        What no map exceeds for these shapes.
     knn_accuracy, knn_accuracy_all : float
         Share of the held-out shapes that their k nearest others recognise, by the bins and by all features.
     """
@@ -123,6 +125,7 @@ class HeldOutBins:
     nh_space: float
     nh_s: float
     nh_s_all: float
+    nh_max: float
     knn_accuracy: float
     knn_accuracy_all: float
 

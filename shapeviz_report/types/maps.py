@@ -33,6 +33,27 @@ class Projection:
 
 
 @dataclass(frozen=True)
+class HitRange:
+    """What neighbourhood hit can be for classes of these sizes: from what chance gives to what no map exceeds.
+
+    Of a shape of a class of n at most min(k, n - 1) of its k neighbours are of its class, so that NH ends below 1 where
+    classes have k shapes or fewer. On a map of m shapes chance gives it (n - 1) / (m - 1) on average.
+
+    Attributes
+    ----------
+    highest_of_class, chance_of_class : mapping of str to float
+        Of NH_c, and of NH of every shape of the class; classes by name.
+    highest, chance : float or None
+        Of NH_s: the means over the labelled shapes. None without labels or neighbours.
+    """
+
+    highest_of_class: Mapping[str, float]
+    chance_of_class: Mapping[str, float]
+    highest: float | None
+    chance: float | None
+
+
+@dataclass(frozen=True)
 class Quality:
     """Neighbourhood hit of a projection (paper, Eq. 7 and 8), in [0, 1], higher is better separated.
 
@@ -48,6 +69,8 @@ class Quality:
         Of the whole database; None without labels.
     null_mean, null_std : float or None
         What random labels with the same class sizes reach on the same map.
+    range : HitRange
+        What these can be for classes of these sizes.
     """
 
     k: int
@@ -56,3 +79,4 @@ class Quality:
     nh_s: float | None
     null_mean: float | None
     null_std: float | None
+    range: HitRange

@@ -152,6 +152,8 @@ class HeldOutFold:
         NH_s of the held-out shapes on the chosen map.
     nh_s_all : float
         NH_s of the same shapes on the map of all features.
+    nh_max : float
+        What NH_s of these shapes cannot exceed on any map.
     """
 
     features: tuple[str, ...]
@@ -159,6 +161,7 @@ class HeldOutFold:
     nh_s_seen: float
     nh_s: float
     nh_s_all: float
+    nh_max: float
 
 
 @dataclass(frozen=True)

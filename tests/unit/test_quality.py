@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from shapeviz_report.quality import neighbour_weights, score
+from shapeviz_report.quality import hit_range, neighbour_weights, score, share_of_range
+from shapeviz_report.types import HitRange
 
 
 def test_by_hand() -> None:
@@ -85,3 +86,45 @@ def test_weights_add_up() -> None:
     weights = neighbour_weights(points, 7)
     assert np.asarray(weights.sum(axis=1)).ravel() == pytest.approx(1)
     assert (weights.diagonal() == 0).all()
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.lists(st.sampled_from(["a", "b", "c", None]), min_size=2, max_size=30), st.integers(1, 12))
+def test_no_map_exceeds_the_maximum_and_one_reaches_it(labels, k) -> None:
+    # All of a class in one place, classes far apart: nothing keeps classes together better.
+    groups = sorted({label for label in labels if label is not None})
+    xy = np.array([[100.0 * groups.index(x), 0] if x else [1e6, 1e4 * i] for i, x in enumerate(labels)])
+    best = score(xy, labels, k=k)
+    random = score(np.random.default_rng(0).random((len(labels), 2)), labels, k=k)
+    if not groups:
+        assert best.range == HitRange({}, {}, None, None)
+        return
+    used = min(k, len(labels) - 1)
+    for label in groups:
+        size = labels.count(label)
+        assert best.range.highest_of_class[label] == pytest.approx(min(used, size - 1) / used)
+        assert best.nh_c[label] == pytest.approx(best.range.highest_of_class[label])
+        assert best.range.chance_of_class[label] == pytest.approx((size - 1) / (len(labels) - 1))
+        assert random.nh_c[label] <= random.range.highest_of_class[label] + 1e-9
+    assert best.nh_s == pytest.approx(best.range.highest)
+
+
+def test_classes_of_eight_reach_seven_tenths_and_classes_of_one_nothing() -> None:
+    eight = hit_range([f"class {i // 8}" for i in range(112)])
+    assert eight.highest == pytest.approx(0.7)
+    assert set(eight.highest_of_class.values()) == {0.7}
+    assert eight.chance == pytest.approx(7 / 111)
+    assert hit_range(["a", "b", "c"]).highest == 0
+    assert hit_range(["a"] * 11 + ["b"] * 30).highest == 1
+    assert hit_range(["a"] * 10 + ["b"] * 30).highest_of_class == {"a": 0.9, "b": 1.0}
+
+
+def test_the_share_of_what_lies_between_chance_and_maximum() -> None:
+    assert share_of_range(0.7, 0.1, 0.7) == 1
+    assert share_of_range(0.1, 0.1, 0.7) == 0
+    assert share_of_range(0.4, 0.1, 0.7) == pytest.approx(0.5)
+    # One class, classes of one shape, or all others are neighbours: every map reaches the same.
+    for labels, k in ((["a"] * 5, 3), (["a", "b", "c"], 1), (["a", "a", "b", "b"], 10)):
+        found = hit_range(labels, k)
+        assert share_of_range(found.highest, found.chance, found.highest) is None
+    assert share_of_range(None, None, None) is None

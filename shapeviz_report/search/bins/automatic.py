@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from shapeviz_report.projections import turn_towards
-from shapeviz_report.quality import NEIGHBOURS
+from shapeviz_report.quality import NEIGHBOURS, highest_hits
 from shapeviz_report.search.bins.space import (
     BinSpace,
     Codes,
@@ -110,14 +110,15 @@ def select_bins(
 def grow(space: BinSpace, codes: Codes, k: int, limit: int) -> Path:
     """Add and remove bins as long as NH_s rises in their space, or stays with fewer of them.
 
-    Among bins that raise it equally the first one joins. At least one bin is chosen.
+    Among bins that raise it equally the first one joins. At least one bin is chosen; none joins once NH_s is what
+    no space exceeds.
     """
     rows = np.flatnonzero(codes >= 0)
     squared = np.zeros((len(codes),) * 2)
     bins: list[int] = []
     path: Path = []
-    best = 0.0
-    while len(bins) < limit:
+    best, highest = 0.0, float(highest_hits(codes, k)[rows].mean())
+    while len(bins) < limit and not (bins and best > highest - _GAIN):
         scores = hits_of_additions(space.columns, squared, rows, codes, k).mean(axis=1)
         scores[bins] = -1
         joining = int(scores.argmax())
@@ -140,7 +141,10 @@ def grow(space: BinSpace, codes: Codes, k: int, limit: int) -> Path:
 
 
 def climb(space: BinSpace, codes: Codes, k: int, limit: int, seed: int, start: list[int]) -> Path:
-    """Change one bin at a time as long as NH_s of the map rises, or stays with fewer bins; without ``start``."""
+    """Change one bin at a time as long as NH_s of the map rises, or stays with fewer bins; without ``start``.
+
+    Once NH_s is what no map exceeds, bins are only tried to leave.
+    """
     rows = np.flatnonzero(codes >= 0)
     bins, squared = start, space.squared(start)
 
@@ -148,12 +152,14 @@ def climb(space: BinSpace, codes: Codes, k: int, limit: int, seed: int, start: l
         return float(hits_on(lay_out(distances, seed), codes, k)[rows].mean())
 
     best, made = score_map(squared), 1
+    highest = float(highest_hits(codes, k)[rows].mean())
     tried = {frozenset(bins)}
     path: Path = []
     improved = True
     while improved and made < CLIMB_MAPS:
         improved = False
-        for score, leaves, b in _changes(space, squared, bins, rows, codes, k, limit):
+        most = limit if best < highest - _GAIN else 0
+        for score, leaves, b in _changes(space, squared, bins, rows, codes, k, most):
             changed = [other for other in bins if other != b] if leaves else [*bins, b]
             if made == CLIMB_MAPS or frozenset(changed) in tried:
                 continue

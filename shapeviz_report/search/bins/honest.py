@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.quality import NEIGHBOURS, TIE
+from shapeviz_report.quality import NEIGHBOURS, TIE, highest_hits
 from shapeviz_report.search.bins.automatic import LIMIT, select_bins
 from shapeviz_report.search.bins.space import BinSpace, Codes, encode, hits_of, hits_on, lay_out
 from shapeviz_report.types import FloatArray, HeldOutBins
@@ -54,6 +54,7 @@ def hold_out(
         nh_space=float(hits_of(squared, fold, codes, k).mean()),
         nh_s=float(hits_on(lay_out(squared, seed), codes, k)[fold].mean()),
         nh_s_all=float(hits_on(lay_out(everything, seed), codes, k)[fold].mean()),
+        nh_max=float(highest_hits(codes, k)[fold].mean()),
         knn_accuracy=recognise(squared, codes, fold, k),
         knn_accuracy_all=recognise(everything, codes, fold, k),
     )

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from shapeviz_report.quality import NEIGHBOURS
+from shapeviz_report.quality import NEIGHBOURS, highest_hits
 from shapeviz_report.search.bins.space import BinSpace, encode, hits_of_additions, hits_on, lay_out
 from shapeviz_report.types import MinimalBins, MinimalSet
 
@@ -33,7 +33,8 @@ def find_minimal_bins(
 
     All single bins are looked at, and of larger sets those that add a bin to one of the ``BEAM`` best of the size
     below. NH_c in the space of the bins ranks them; of the ``FINALISTS`` best, that with the highest NH_c on its
-    t-SNE map is taken. A size that reaches 1 on both ends the search.
+    t-SNE map is taken. A size that reaches on both what no map exceeds (:func:`shapeviz_report.quality.highest_hits`)
+    ends the search.
 
     Parameters
     ----------
@@ -58,6 +59,7 @@ def find_minimal_bins(
     if label not in classes or k < 1:
         raise ValueError(f"there is nothing to separate {label!r} from")
     rows = np.flatnonzero(codes == classes.index(label))
+    highest = highest_hits(codes, k)[rows[0]]
     back = np.argsort(space.rows)
     beam: list[tuple[int, ...]] = [()]
     sets: list[MinimalSet] = []
@@ -80,6 +82,6 @@ def find_minimal_bins(
                 xy=maps[best][back].astype(np.float32),
             )
         )
-        if min(sets[-1].nh_c, sets[-1].nh_c_space) > 1 - 1e-9:
+        if min(sets[-1].nh_c, sets[-1].nh_c_space) > highest - 1e-9:
             break
     return MinimalBins(label, space.rows[back], tuple(sets))

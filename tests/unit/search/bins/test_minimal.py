@@ -70,3 +70,15 @@ def test_a_class_of_one(planted) -> None:
     labels = ["alone", *planted.labels[1:]]
     found = find_minimal_bins(planted.space, labels, "alone", largest=1)
     assert found.sets[0].nh_c_space == found.sets[0].nh_c == 0
+
+
+def test_the_search_ends_at_what_no_map_exceeds() -> None:
+    """Eight of a class have at most seven of ten neighbours in it: one perfect bin is enough."""
+    random = np.random.default_rng(0)
+    values = random.random((48, 40)) / 10
+    values[:8, 7] += 0.6
+    labels = list(np.repeat([f"class {i}" for i in range(6)], 8))
+    space = make_bin_space(make_table(values), PRESETS["default"], labels)
+    found = find_minimal_bins(space, labels, "class 0")
+    assert len(found.sets) == 1
+    assert found.sets[0].nh_c_space == found.sets[0].nh_c == pytest.approx(0.7)
