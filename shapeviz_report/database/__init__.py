@@ -12,7 +12,7 @@ from shapeviz_report.database.flat import FlatFolder
 from shapeviz_report.database.formats import MESH_FORMATS
 from shapeviz_report.database.modelnet import ModelNet
 from shapeviz_report.database.princeton import Princeton
-from shapeviz_report.database.table import Table
+from shapeviz_report.database.table import Table, passed_over
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.types import Database
 
@@ -52,6 +52,8 @@ def read_database(
     if not os.path.exists(path):
         raise DatabaseError(f"There is no shape database at {path}: no such file or folder.")
     database = _choose_layout(path, layout).read(path)
+    if database.layout != Table.name and path.is_dir():
+        database = replace(database, warnings=(*database.warnings, *passed_over(path)))
     if not database.shapes and not database.failures:
         raise DatabaseError(_nothing_found(path))
     if labeling is not None:

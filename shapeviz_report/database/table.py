@@ -6,24 +6,44 @@ import csv
 import io
 import json
 import os
+import re
 import unicodedata
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import zip_longest
 from pathlib import Path
 
 from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
-from shapeviz_report.database.formats import is_read, suffix_of, why_not_read
+from shapeviz_report.database.formats import MESH_FORMATS, is_read, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.types import Database, Failure, ShapeEntry
 
 FILE_COLUMN = "file"
 LABEL_COLUMN = "label"
-DELIMITERS = (",", ";", "\t")
+FILE_COLUMNS = (
+    FILE_COLUMN,
+    "filename",
+    "filepath",
+    "path",
+    "mesh",
+    "meshfile",
+    "model",
+    "modelfile",
+    "fullid",
+    "id",
+)
+"""Names of the column with the files, from the plainest on; case, spaces, ``_`` and ``-`` do not matter."""
+NO_VALUES = frozenset({"nan", "null", "none", "n/a", "#n/a", "<na>"})
+"""Cells (in lower case) with which programs write that there is no value."""
+DELIMITERS = (",", ";", "\t", "|")
 TABLE_SUFFIXES = (".csv", ".tsv", ".json")
 MOST_CLASSES = 100
 FEWEST_SHAPES_A_CLASS = 3
+
+_EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
+_csv_reader = partial(csv.reader, skipinitialspace=True)
 
 
 @dataclass(frozen=True)
@@ -128,26 +148,61 @@ def _the_table(path: Path) -> Path:
 
 
 def _tables_in(folder: Path) -> list[Path]:
-    """The tables that lie in a folder: other CSV and JSON files have no column for the file."""
+    """The tables that lie in a folder, without those that cannot be read or list no mesh that is there."""
+    return [table for table in _candidates(folder) if _why_no_table(table) is None]
+
+
+def passed_over(folder: Path) -> list[str]:
+    """What to tell of the CSV and JSON files in a folder that no layout has read; companions of meshes apart."""
     try:
-        candidates = sorted(
+        stems = {os.path.splitext(name)[0] for name in os.listdir(folder) if is_read(name)}
+    except OSError:
+        return []
+    return [
+        f"{table.name} lies in the folder and is not used. "
+        + (_why_no_table(table) or "Name it instead of the folder to read it.")
+        for table in _candidates(folder)
+        if table.stem not in stems
+    ]
+
+
+def _candidates(folder: Path) -> list[Path]:
+    try:
+        names = sorted(
             entry.name
             for entry in os.scandir(folder)
             if suffix_of(entry.name) in TABLE_SUFFIXES and not entry.name.startswith(".") and entry.is_file()
         )
     except OSError:
         return []
-    return [folder / name for name in candidates if _has_file_column(folder / name)]
+    return [folder / name for name in names]
 
 
-def _has_file_column(table: Path) -> bool:
+def _why_no_table(table: Path) -> str | None:
+    """Why a file is not the table of its folder; None if it is.
+
+    A column ``file`` makes it one. Other names say so only if meshes stand in the column: many tables of other things
+    have a ``model`` or an ``id``.
+    """
     try:
         text, _ = _read_text(table)
-        if suffix_of(table.name) == ".json":
-            return bool(_json_rows(text, table))
-        return bool(_csv_columns(text, table))
-    except DatabaseError:
-        return False
+        is_json = suffix_of(table.name) == ".json"
+        rows = _json_rows(text, table) if is_json else None
+        if rows is None:
+            delimiter, _, above = _csv_columns(text, table)
+            header = next(_csv_reader(text.splitlines()[above:], delimiter=delimiter), [])
+            plain = FILE_COLUMN in [clean(cell).lower() for cell in header]
+        else:
+            plain = any(key.lower() == FILE_COLUMN for entry in json.loads(text) for key in entry)
+        if plain or any(
+            os.path.isfile(path) and is_read(path.name)
+            for row in rows or _csv_rows(text, table)
+            if row.file and (path := _mesh_path(table.parent, row.file))
+        ):
+            return None
+    except DatabaseError as error:
+        return str(error)
+    return "No mesh that its rows name is there."
 
 
 def _read_text(table: Path) -> tuple[str, bool]:
@@ -165,16 +220,20 @@ def _read_rows(table: Path) -> tuple[list[Row], list[str]]:
     return rows, warnings
 
 
-def _csv_columns(text: str, table: Path) -> tuple[str, list[str]]:
-    """The delimiter, which is the one that makes a column ``file`` appear, and the names of the columns."""
-    for delimiter in DELIMITERS:
+def _csv_columns(text: str, table: Path) -> tuple[str, list[str], int]:
+    """The delimiter, which is the one that makes a column of files appear, the columns, and the line below them."""
+    first, _, rest = text.partition("\n")
+    told = _EXCEL_DELIMITER.fullmatch(first.strip())
+    for delimiter in (told[1],) if told else DELIMITERS:
         try:
-            header = next(csv.reader(io.StringIO(text, newline=""), delimiter=delimiter), [])
+            header = next(
+                _csv_reader(io.StringIO(rest if told else text, newline=""), delimiter=delimiter), []
+            )
         except csv.Error as error:
             raise DatabaseError(f"The table {table} is not CSV: {error}.") from error
-        columns = [_column(cell) for cell in header]
+        columns = _columns(header)
         if FILE_COLUMN in columns:
-            return delimiter, columns
+            return delimiter, columns, int(told is not None)
     raise DatabaseError(
         f"The table {table} has no column '{FILE_COLUMN}'. Its first line must name the columns, "
         f"for instance: file,label."
@@ -182,11 +241,12 @@ def _csv_columns(text: str, table: Path) -> tuple[str, list[str]]:
 
 
 def _csv_rows(text: str, table: Path) -> list[Row]:
-    delimiter, columns = _csv_columns(text, table)
+    delimiter, columns, above = _csv_columns(text, table)
     if twice := sorted({column for column in columns if column and columns.count(column) > 1}):
         raise DatabaseError(f"The table {table} has two columns named '{twice[0]}'; rename one.")
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=delimiter)
-    next(reader)
+    reader = _csv_reader(io.StringIO(text, newline=""), delimiter=delimiter)
+    for _ in range(above + 1):
+        next(reader)
     rows = []
     try:
         for cells in reader:
@@ -204,15 +264,17 @@ def _csv_rows(text: str, table: Path) -> list[Row]:
 
 def _json_rows(text: str, table: Path) -> list[Row]:
     try:
-        entries = json.loads(text)
+        entries = json.loads(text, parse_constant=lambda _: None)
     except (ValueError, RecursionError) as error:
         raise DatabaseError(f"The table {table} is not JSON: {error}.") from error
     if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
         raise DatabaseError(
             f'The table {table} is not a list of objects: [{{"file": "a.off", "label": "cup"}}, ...].'
         )
+    keys = list(dict.fromkeys(key for entry in entries for key in entry))
+    names = dict(zip(keys, _columns(keys)))
     rows = [
-        _row(f"entry {number}", {_column(key): _as_text(value) for key, value in entry.items()})
+        _row(f"entry {number}", {names[key]: _as_text(value) for key, value in entry.items()})
         for number, entry in enumerate(entries, start=1)
     ]
     if not any(row.file for row in rows):
@@ -220,10 +282,19 @@ def _json_rows(text: str, table: Path) -> list[Row]:
     return rows
 
 
-def _column(name: str) -> str:
-    """A column's name as it is kept; the two that mean something are known in any case."""
-    name = clean(name)
-    return name.lower() if name.lower() in (FILE_COLUMN, LABEL_COLUMN) else name
+def _columns(names: Sequence[str]) -> list[str]:
+    """The columns as they are kept: that of the files is ``file``, that of the labels ``label``, in any case."""
+    columns = [clean(name) for name in names]
+    plain = [re.sub("[ _-]", "", column).lower() for column in columns]
+    files = next((plain.index(name) for name in FILE_COLUMNS if name in plain), None)
+    return [
+        FILE_COLUMN
+        if place == files or column.lower() == FILE_COLUMN
+        else LABEL_COLUMN
+        if column.lower() == LABEL_COLUMN
+        else column
+        for place, column in enumerate(columns)
+    ]
 
 
 def _as_text(value: object) -> str:
@@ -234,7 +305,11 @@ def _as_text(value: object) -> str:
 
 def _row(place: str, cells: Mapping[str, str]) -> Row:
     """A row without the columns that have no name, as spreadsheets leave them behind."""
-    kept = {column: clean(cell) for column, cell in cells.items() if column and column != FILE_COLUMN}
+    kept = {
+        column: "" if clean(cell).lower() in NO_VALUES else clean(cell)
+        for column, cell in cells.items()
+        if column and column != FILE_COLUMN
+    }
     return Row(place, cells.get(FILE_COLUMN, "").strip(), kept)
 
 
@@ -275,12 +350,16 @@ def _mesh_path(root: Path, file: str) -> Path:
     """Where a listed file is.
 
     A path that does not exist as written is also tried with Windows' separators turned, and in the other
-    Unicode normal forms, which tables and file systems exchange behind their users' backs.
+    Unicode normal forms, which tables and file systems exchange behind their users' backs; each also with the
+    suffixes of meshes.
     """
     spellings = (file, file.replace("\\", "/"))
     forms = (unicodedata.normalize(form, spelling) for spelling in spellings for form in ("NFC", "NFD"))
     for candidate in (*spellings, *forms):
         path = os.path.normpath(os.path.join(root, candidate))
+        for suffix in ("", *MESH_FORMATS):
+            if os.path.isfile(path + suffix):
+                return Path(path + suffix)
         if os.path.lexists(path):
             return Path(path)
     return Path(os.path.normpath(os.path.join(root, file)))

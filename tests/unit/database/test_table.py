@@ -128,7 +128,7 @@ def test_all_rows_fail(root):
 @pytest.mark.parametrize(
     ("name", "text", "reason"),
     [
-        ("t.csv", "path,label\na.off,cup\n", "no column 'file'"),
+        ("t.csv", "author,label\na.off,cup\n", "no column 'file'"),
         ("t.csv", "", "no column 'file'"),
         ("t.csv", "file,label\n", "lists no files"),
         ("t.csv", "file,label\na.off,cup,too,many\n", "line 2: there are more cells than the 2 columns"),
@@ -138,7 +138,7 @@ def test_all_rows_fail(root):
         ("t.json", "[" * 100_000, "not JSON"),
         ("t.json", '{"file": "a.off"}', "not a list of objects"),
         ("t.json", '["a.off"]', "not a list of objects"),
-        ("t.json", '[{"path": "a.off"}]', "no key 'file'"),
+        ("t.json", '[{"author": "a.off"}]', "no key 'file'"),
     ],
 )
 def test_table_that_cannot_be_read(root, name, text, reason):
@@ -228,3 +228,50 @@ def test_a_name_longer_than_any_file_can_have_is_not_there(root) -> None:
     assert "it is not there" in found.failures[0].reason
     with pytest.raises(DatabaseError, match="no such file or folder"):
         read_database(root / ("x" * 5000))
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("t.csv", "sep=;\nfile;label\nmeshes/a.off;cup\n"),
+        ("t.csv", "\ufeffsep=|\r\nfile|label\r\nmeshes/a.off|cup\r\n"),
+        ("t.csv", "File_Name|label\nmeshes/a|cup\n"),
+        ("t.csv", 'PATH, label\n"meshes\\a.off", "cup"\n'),
+        ("t.json", '[{"fullId": "meshes/a", "label": "cup", "year": NaN, "size": Infinity}]'),
+        ("t.csv", "id,label,year\nmeshes/a.off,cup,NaN\n"),
+    ],
+)
+def test_usual_tables_of_other_programs(tmp_path, name, text):
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "meshes" / "a.off").write_text("OFF")
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    database = read_database(tmp_path)
+    assert [(shape.id, shape.labels, shape.metadata) for shape in database.shapes] == [
+        ("meshes/a", {"label": "cup"}, {})
+    ]
+
+
+@pytest.mark.parametrize("label", ["NaN", "null"])
+def test_no_value_is_no_label(tmp_path, label):
+    (tmp_path / "a.off").write_text("OFF")
+    (tmp_path / "t.json").write_text(f'[{{"file": "a.off", "label": {label}}}]')
+    assert read_database(tmp_path).shapes[0].labels == {}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reason"),
+    [
+        ("t.json", '[{"file": "a.off"},\n]', "line 2 column 1"),
+        ("t.csv", "author,label\nAda,cup\n", "no column 'file'"),
+        ("t.csv", "model,score\nlinear,1\n", "No mesh that its rows name is there"),
+    ],
+)
+def test_a_table_that_is_passed_over_is_told_of(tmp_path, name, text, reason):
+    (tmp_path / "a.off").write_text("OFF")
+    (tmp_path / "a.json").write_text("{}")
+    (tmp_path / name).write_text(text)
+    database = read_database(tmp_path)
+    assert database.layout == "flat"
+    (warning,) = database.warnings
+    assert warning.startswith(f"{name} lies in the folder and is not used")
+    assert reason in warning
