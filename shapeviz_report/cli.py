@@ -293,6 +293,8 @@ def _print_found(result: QueryResult, mesh: Path) -> None:
 
 def _print_database(database: Database) -> None:
     print(f"{database.name}: {len(database.shapes):,} shapes, read as {database.layout} from {database.root}")
+    from shapeviz_report.pages.fields import natural
+
     for labeling in database.labelings:
         sizes = Counter(s.labels[labeling] for s in database.shapes if labeling in s.labels)
         missing = len(database.shapes) - sum(sizes.values())
@@ -300,7 +302,7 @@ def _print_database(database: Database) -> None:
             f"\nLabeling {labeling!r}: {len(sizes)} classes"
             + (f", {missing} shapes without" if missing else "")
         )
-        for label, count in sorted(sizes.items()):
+        for label, count in sorted(sizes.items(), key=lambda item: natural(item[0])):
             print(f"  {count:6,}  {_one_line(label)}")
     if not database.labelings:
         print("\nNo labels: the map will be drawn in one colour, and there is no neighbourhood hit.")
