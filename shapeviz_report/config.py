@@ -100,7 +100,7 @@ class Config:
     )
     up: str | None = _option(
         None,
-        "axis of the files that points up in pictures, 'y' or 'z'; by default guessed for each shape",
+        "axis of the files that points up in pictures, 'y' or 'z'; by default what the file says, else guessed",
         "AXIS",
     )
     thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")

@@ -27,7 +27,6 @@ from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import (
-    UpAxis,
     choose_view,
     mark_colors,
     render_painted,
@@ -49,6 +48,7 @@ from shapeviz_report.types import (
     MinimalSet,
     Rating,
     ShapeFacts,
+    UpAxis,
 )
 
 
@@ -132,9 +132,12 @@ def read_array(content: bytes) -> FloatArray:
 
 
 def render_shape(prepared: bytes, size: int, up: UpAxis | None) -> bytes:
-    """The thumbnail of a prepared shape, ``size`` x ``size`` pixels, and its view, for :func:`read_picture`."""
+    """The thumbnail of a prepared shape, ``size`` x ``size`` pixels, and its view, for :func:`read_picture`.
+
+    Which axis points up, who builds the site knows best; then the file; then it is guessed.
+    """
     mesh = _unpack(prepared)
-    view = choose_view(mesh, up)
+    view = choose_view(mesh, up or read_facts(prepared).up)
     picture = render_thumbnail(mesh, view, size=size)
     return _pack_arrays(view=view, picture=np.frombuffer(picture, np.uint8))
 
@@ -323,7 +326,7 @@ def identify(path: Path, files: Mapping[str, bytes]) -> str:
     return f"{path.suffix.lower()} {content_hash(files)}"
 
 
-_READERS = ("numpy", "scipy", "trimesh", "manifold3d", "pycollada", "lxml")
+_READERS = ("numpy", "scipy", "trimesh", "manifold3d", "lxml")
 
 EXAMINE = Stage("examined", examine_shape, ("mesh", "types.mesh"), _READERS)
 PREPARE = Stage("prepared", prepare_shape, ("mesh", "types.mesh"), ("mmgpy", *_READERS))

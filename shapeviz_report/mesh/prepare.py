@@ -87,6 +87,7 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
         area=_in_units_of_file(surface_area(cleaned), unit, 2),
         volume=_in_units_of_file(enclosed_volume(cleaned), unit, 3) if watertight else None,
         extents=tuple((np.ptp(cleaned.vertices, axis=0) * unit).tolist()),
+        up=original.up,
     )
     return normalise(remeshed), facts
 

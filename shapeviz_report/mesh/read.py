@@ -60,7 +60,7 @@ def collect_files(path: Path) -> dict[str, bytes]:
     if MESH_FORMATS[suffix] == "glTF" and files[path.name].strip():
         folder = path.parent.resolve()
         try:
-            names = buffer_files(read_header(files[path.name], binary=suffix == ".glb")).values()
+            names = buffer_files(read_header(files[path.name])).values()
         except (AttributeError, KeyError, TypeError, ValueError) as error:
             raise MeshError(
                 "it is not glTF, or damaged: its buffers are not listed as they should be"
@@ -123,7 +123,9 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
             "open it in the program it comes from, and export it anew"
         ) from error
     return Mesh(
-        vertices=np.ascontiguousarray(vertices, dtype=np.float64), faces=np.ascontiguousarray(faces, np.int32)
+        vertices=np.ascontiguousarray(vertices, dtype=np.float64),
+        faces=np.ascontiguousarray(faces, np.int32),
+        up=polygons.up,
     )
 
 
@@ -137,7 +139,7 @@ def content_hash(files: Mapping[str, bytes]) -> str:
 
 def _read_polygons(suffix: str, data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     if MESH_FORMATS[suffix] == "glTF":
-        return read_gltf(data, files, binary=suffix == ".glb")
+        return read_gltf(data, files)
     return READERS[suffix](data)
 
 

@@ -5,12 +5,11 @@ from shapeviz_report.render.ramp import ramp_codes
 from shapeviz_report.render.rasteriser import check_renderer
 from shapeviz_report.render.shading import CLAY
 from shapeviz_report.render.thumbnail import render_thumbnail
-from shapeviz_report.render.viewpoint import UpAxis, choose_view
+from shapeviz_report.render.viewpoint import choose_view
 
 __all__ = [
     "CLAY",
     "MARKED",
-    "UpAxis",
     "check_renderer",
     "choose_view",
     "mark_colors",

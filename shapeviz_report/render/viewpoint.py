@@ -24,16 +24,14 @@ their backs. Who knows which axis points up in a database can say so instead.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numba
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
-from shapeviz_report.types import FloatArray, Mesh
+from shapeviz_report.types import FloatArray, Mesh, UpAxis
 
-UpAxis = Literal["y", "z"]
-UP_AXES = {"y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
+UP_AXES = {"x": np.array([1.0, 0.0, 0.0]), "y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
 
 _POINTS = 2000
 _MIRROR_STRIDE = 2  # every second point is enough to tell a mirror image
@@ -91,7 +89,7 @@ def choose_view(mesh: Mesh, up: UpAxis | None = None) -> FloatArray:
     ----------
     mesh : Mesh
         At least one face with an area.
-    up : {"y", "z"} or None
+    up : {"x", "y", "z"} or None
         The axis of the file that points up, where that is known; None to guess it from the shape.
 
     Returns

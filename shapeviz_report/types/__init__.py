@@ -19,7 +19,7 @@ from shapeviz_report.types.clusters import Cluster, Clusters
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import HitRange, Projection, Quality
-from shapeviz_report.types.mesh import Mesh, ShapeFacts
+from shapeviz_report.types.mesh import Mesh, ShapeFacts, UpAxis
 from shapeviz_report.types.publication import Accent, Licence, Logo, Publication
 from shapeviz_report.types.report import Report
 from shapeviz_report.types.retrieval import Rating, Retrieval
@@ -72,4 +72,5 @@ __all__ = [
     "ShapeEntry",
     "ShapeFacts",
     "SubsetScores",
+    "UpAxis",
 ]

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from shapeviz_report.types.arrays import FloatArray, IntArray
+
+UpAxis = Literal["x", "y", "z"]
 
 
 @dataclass(frozen=True)
@@ -18,10 +21,13 @@ class Mesh:
         Positions; finite.
     faces : (m, 3) int32 array
         Vertex indices, counter-clockwise seen from outside.
+    up : {"x", "y", "z"} or None
+        The axis that points up, if the file that it was read from says so.
     """
 
     vertices: FloatArray
     faces: IntArray
+    up: UpAxis | None = None
 
 
 @dataclass(frozen=True)
@@ -51,6 +57,8 @@ class ShapeFacts:
         That it encloses, in the file's units cubed; None if it is not watertight, or out of range.
     extents : (float, float, float)
         Sizes of its bounding box along x, y and z, in the file's units.
+    up : {"x", "y", "z"} or None
+        The axis that points up, if the file says so.
     """
 
     sha256: str
@@ -65,3 +73,4 @@ class ShapeFacts:
     area: float | None
     volume: float | None
     extents: tuple[float, float, float]
+    up: UpAxis | None = None

@@ -1,66 +1,121 @@
-"""glTF, by trimesh: which other files it needs, and what of it can be read."""
+"""glTF 2.0, text and binary: its triangles, where its scene places them at rest."""
 
 from __future__ import annotations
 
+import binascii
 import json
-from collections.abc import Mapping
-from io import BytesIO
+import re
+from base64 import b64decode
+from collections.abc import Mapping, Sequence
 from pathlib import PurePosixPath
 from typing import Any
-from urllib.parse import unquote, urlsplit
+from urllib.parse import unquote, unquote_to_bytes, urlsplit
 
-from trimesh.exchange.gltf import load_glb, load_gltf
+import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.readers.polygons import PolygonMesh
-from shapeviz_report.mesh.readers.scene import join_scene
+from shapeviz_report.mesh.readers.limits import check_faces
+from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, cut_fan, cut_strip
+from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, place_nodes
+from shapeviz_report.types import FloatArray
 
 _BINARY_MAGIC = b"glTF"
-_COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
-_TRIANGLE_FAN = 6
+_JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
+
+_COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
+_INSTANCING = "EXT_mesh_gpu_instancing"
+_VISIBILITY = "KHR_node_visibility"
+_READ_EXTENSIONS = frozenset({_INSTANCING, _VISIBILITY, "KHR_mesh_quantization"})
+_SURFACE_UNTOUCHED = re.compile(
+    r"(KHR|EXT|ADOBE|MSFT|FB)_(materials|texture|lights|packing)_\w+|KHR_animation_pointer|KHR_xmp(_json_ld)?"
+    r"|KHR_techniques_webgl|KHR_audio_emitter|KHR_audio|EXT_mesh_features|EXT_instance_features"
+    r"|EXT_structural_metadata|EXT_mesh_manifold|CESIUM_primitive_outline|MSFT_lod"
+)
+"""Extensions of looks, sound and meaning, or of other levels of detail than the one that is read."""
+
+_COMPONENTS = {
+    5120: np.dtype("<i1"),
+    5121: np.dtype("<u1"),
+    5122: np.dtype("<i2"),
+    5123: np.dtype("<u2"),
+    5125: np.dtype("<u4"),
+    5126: np.dtype("<f4"),
+}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+_TRIANGLES, _TRIANGLE_STRIP, _TRIANGLE_FAN = 4, 5, 6
+_POINTS_AND_LINES = range(4)
+
+Document = Mapping[str, Any]
 
 
-def read_gltf(data: bytes, files: Mapping[str, bytes], *, binary: bool) -> PolygonMesh:
+def read_gltf(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     """Read glTF.
 
     Parameters
     ----------
     data : bytes
-        The ``.gltf`` or (binary) ``.glb`` file.
+        The ``.gltf`` or binary ``.glb`` file; which of both, its first bytes tell.
     files : mapping of str to bytes
         Path below the file's folder -> content, for every file that :func:`buffer_files` names.
-    binary : bool
 
     Raises
     ------
-    MeshError, or what its parser raises, if it is anything else.
+    MeshError
+        If it is anything else, or holds a surface that is not read.
     """
-    header = read_header(data, binary=binary)
-    check(header)
-    buffers = {uri: files[name] for uri, name in buffer_files(header).items()}
-    load = load_glb if binary else load_gltf
-    return join_scene(load(BytesIO(data), resolver=buffers, skip_materials=True))
+    return _Reader(read_header(data), data, files).read()
 
 
-def read_header(data: bytes, *, binary: bool) -> dict[str, Any]:
-    """The JSON of a ``.gltf`` or (binary) ``.glb`` file. Raises ``MeshError`` if there is none."""
-    if binary:
-        if not data.startswith(_BINARY_MAGIC):
-            raise MeshError("it is not binary glTF")
-        length = int.from_bytes(data[12:16], "little")
-        data = data[20 : 20 + length]
+def read_header(data: bytes) -> dict[str, Any]:
+    """The JSON of a glTF. Raises ``MeshError`` if there is none, or of another version."""
+    text = _split_chunks(data)[0] if data.startswith(_BINARY_MAGIC) else data
     try:
-        header = json.loads(data)
+        header = json.loads(text)
     except json.JSONDecodeError as error:
         raise MeshError(f"it is not glTF, or cut off: its JSON is broken ({error})") from error
-    except (UnicodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise MeshError("it is not glTF, or damaged: its JSON is broken") from error
     if not isinstance(header, dict):
         raise MeshError("it is not glTF: its JSON is not an object")
+    asset = header.get("asset", {})
+    version = asset.get("version", "2.0") if isinstance(asset, dict) else "2.0"
+    _check_version(str(version))
+    if isinstance(asset, dict) and str(asset.get("minVersion", "2.0")) != "2.0":
+        _check_version(str(asset["minVersion"]), newest="2.0")
     return header
 
 
-def buffer_files(header: Mapping[str, Any]) -> dict[str, str]:
+def _check_version(version: str, newest: str | None = None) -> None:
+    if version.startswith("1"):
+        raise MeshError("glTF 1.0 is not read; convert it to 2.0")
+    if not version.startswith("2") or (newest and version != newest):
+        raise MeshError(f"glTF {version[:20]} is not read; convert it to 2.0")
+
+
+def _split_chunks(data: bytes) -> tuple[bytes, bytes | None]:
+    """The JSON and the buffer, if there is one, of binary glTF. Chunks of other kinds may follow."""
+    version = int.from_bytes(data[4:8], "little")
+    if len(data) >= 8 and version != 2:
+        _check_version(f"{version}.0")
+    length = int.from_bytes(data[8:12], "little")
+    if len(data) < 20 or length > len(data):
+        raise MeshError(f"it is cut off: it announces {length:,} bytes, and has {len(data):,}")
+    chunks: list[tuple[bytes, bytes]] = []
+    start = 12
+    while start + 8 <= length:
+        size, kind = int.from_bytes(data[start : start + 4], "little"), data[start + 4 : start + 8]
+        start += 8
+        if start + size > length:
+            raise MeshError(f"it is damaged: a chunk of {size:,} bytes does not fit into it")
+        chunks.append((kind, data[start : start + size]))
+        start += size
+    if not chunks or chunks[0][0] != _JSON_CHUNK:
+        raise MeshError("it is damaged: it does not begin with its JSON")
+    return chunks[0][1], next((content for kind, content in chunks if kind == _BINARY_CHUNK), None)
+
+
+def buffer_files(header: Document) -> dict[str, str]:
     """The files that hold a glTF's geometry: URI, as it is written -> path below the file's folder. Embedded buffers
     need none.
 
@@ -73,28 +128,379 @@ def buffer_files(header: Mapping[str, Any]) -> dict[str, str]:
     files = {}
     for buffer in header.get("buffers", []):
         uri = buffer.get("uri")
-        if uri is None or uri.startswith("data:"):
+        if uri is None or _is_data(uri):
             continue
-        path = PurePosixPath(unquote(uri))
+        path = PurePosixPath(unquote(uri).replace("\\", "/"))
         if urlsplit(uri).scheme or urlsplit(uri).netloc or path.is_absolute() or ".." in path.parts:
             raise MeshError(f"it refers to {uri[:100]!r}, which is not a file in its own folder")
         files[uri] = path.as_posix()
     return files
 
 
-def check(header: Mapping[str, Any]) -> None:
-    """Refuse what trimesh would silently leave out or fill with zeros. Raises ``MeshError``."""
-    for extension in header.get("extensionsRequired", []):
-        if extension in _COMPRESSIONS:
-            raise MeshError(f"its geometry is compressed with {extension}, which is not read")
-    accessors = header.get("accessors", [])
-    for mesh in header.get("meshes", []):
-        for primitive in mesh["primitives"]:
-            if primitive.get("mode") == _TRIANGLE_FAN:
-                raise MeshError("it has triangle fans, which are not read")
-            used = [primitive["attributes"]["POSITION"], primitive.get("indices")]
-            for index in used:
-                if index is not None and (
-                    "sparse" in accessors[index] or "bufferView" not in accessors[index]
-                ):
-                    raise MeshError("its positions are sparse or compressed, which is not read")
+def _is_data(uri: str) -> bool:
+    return uri[:5].lower() == "data:"
+
+
+def _embedded(uri: str) -> bytes:
+    """The content of a ``data:`` URI: base64, with or without its padding, or percent-encoded."""
+    head, _, body = uri.partition(",")
+    content = unquote_to_bytes(body)
+    if not head.lower().rstrip().endswith(";base64"):
+        return content
+    content = b"".join(content.split()).translate(bytes.maketrans(b"-_", b"+/")).rstrip(b"=")
+    try:
+        return b64decode(content + b"=" * (-len(content) % 4), validate=True)
+    except binascii.Error as error:
+        raise MeshError("it is damaged: an embedded buffer is not base64") from error
+
+
+class _Reader:
+    """One file's document and buffers."""
+
+    def __init__(self, document: Document, data: bytes, files: Mapping[str, bytes]) -> None:
+        self.document = document
+        names = buffer_files(document)
+        binary = _split_chunks(data)[1] if data.startswith(_BINARY_MAGIC) else None
+        self.buffers: list[bytes | None] = []
+        for number, buffer in enumerate(document.get("buffers", [])):
+            uri = buffer.get("uri")
+            if uri is None:
+                content = binary if number == 0 else None
+            else:
+                content = _embedded(uri) if _is_data(uri) else files[names[uri]]
+            if content is not None and len(content) < _whole(buffer["byteLength"]):
+                raise MeshError(
+                    f"buffer {number} is cut off: it announces {_whole(buffer['byteLength']):,} bytes, and has "
+                    f"{len(content):,}"
+                )
+            self.buffers.append(content)
+
+    def read(self) -> PolygonMesh:
+        for extension in self.document.get("extensionsRequired", []):
+            if extension in _COMPRESSIONS:
+                raise MeshError(f"its geometry is compressed with {extension}, which is not read")
+            if extension not in _READ_EXTENSIONS and not _SURFACE_UNTOUCHED.fullmatch(extension):
+                raise MeshError(f"it requires the extension {extension[:60]}, which is not read")
+        meshes = self.document.get("meshes", [])
+        self.triangles = [sum(map(self.count_triangles, mesh["primitives"])) for mesh in meshes]
+        if "nodes" not in self.document:
+            check_faces(sum(self.triangles))
+            parts = [part for mesh in meshes for part in self.read_mesh(mesh, [], np.eye(4)[None])]
+        else:
+            parts = self.read_scene()
+        return PolygonMesh.of_triangles(*join_parts(parts), up="y")
+
+    # scene
+
+    def read_scene(self) -> list[Part]:
+        numbers = range(len(self.document["nodes"]))
+        parents: dict[int, int] = {}
+        for number in numbers:
+            for child in self.entry("nodes", number).get("children", []):
+                self.entry("nodes", child)
+                if child in parents:
+                    raise MeshError(
+                        f"node {child} stands below two nodes, or twice below one; glTF nodes form trees"
+                    )
+                parents[child] = number
+        roots = [number for number in numbers if number not in parents]
+        shown = roots
+        if self.document.get("scenes"):
+            shown = self.entry("scenes", self.document.get("scene", 0)).get("nodes", [])
+        for root in shown:
+            self.entry("nodes", root)
+            if root in parents:
+                raise MeshError(f"node {root} is a root of its scene, and stands below node {parents[root]}")
+        if len(set(shown)) < len(shown):
+            raise MeshError("a node is a root of its scene twice")
+        nodes = {number: self.read_node(number) for number in numbers}
+        placed = place_nodes(nodes, shown)
+        if not placed and any(self.triangles):
+            raise MeshError("its scene shows none of its meshes' triangles")
+        groups: dict[tuple[int, tuple[float, ...], int | None], list[FloatArray]] = {}
+        for number, transforms in placed.items():
+            node = self.document["nodes"][number]
+            mesh = self.entry("meshes", node["mesh"])
+            weights = tuple(node.get("weights", mesh.get("weights", [])))
+            if node.get("skin") is None:
+                transforms = transforms[:, None] @ self.instances(node)
+            elif self.instances_of(node):
+                raise MeshError(f"node {number} has both a skin and {_INSTANCING}, which is not read")
+            group = groups.setdefault((node["mesh"], weights, node.get("skin")), [])
+            group.append(transforms.reshape(-1, 4, 4))
+        parts = []
+        for (mesh_number, weights, skin), stacks in groups.items():
+            mesh = self.document["meshes"][mesh_number]
+            poses = None if skin is None else self.read_poses(skin, parents, nodes)
+            parts += self.read_mesh(mesh, weights, np.concatenate(stacks), poses)
+        return parts
+
+    def read_node(self, number: int) -> Node[int]:
+        node = self.entry("nodes", number)
+        if node.get("extensions", {}).get(_VISIBILITY, {}).get("visible") is False:
+            return Node(np.eye(4), (), 0)
+        count = 0
+        if node.get("mesh") is not None:
+            self.entry("meshes", node["mesh"])
+            count = self.triangles[node["mesh"]] * self.count_instances(node)
+        if node.get("matrix") is not None:
+            transform = np.array(node["matrix"], np.float64).reshape(4, 4).T
+        else:
+            transform = _compose(
+                np.array([node.get("translation", (0, 0, 0))], np.float64),
+                np.array([node.get("rotation", (0, 0, 0, 1))], np.float64),
+                np.array([node.get("scale", (1, 1, 1))], np.float64),
+            )[0]
+        return Node(transform, node.get("children", ()), count)
+
+    def instances_of(self, node: Document) -> dict[str, int]:
+        """Attribute -> accessor."""
+        return dict(node.get("extensions", {}).get(_INSTANCING, {}).get("attributes", {}))
+
+    def count_instances(self, node: Document) -> int:
+        used = self.instances_of(node).values()
+        counts = {_whole(self.entry("accessors", accessor)["count"]) for accessor in used}
+        if len(counts) > 1:
+            raise MeshError(f"the attributes of its {_INSTANCING} have different lengths")
+        return counts.pop() if counts else 1
+
+    def instances(self, node: Document) -> FloatArray:
+        """(k, 4, 4), one a copy that the node itself places."""
+        accessors = self.instances_of(node)
+        count = self.count_instances(node)
+        neutral = {"TRANSLATION": (0, 0, 0), "ROTATION": (0, 0, 0, 1), "SCALE": (1, 1, 1)}
+        rows = np.arange(count)
+        return _compose(
+            *(
+                self.values(accessors[name], rows, len(value))
+                if name in accessors
+                else np.broadcast_to(np.array(value, np.float64), (count, len(value)))
+                for name, value in neutral.items()
+            )
+        )
+
+    def read_poses(self, skin: int, parents: Mapping[int, int], nodes: Mapping[int, Node[int]]) -> FloatArray:
+        """(j, 4, 4): from where a skin was bound to where each of its joints is at rest."""
+        document = self.entry("skins", skin)
+        poses = []
+        for joint in document["joints"]:
+            self.entry("nodes", joint)
+            pose, above, steps = np.eye(4), joint, 0
+            while above is not None:
+                pose, above, steps = nodes[above].transform @ pose, parents.get(above), steps + 1
+                if steps > len(nodes):
+                    raise MeshError("a node contains itself")
+            poses.append(pose)
+        stacked = np.array(poses).reshape(-1, 4, 4)
+        if document.get("inverseBindMatrices") is None:
+            return stacked
+        inverse = self.values(document["inverseBindMatrices"], np.arange(len(poses)), 16)
+        return stacked @ inverse.reshape(-1, 4, 4).transpose(0, 2, 1)
+
+    # meshes
+
+    def count_triangles(self, primitive: Document) -> int:
+        """What a primitive declares. Raises ``MeshError`` if that is nothing whole."""
+        mode = primitive.get("mode", _TRIANGLES)
+        if mode in _POINTS_AND_LINES:
+            return 0
+        if mode not in (_TRIANGLES, _TRIANGLE_STRIP, _TRIANGLE_FAN):
+            raise MeshError(f"a primitive has the mode {mode}, which glTF does not know")
+        if "POSITION" not in primitive["attributes"]:
+            raise MeshError(f"a primitive has no positions{self.compression(primitive)}")
+        corners = primitive.get("indices", primitive["attributes"]["POSITION"])
+        count = _whole(self.entry("accessors", corners)["count"])
+        if mode != _TRIANGLES:
+            return max(count - 2, 0)
+        if count % 3:
+            raise MeshError(f"a primitive of triangles has {count} corners, which is no multiple of three")
+        return count // 3
+
+    def compression(self, described: Document) -> str:
+        for name in described.get("extensions", {}):
+            if name in _COMPRESSIONS:
+                return f": it is compressed with {name}, which is not read"
+        return ""
+
+    def read_mesh(
+        self,
+        mesh: Document,
+        weights: Sequence[float],
+        transforms: FloatArray,
+        poses: FloatArray | None = None,
+    ) -> list[Part]:
+        return [
+            self.read_primitive(primitive, weights, transforms, poses)
+            for primitive in mesh["primitives"]
+            if self.count_triangles(primitive)
+        ]
+
+    def read_primitive(
+        self,
+        primitive: Document,
+        weights: Sequence[float],
+        transforms: FloatArray,
+        poses: FloatArray | None,
+    ) -> Part:
+        attributes = primitive["attributes"]
+        accessor = self.entry("accessors", attributes["POSITION"])
+        for used in (attributes["POSITION"], primitive.get("indices")):
+            described = None if used is None else self.entry("accessors", used)
+            if described is not None and "bufferView" not in described and "sparse" not in described:
+                raise MeshError(f"accessor {used} of a primitive has no content{self.compression(primitive)}")
+        count = _whole(accessor["count"])
+        corners = (
+            np.arange(count) if primitive.get("indices") is None else self.read_indices(primitive["indices"])
+        )
+        if len(corners) and corners.max() >= count:
+            raise MeshError(
+                f"a face refers to vertex {corners.max()} (counted from 0), but there are {count} vertices"
+            )
+        rows, corners = np.unique(corners, return_inverse=True)
+        faces = _cut_triangles(corners, primitive.get("mode", _TRIANGLES))
+        points = self.values(attributes["POSITION"], rows, 3)
+        for weight, target in zip(weights, primitive.get("targets", [])):
+            if weight and "POSITION" in target:
+                points = points + weight * self.values(target["POSITION"], rows, 3)
+        if poses is not None and "JOINTS_0" in attributes:
+            points, mirrored = self.bend(attributes, rows, points, poses)
+            own = np.eye(4)[None].repeat(len(transforms), axis=0)
+            return Part(points, faces[:, ::-1] if mirrored else faces, own)
+        return Part(points, faces, transforms)
+
+    def bend(
+        self, attributes: Mapping[str, int], rows: Indices, points: FloatArray, poses: FloatArray
+    ) -> tuple[FloatArray, bool]:
+        """Skinned points, and whether the skin mirrors them."""
+        sets = [name.removeprefix("JOINTS_") for name in sorted(attributes) if name.startswith("JOINTS_")]
+        joints = np.concatenate([self.values(attributes[f"JOINTS_{n}"], rows, 4) for n in sets], axis=1)
+        shares = np.concatenate([self.values(attributes[f"WEIGHTS_{n}"], rows, 4) for n in sets], axis=1)
+        joints = joints.astype(np.int64)
+        joints[shares == 0] = 0
+        if joints.max(initial=0) >= len(poses):
+            raise MeshError(f"a vertex refers to joint {joints.max()}, but there are {len(poses)} joints")
+        total = shares.sum(axis=1, keepdims=True)
+        shares[total[:, 0] == 0, 0] = 1
+        shares /= shares.sum(axis=1, keepdims=True)
+        moved = np.zeros_like(points)
+        for joint, share in zip(joints.T, shares.T):
+            pose = poses[joint]
+            moved += share[:, None] * (np.einsum("nij,nj->ni", pose[:, :3, :3], points) + pose[:, :3, 3])
+        signs = np.linalg.det(poses[:, :3, :3])
+        return moved, bool((shares * signs[joints]).sum() < 0)
+
+    def read_indices(self, number: int) -> Indices:
+        accessor = self.entry("accessors", number)
+        if _COMPONENTS.get(accessor["componentType"], np.dtype("f4")).kind != "u":
+            raise MeshError("the indices of a primitive are no unsigned whole numbers")
+        return self.values(number, np.arange(_whole(accessor["count"])), 1)[:, 0].astype(np.int64)
+
+    # accessors
+
+    def values(self, number: int, rows: Indices, width: int) -> FloatArray:
+        """Rows (k, width) of an accessor as float64, only those: what a small file announces may be large."""
+        accessor = self.entry("accessors", number)
+        if _WIDTHS.get(accessor["type"]) != width:
+            raise MeshError(
+                f"accessor {number} has elements of type {accessor['type']}, which do not belong there"
+            )
+        kind, count = _component(accessor), _whole(accessor["count"])
+        if len(rows) and rows.max() >= count:
+            raise MeshError(f"accessor {number} has {count} elements, fewer than are asked of it")
+        if accessor.get("bufferView") is None:
+            stored = np.zeros((len(rows), width), kind)
+        else:
+            stored = self.view(accessor, count, kind, width)[rows]
+        sparse = accessor.get("sparse")
+        if sparse:
+            changes = _whole(sparse["count"])
+            where = self.view(sparse["indices"], changes, _component(sparse["indices"]), 1)[:, 0].astype(
+                np.int64
+            )
+            if (np.diff(where) <= 0).any() or (len(where) and where[-1] >= count):
+                raise MeshError(f"the sparse indices of accessor {number} do not rise, or lead past its end")
+            instead = self.view(sparse["values"], changes, kind, width)
+            place = np.searchsorted(where, rows)
+            hit = place < changes
+            hit[hit] = where[place[hit]] == rows[hit]
+            stored[hit] = instead[place[hit]]
+        values = stored.astype(np.float64)
+        if accessor.get("normalized") and kind.kind != "f":
+            values = np.maximum(values / np.iinfo(kind).max, -1)
+        return values
+
+    def view(self, described: Document, count: int, kind: np.dtype[Any], width: int) -> npt.NDArray[Any]:
+        """What stands in a buffer, not copied, as (count, width)."""
+        number = described["bufferView"]
+        view = self.entry("bufferViews", number)
+        buffer_number = view["buffer"]
+        self.entry("buffers", buffer_number)
+        content = self.buffers[buffer_number]
+        if content is None:
+            raise MeshError(f"buffer {buffer_number} has no content{self.compression(view)}")
+        size = width * kind.itemsize
+        stride = _whole(view.get("byteStride") or size)
+        start, length = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
+        offset = _whole(described.get("byteOffset", 0))
+        if stride < size:
+            raise MeshError(f"buffer view {number} has elements that overlap")
+        if start + length > len(content):
+            raise MeshError(f"buffer view {number} leads past the end of its buffer; it may be cut off")
+        if count and offset + stride * (count - 1) + size > length:
+            raise MeshError(
+                f"buffer view {number} is too short for the {count:,} elements that it shall hold"
+            )
+        return np.ndarray(
+            (count, width), kind, content, start + offset if count else 0, (stride, kind.itemsize)
+        )
+
+    def entry(self, kind: str, number: int) -> Document:
+        """One of the document's lists' entries. Raises ``MeshError`` if there is none of that number."""
+        entries = self.document.get(kind, [])
+        if not isinstance(number, int) or not 0 <= number < len(entries):
+            raise MeshError(f"it refers to entry {number!r:.20} of its {kind}, but has {len(entries)}")
+        entry: Document = entries[number]
+        return entry
+
+
+def _whole(number: Any) -> int:
+    """A count or an offset. Raises ``MeshError`` if it is none."""
+    if (
+        isinstance(number, bool)
+        or not isinstance(number, int | float)
+        or not 0 <= number < 2**53
+        or number % 1
+    ):
+        raise MeshError(f"it is damaged: a length or a place is {number!r:.40}")
+    return int(number)
+
+
+def _component(described: Document) -> np.dtype[Any]:
+    kind = described["componentType"]
+    if kind not in _COMPONENTS:
+        raise MeshError(f"it has numbers of the type {kind!r:.20}, which glTF does not know")
+    return _COMPONENTS[kind]
+
+
+def _cut_triangles(corners: Indices, mode: int) -> Indices:
+    """(m, 3) triangles of a list, a strip or a fan of corners (specification, 3.7.2.1)."""
+    if mode == _TRIANGLES:
+        return corners.reshape(-1, 3)
+    return cut_fan(corners) if mode == _TRIANGLE_FAN else cut_strip(corners)
+
+
+def _compose(translations: FloatArray, quaternions: FloatArray, scales: FloatArray) -> FloatArray:
+    """(k, 4, 4) matrices that scale, then rotate, then move. Quaternions (x, y, z, w) need not be of length 1."""
+    lengths = np.linalg.norm(quaternions, axis=1, keepdims=True)
+    x, y, z, w = np.where(lengths > 0, quaternions / np.where(lengths > 0, lengths, 1), [0, 0, 0, 1]).T
+    rotations = np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    ).transpose(2, 0, 1)
+    matrices = np.broadcast_to(np.eye(4), (len(rotations), 4, 4)).copy()
+    matrices[:, :3, :3] = rotations * scales[:, None, :]
+    matrices[:, :3, 3] = translations
+    return matrices

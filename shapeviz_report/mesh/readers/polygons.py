@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.types import FloatArray
+from shapeviz_report.types import FloatArray, UpAxis
 
 Indices = npt.NDArray[np.int64]
 
@@ -31,16 +31,31 @@ class PolygonMesh:
         The vertices of all polygons, one polygon after the other.
     sizes : (m,) int64 array
         Number of corners of each polygon; sums to ``k``.
+    up : {"x", "y", "z"} or None
+        The axis that points up, if the file or its format says so.
     """
 
     vertices: FloatArray
     corners: Indices
     sizes: Indices
+    up: UpAxis | None = None
 
     @classmethod
-    def of_triangles(cls, vertices: FloatArray, faces: Indices) -> PolygonMesh:
+    def of_triangles(cls, vertices: FloatArray, faces: Indices, up: UpAxis | None = None) -> PolygonMesh:
         """A mesh of vertices (n, 3) and triangles (m, 3)."""
-        return cls(vertices, faces.ravel(), np.full(len(faces), 3, dtype=np.int64))
+        return cls(vertices, faces.ravel(), np.full(len(faces), 3, dtype=np.int64), up)
+
+
+def cut_strip(corners: Indices) -> Indices:
+    """(s - 2, 3) triangles of a strip of s corners, every second one turned round."""
+    faces = np.column_stack([corners[:-2], corners[1:-1], corners[2:]])
+    faces[1::2] = faces[1::2][:, [0, 2, 1]]
+    return faces
+
+
+def cut_fan(corners: Indices) -> Indices:
+    """(s - 2, 3) triangles of a fan of s corners around the first."""
+    return _fans(corners[None])[0]
 
 
 def whole_numbers(values: npt.NDArray[np.generic]) -> Indices:

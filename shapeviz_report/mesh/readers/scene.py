@@ -1,46 +1,142 @@
-"""Scenes of several parts, as trimesh's loaders describe them."""
+"""Scenes: parts that a tree of nodes places, as often as it names them."""
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
 
 import numpy as np
-import trimesh
 
+from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.readers.limits import check_faces
-from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, check_indices
+from shapeviz_report.mesh.readers.polygons import Indices
 from shapeviz_report.types import FloatArray
 
-# Trimesh logs tracebacks of what it takes for no error; without a handler they would go to the terminal.
-logging.getLogger("trimesh").addHandler(logging.NullHandler())
+_UNCOUNTABLE = 10**18
+"""Where counting stops: nodes that name each other twice double it with every level."""
+
+Key = TypeVar("Key", bound=Hashable)
 
 
-def join_scene(contents: Mapping[str, Any]) -> PolygonMesh:
-    """All triangles of what one of trimesh's loaders gives, the arguments of a scene or a mesh, where the scene places
-    them. Raises ``MeshError``."""
-    parts = contents.get("geometry", {"mesh": contents})
-    parts = {name: _bare(part) for name, part in parts.items() if "faces" in part}
-    scene = trimesh.load_scene(
-        {"geometry": parts, "graph": contents.get("graph"), "base_frame": contents.get("base_frame", "world")}
-    )
+@dataclass(frozen=True)
+class Node(Generic[Key]):
+    """One node of a scene.
+
+    Attributes
+    ----------
+    transform : (4, 4) float64 array
+        From the node to its parent; points are columns.
+    children : sequence of keys
+    triangles : int
+        That the node itself shows.
+    """
+
+    transform: FloatArray
+    children: Sequence[Key]
+    triangles: int
+
+
+@dataclass(frozen=True)
+class Part:
+    """Triangles, and where they are placed.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64 array
+    faces : (m, 3) int64 array
+    transforms : (k, 4, 4) float64 array
+        One a copy.
+    """
+
+    vertices: FloatArray
+    faces: Indices
+    transforms: FloatArray
+
+
+def place_nodes(nodes: Mapping[Key, Node[Key]], roots: Sequence[Key]) -> dict[Key, FloatArray]:
+    """Where a scene shows its nodes: as often as ways lead to each.
+
+    Parameters
+    ----------
+    nodes : mapping
+        Every root and child is a key.
+    roots : sequence of keys
+
+    Returns
+    -------
+    dict
+        Key -> (k, 4, 4) float64, from the node to the scene, for the nodes that have triangles.
+
+    Raises
+    ------
+    MeshError
+        If nodes contain themselves, or the copies have too many triangles: before any is made.
+    """
+    order = _children_first(nodes, roots)
+    counts: dict[Key, int] = {}
+    for key in order:
+        node = nodes[key]
+        counts[key] = min(node.triangles + sum(counts[child] for child in node.children), _UNCOUNTABLE)
+    check_faces(min(sum(counts[root] for root in roots), _UNCOUNTABLE))
+    arriving: dict[Key, list[FloatArray]] = {key: [] for key in order}
+    for root in roots:
+        arriving[root].append(np.eye(4)[None])
+    placed = {}
+    for key in reversed(order):
+        transforms, node = arriving.pop(key), nodes[key]
+        if counts[key]:  # so that there are never more copies than triangles
+            here = np.concatenate(transforms) @ node.transform
+            for child in node.children:
+                if counts[child]:
+                    arriving[child].append(here)
+            if node.triangles:
+                placed[key] = here
+    return placed
+
+
+def _children_first(nodes: Mapping[Key, Node[Key]], roots: Iterable[Key]) -> list[Key]:
+    """Every node that can be reached, after all that it contains; without recursion, for chains may be long."""
+    order: list[Key] = []
+    done: dict[Key, bool] = {}
+    for root in roots:
+        stack = [] if root in done else [(root, iter(nodes[root].children))]
+        done.setdefault(root, False)
+        while stack:
+            key, children = stack[-1]
+            child = next(children, None)
+            if child is None:
+                done[key] = True
+                order.append(key)
+                stack.pop()
+            elif child not in done:
+                done[child] = False
+                stack.append((child, iter(nodes[child].children)))
+            elif not done[child]:
+                raise MeshError("a node of its scene contains itself")
+    return order
+
+
+def join_parts(parts: Iterable[Part]) -> tuple[FloatArray, Indices]:
+    """Vertices (n, 3) and triangles (m, 3) of all copies of all parts.
+
+    Vertices that no triangle uses are dropped. A copy that is mirrored has its triangles turned round, so that they
+    look outwards still.
+    """
     vertices: list[FloatArray] = [np.empty((0, 3))]
     faces: list[Indices] = [np.empty((0, 3), np.int64)]
     count = 0
-    placed = [scene.graph[node][1] for node in scene.graph.nodes_geometry]
-    check_faces(sum(len(scene.geometry[name].faces) for name in placed if name in scene.geometry))
-    for node in scene.graph.nodes_geometry:
-        transform, name = scene.graph[node]
-        if name in scene.geometry:
-            part = scene.geometry[name]
-            check_indices(part.vertices, part.faces.ravel())
-            vertices.append(trimesh.transform_points(part.vertices, transform))
-            faces.append(part.faces + count)
-            count += len(part.vertices)
-    return PolygonMesh.of_triangles(np.concatenate(vertices), np.concatenate(faces))
-
-
-def _bare(part: dict[str, Any]) -> dict[str, Any]:
-    """The arguments of a ``Trimesh`` without its looks, and kept as it is."""
-    return {"vertices": part["vertices"], "faces": part["faces"], "process": False}
+    for part in parts:
+        if not len(part.faces):
+            continue
+        used, corners = np.unique(part.faces, return_inverse=True)
+        points, triangles = part.vertices[used], corners.reshape(-1, 3)
+        linear = part.transforms[:, :3, :3]
+        moved = points @ linear.transpose(0, 2, 1) + part.transforms[:, None, :3, 3]
+        mirrored = np.linalg.det(linear) < 0
+        copies = np.where(mirrored[:, None, None], triangles[:, ::-1], triangles)
+        copies = copies + count + len(points) * np.arange(len(moved))[:, None, None]
+        vertices.append(moved.reshape(-1, 3))
+        faces.append(copies.reshape(-1, 3))
+        count += moved.shape[0] * moved.shape[1]
+    return np.concatenate(vertices), np.concatenate(faces)
