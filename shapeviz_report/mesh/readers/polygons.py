@@ -55,7 +55,8 @@ def cut_strip(corners: Indices) -> Indices:
 
 def cut_fan(corners: Indices) -> Indices:
     """(s - 2, 3) triangles of a fan of s corners around the first."""
-    return _fans(corners[None])[0]
+    first = np.broadcast_to(corners[:1], max(len(corners) - 2, 0))
+    return np.column_stack([first, corners[1:-1], corners[2:]])
 
 
 def whole_numbers(values: npt.NDArray[np.generic]) -> Indices:
