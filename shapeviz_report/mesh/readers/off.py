@@ -13,8 +13,8 @@ from shapeviz_report.types import FloatArray
 
 # ModelNet has headers such as "OFF1568 1546 0"; the keyword itself is optional by the format's definition
 _HEADER = re.compile(r"\s*(?:(?P<prefix>(?:ST)?C?N?4?n?)OFF\s*(?P<binary>BINARY)?)?", re.IGNORECASE)
-# the number of edges is often missing
-_COUNTS = re.compile(r"\s*(\d+)\s+(\d+)(?P<edges>\s+\d+(?=\s*\n))?(?=\s|$)")
+# the number of edges is often missing; it ends its line, or stands in one with the two others
+_COUNTS = re.compile(r"\s*(\d+)\s+(\d+)(?:\s+\d+(?=\s*\n)|[ \t]+\d+(?=\s))?(?=\s|$)")
 
 
 def read_off(data: bytes) -> PolygonMesh:
@@ -41,13 +41,8 @@ def read_off(data: bytes) -> PolygonMesh:
     body = text[counts.end() :]
     lines = [line for line in body.split("\n") if line and not line.isspace()]
     if not prefix and (len(lines) != vertex_count + face_count):
-        numbers = parse_numbers(body)
-        return (
-            _read_stream(numbers, vertex_count, face_count)
-            # all on one line, so that the number of edges is not told from what follows
-            or (None if counts["edges"] else _read_stream(numbers[1:], vertex_count, face_count))
-            or _read_lines(lines, vertex_count, face_count)
-        )
+        stream = _read_stream(parse_numbers(body), vertex_count, face_count)
+        return stream or _read_lines(lines, vertex_count, face_count)
     return _read_triangles(body, vertex_count, face_count) or _read_lines(lines, vertex_count, face_count)
 
 

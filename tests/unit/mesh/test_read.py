@@ -21,7 +21,8 @@ from hypothesis import strategies as st
 
 from shapeviz_report.database.formats import MESH_FORMATS
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.read import collect_files, content_hash, read_mesh
+from shapeviz_report.mesh.read import collect_files, content_hash, parse_mesh, read_mesh
+from shapeviz_report.mesh.readers.polygons import PolygonMesh, triangulate
 from shapeviz_report.types import Mesh
 
 SUFFIXES = tuple(MESH_FORMATS)
@@ -136,6 +137,27 @@ def test_one_format_under_the_suffix_of_another(tmp_path, suffix, other):
     path = write(tmp_path, other).rename(tmp_path / f"disguised{suffix}")
     with pytest.raises(MeshError):
         read_mesh(path)
+
+
+@pytest.mark.parametrize("suffix", SUFFIXES)
+@pytest.mark.parametrize(
+    ("content", "seems"),
+    [
+        (b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n", "Git LFS pointer"),
+        (b"\x1f\x8b\x08\0\0\0\0\0", "gzip"),
+        (b"<!DOCTYPE html>\n<html><body>404</body></html>", "web page"),
+        (b"solid a\nfacet normal 0 0 1\nouter loop\n", "STL"),
+        (b"ISO-10303-21;\nHEADER;", "STEP"),
+        (b"# by hand\nv 0 0 0\n", "OBJ"),
+        (b"OFF\n1 0 0\n", "OFF"),
+        (b"Kaydara FBX Binary  \0", "FBX"),
+    ],
+)
+def test_reason_names_what_a_file_seems_to_be(suffix, content, seems):
+    if seems == MESH_FORMATS[suffix]:
+        return
+    with pytest.raises(MeshError, match=rf"it is not {MESH_FORMATS[suffix]}, but seems to be .*{seems}"):
+        parse_mesh({f"mesh{suffix}": content})
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
@@ -375,6 +397,49 @@ def test_star_shaped_polygons_keep_their_area(tmp_path_factory, radii, seed):
     face = f"{len(radii)} " + " ".join(map(str, range(len(radii))))
     mesh = read_text(tmp_path_factory.mktemp("star"), "mesh.off", off(f"OFF\n{len(radii)} 1 0", rows, [face]))
     assert area(mesh) == pytest.approx(expected)
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    radii=st.lists(st.floats(0.3, 1), min_size=4, max_size=9),
+    convex=st.booleans(),
+    cuts=st.lists(st.integers(0, 4), min_size=9, max_size=9),
+    turn=st.integers(0, 50),
+    seed=st.integers(0, 1000),
+)
+def test_prisms_over_polygons_with_straight_corners_are_closed(radii, convex, cuts, turn, seed):
+    """Sides of any polygon, cut at further points, begin at any corner: no triangle is flat, none folds over."""
+    angles = np.arange(len(radii)) * 2 * np.pi / len(radii)
+    corners = np.column_stack([np.cos(angles), np.sin(angles)]) * (1 if convex else np.array(radii)[:, None])
+    outline = np.concatenate(
+        [
+            corners[i]
+            + (corners[(i + 1) % len(radii)] - corners[i]) * np.arange(cut + 1)[:, None] / (cut + 1)
+            for i, cut in enumerate(cuts[: len(radii)])
+        ]
+    )
+    size = len(outline)
+    flat = np.column_stack([outline, np.zeros(size)])
+    turned = trimesh.transformations.random_rotation_matrix(np.random.default_rng(seed).random(3))[:3, :3]
+    vertices = np.concatenate([flat, flat + np.array([0, 0, 2])]) @ turned.T
+    ring, following = np.arange(size), (np.arange(size) + 1) % size
+    polygons = [np.roll(ring[::-1], turn), np.roll(ring + size, turn)]
+    polygons += list(np.stack([ring, following, following + size, ring + size], axis=1))
+    mesh = PolygonMesh(vertices, np.concatenate(polygons), np.array([len(polygon) for polygon in polygons]))
+    faces = triangulate(mesh)
+    a, b, c = vertices[faces].transpose(1, 0, 2)
+    longest = np.max([np.linalg.norm(side, axis=1) for side in (b - a, c - b, a - c)], axis=0)
+    assert (np.linalg.norm(np.cross(b - a, c - a), axis=1) > 1e-6 * longest**2).all()
+    area_of_outline = np.cross(flat, flat[following])[:, 2].sum() / 2
+    lid = faces[(faces >= size).all(axis=1)]
+    a, b, c = vertices[lid].transpose(1, 0, 2)
+    areas = np.cross(b - a, c - a) @ turned[:, 2] / 2
+    assert (areas > 0).all()
+    assert areas.sum() == pytest.approx(area_of_outline)
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    pairs = {tuple(edge) for edge in edges.tolist()}
+    assert len(pairs) == len(edges)
+    assert all((end, begin) in pairs for begin, end in pairs)
 
 
 def test_triangles_come_in_the_order_of_the_polygons(tmp_path):
