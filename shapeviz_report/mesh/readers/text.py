@@ -20,7 +20,8 @@ _MARKS = (
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
 _SPECIAL = r"IND|INF|QNAN|SNAN|QNB|J"
-_COMMENT = re.compile(rf"(?!(?<=1\.)#(?:{_SPECIAL}))#[^\n]*", re.IGNORECASE)
+# the '#' comes first, so that the search for it is quick
+_COMMENT = re.compile(rf"#(?!(?<=1\.#)(?i:{_SPECIAL}))[^\n]*")
 _FORTRAN_EXPONENT = re.compile(r"(?<=[\d.])[dD](?=[+-]?\d)")
 _NOT_A_NUMBER = re.compile(
     r"(?<!\S)[+-]?(?:1\.#(?:IND|QNAN|SNAN|QNB)\d*|[qs]?nan(?:\([^()\s]*\)|[qs])?)(?!\S)", re.IGNORECASE
