@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 import trimesh
 
-from shapeviz_report.executor import LocalExecutor
+from shapeviz_report.executor import LocalExecutor, memory_share
 from shapeviz_report.features import compute_histograms, fixed_edges
 from shapeviz_report.mesh import collect_files, prepare
 from shapeviz_report.mesh.read import read_mesh
@@ -354,7 +354,10 @@ def main() -> None:
     parser.add_argument("--reasons", action="store_true", help="print every reason of a refusal once")
     arguments = parser.parse_args()
     found, refusals = Counter[str](), Counter[str]()
-    with tempfile.TemporaryDirectory() as name, LocalExecutor(arguments.jobs, TIME_LIMIT) as executor:
+    with (
+        tempfile.TemporaryDirectory() as name,
+        LocalExecutor(arguments.jobs, TIME_LIMIT, memory_share(arguments.jobs)) as executor,
+    ):
         folder = Path(name)
         for seed in range(arguments.seed, arguments.seed + arguments.rounds):
             titles, paths = [], []

@@ -2,21 +2,32 @@
 
 An entry's name is a hash of everything that went into it: the content of the mesh, the options, the source
 code of the stage, the versions of the libraries behind it. So entries never go stale; they are only no longer
-asked for. An entry is written under another name first and renamed, so a reader never meets half of one.
+asked for. An entry is written under another name first and renamed, so a reader never meets half of one. It begins
+with a checksum over its stage, its key and its content: what a disk, a copy or a person has changed is thrown away
+and computed anew.
 """
 
 from __future__ import annotations
 
 import hashlib
 import importlib
+import logging
 import os
+import shutil
 import tempfile
 from collections.abc import Iterable
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from shapeviz_report.errors import CacheError
+from shapeviz_report.files import read_regular
+
+logger = logging.getLogger(__name__)
+
+_MARK = b"shapeviz-report entry 1\n"
+"""What every entry begins with; the number changes with the layout."""
+
+_DIGEST_SIZE = 32
 
 
 def default_root() -> Path:
@@ -62,41 +73,70 @@ class Cache:
     ----------
     root : Path
         Made when the first entry is stored.
+
+    Attributes
+    ----------
+    spoiled : int
+        Entries that were met and thrown away, for they were not what was stored.
     """
 
     def __init__(self, root: Path) -> None:
         self.root = root
+        self.spoiled = 0
 
     def path(self, stage: str, key: str) -> Path:
         """Where the entry of a stage with a key is or would be."""
         return self.root / stage / key[:2] / key[2:]
 
     def load(self, stage: str, key: str) -> bytes | None:
-        """The content of an entry; None if there is none."""
-        try:
-            return self.path(stage, key).read_bytes()
-        except FileNotFoundError:
-            return None
+        """The content of an entry, exactly as it was stored; None if there is none.
 
-    def demand(self, stage: str, key: str) -> bytes:
-        """The content of an entry that was there a moment ago.
-
-        Raises
-        ------
-        CacheError
-            It has gone.
+        Whatever else is found in its place is thrown away, and counted as spoiled.
         """
-        content = self.load(stage, key)
-        if content is None:
-            raise CacheError(
-                f"A result vanished from the cache {self.root} while it was needed. Build again; two builds can "
-                "share a cache, but nobody may empty it meanwhile."
-            )
-        return content
+        path = self.path(stage, key)
+        try:
+            entry = read_regular(path)
+        except (FileNotFoundError, NotADirectoryError):
+            # A link to nowhere is not found either, and is in the way all the same.
+            entry = b"" if path.is_symlink() else None
+        except OSError:
+            entry = b""
+        if entry is None:
+            return None
+        head, content = entry[: len(_MARK) + _DIGEST_SIZE], entry[len(_MARK) + _DIGEST_SIZE :]
+        if head == _head(stage, key, content):
+            return content
+        self.spoiled += 1
+        discard(path)
+        return None
 
     def store(self, stage: str, key: str, content: bytes) -> None:
         """Write an entry, whole or not at all."""
-        write_atomically(self.path(stage, key), content)
+        write_atomically(self.path(stage, key), _head(stage, key, content) + content)
+
+    def tell_spoiled(self) -> None:
+        """Log a warning if entries were spoiled."""
+        if self.spoiled:
+            logger.warning(
+                "Note: %d kept %s in the cache %s had been damaged; computed anew.",
+                self.spoiled,
+                "result" if self.spoiled == 1 else "results",
+                self.root,
+            )
+
+
+def _head(stage: str, key: str, content: bytes) -> bytes:
+    digest = hashlib.blake2b(f"{stage}\0{key}\0".encode(), digest_size=_DIGEST_SIZE)
+    digest.update(content)
+    return _MARK + digest.digest()
+
+
+def discard(path: Path) -> None:
+    """Remove what stands at a path, be it a file, a link, a pipe or a folder; another process may be faster."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def write_atomically(path: Path, content: bytes) -> None:

@@ -106,6 +106,11 @@ class Config:
     thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
     seed: int = _option(0, "seed of everything random", "N")
     time_limit: float = _option(300.0, "seconds that one mesh may take in one stage", "SECONDS")
+    memory_limit: float | None = _option(
+        None,
+        "GiB of memory that one worker process may take; by default its share of most of what is free",
+        "GIB",
+    )
     jobs: int | None = _option(None, "number of worker processes; by default one a core", "N")
     scheduler: str | None = _option(
         None,
@@ -132,6 +137,7 @@ class Config:
             ("thumbnail_size", 32, 2048),
             ("seed", 0, 2**32 - 1),
             ("time_limit", 1, 1e6),
+            ("memory_limit", 0.5, 1e6),
             ("jobs", 1, 10_000),
         ):
             value = getattr(self, name)
@@ -143,9 +149,14 @@ class Config:
         """Number of worker processes: as asked for, or as many as this process may use cores."""
         return self.jobs or len(os.sched_getaffinity(0))
 
+    @property
+    def memory_bytes(self) -> int | None:
+        """Bytes of memory that one worker process may take; None where the machine decides."""
+        return None if self.memory_limit is None else int(self.memory_limit * 2**30)
+
     def as_parameters(self) -> dict[str, object]:
         """The options that shape the result, as JSON values; not where and how fast it was computed."""
-        left_out = {"single_file", "jobs", *PUBLICATION, "scheduler", "cache", "time_limit"}
+        left_out = {"single_file", "jobs", *PUBLICATION, "scheduler", "cache", "time_limit", "memory_limit"}
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
         return values | {
             "external": [path.name for path in self.external],

@@ -26,8 +26,8 @@ class RenderError(ShapevizError):
     """Pictures cannot be made on this machine (OSMesa is missing, for instance)."""
 
 
-class CacheError(ShapevizError):
-    """The folder of kept results was changed by somebody else."""
+class WorkerError(ShapevizError):
+    """The machine cannot run worker processes."""
 
 
 class ClusterError(ShapevizError):

@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field, replace
+from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
@@ -17,13 +18,13 @@ import numpy as np
 
 from shapeviz_report import demo, stages
 from shapeviz_report.bins import features_of, read_bins, scale_bins
-from shapeviz_report.cache import Cache, default_root, write_atomically
+from shapeviz_report.cache import Cache, default_root, discard, write_atomically
 from shapeviz_report.clusters import Partition, describe_clusters
 from shapeviz_report.config import SEARCHES, Config
 from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
-from shapeviz_report.executor import Executor, LocalExecutor
+from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import (
     BINS,
     BLOCKS,
@@ -195,7 +196,7 @@ def build_report(
     preset = PRESETS[config.preset]
 
     with open_executor(config) as executor:
-        run = _Runner(executor, clock, cache, database, failures)
+        run = _Runner(executor, clock, cache, database, failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
 
         def plan_preparing(shape: str) -> _Task:
@@ -209,7 +210,9 @@ def build_report(
             """A task that starts from the prepared mesh."""
             source = prepared[shape].key
             key = stage.key(source, *(o.tobytes() if isinstance(o, np.ndarray) else o for o in options))
-            return _Task(key, lambda: (cache.demand(stages.PREPARE.folder, source), *options))
+            return _Task(
+                key, lambda: (run.recall(stages.PREPARE, source, lambda: plan_preparing(shape)), *options)
+            )
 
         if preset.fixed_ranges:
             edges = fixed_edges()
@@ -227,13 +230,11 @@ def build_report(
             stages.read_picture,
         )
         views = {shape: result.value[1] for shape, result in pictures.items()}
-        described = run(
-            "describe",
-            stages.DESCRIBE,
-            pictures,
-            lambda s: plan(stages.DESCRIBE, s, views[s], edges, preset.by_area),
-            stages.read_features,
-        )
+
+        def plan_describing(shape: str) -> _Task:
+            return plan(stages.DESCRIBE, shape, views[shape], edges, preset.by_area)
+
+        described = run("describe", stages.DESCRIBE, pictures, plan_describing, stages.read_features)
         shapes = tuple(s for s in database.shapes if s.id in described)
         if not shapes:
             raise DatabaseError(_nothing_usable(database_path, failures))
@@ -275,8 +276,13 @@ def build_report(
             paintings = _paint(run, features, contrasts, plan_painting)
     models = None
     if config.meshes:
-        results = (cache.demand(stages.DESCRIBE.folder, described[s.id].key) for s in shapes)
-        models = tuple(stages.read_model(result) for result in results)
+        models = tuple(
+            stages.read_model(
+                run.recall(stages.DESCRIBE, described[s.id].key, partial(plan_describing, s.id))
+            )
+            for s in shapes
+        )
+    cache.tell_spoiled()
     with clock.stage("score"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
@@ -317,17 +323,27 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
     check_destination(destination, single_file=config.single_file)
     check_renderer()
     progress = progress or QuietProgress()
-    root = (config.cache or default_root()).absolute() / "demo" / f"{stages.GENERATE.version}-{config.seed}"
-    all_tasks = [(c.name, i, config.seed) for c in demo.CLASSES for i in range(demo.PER_CLASS)]
-    tasks = [task for task in all_tasks if not demo.shape_path(root, *task[:2]).exists()]
+    cache = Cache((config.cache or default_root()).absolute())
+    root = cache.root / "demo" / f"{stages.GENERATE.version}-{config.seed}"
+    shapes = {(c.name, i, config.seed): None for c in demo.CLASSES for i in range(demo.PER_CLASS)}
+    made = {task: cache.load("generated", stages.GENERATE.key(*task)) for task in shapes}
+    tasks = [task for task, content in made.items() if content is None]
     if tasks:
         with open_executor(config) as executor, progress.stage("generate", len(tasks)) as advance:
             for outcome in executor.run(stages.generate_shape, tasks):
                 task = tasks[outcome.index]
                 if outcome.reason is not None:
                     raise DatabaseError(f"The demo shape {task} cannot be made: {outcome.reason}.")
-                write_atomically(demo.shape_path(root, *task[:2]), outcome.value)
+                cache.store("generated", stages.GENERATE.key(*task), outcome.value)
+                made[task] = outcome.value
                 advance()
+    cache.tell_spoiled()
+    # The files that are read are written from what is kept, unless they are still the same.
+    for (name, index, _), content in made.items():
+        path = demo.shape_path(root, name, index)
+        if not path.is_file() or path.is_symlink() or path.read_bytes() != content:
+            discard(path)
+            write_atomically(path, content)
     config = replace(config, title=config.title or "Demo shapes", licence=config.licence or "CC0-1.0", up="z")
     return build_report(root, destination, config, progress)
 
@@ -342,8 +358,8 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
             read_bins(config.bins, (*BLOCKS, *(block for block, _ in external)))
     failures = list(database.failures)
     cache = Cache((config.cache or default_root()).absolute())
-    with LocalExecutor(config.worker_count, config.time_limit) as executor:
-        run = _Runner(executor, clock, cache, database, failures)
+    with _open_workers(config, config.worker_count) as executor:
+        run = _Runner(executor, clock, cache, database, failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
 
         def plan(shape: str) -> _Task:
@@ -351,6 +367,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
             return _Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
 
         examined = run("check", stages.EXAMINE, paths, plan, stages.read_repairs)
+    cache.tell_spoiled()
     repairs = {shape: result.value for shape, result in examined.items()}
     return CheckResult(database, repairs, tuple(failures))
 
@@ -359,13 +376,19 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
 def open_executor(config: Config) -> Iterator[Executor]:
     """The executor that a build is to use: the Dask cluster it names, or processes of this machine."""
     if config.scheduler is None:
-        with LocalExecutor(config.worker_count, config.time_limit) as local:
+        with _open_workers(config, config.worker_count) as local:
             yield local
         return
     from shapeviz_report.executor.cluster import DaskExecutor
 
-    with DaskExecutor(config.scheduler, config.time_limit, stages.fingerprint, check_renderer) as cluster:
+    with DaskExecutor(
+        config.scheduler, config.time_limit, config.memory_bytes, stages.fingerprint, check_renderer
+    ) as cluster:
         yield cluster
+
+
+def _open_workers(config: Config, jobs: int) -> LocalExecutor:
+    return LocalExecutor(jobs, config.time_limit, config.memory_bytes or memory_share(config.worker_count))
 
 
 @dataclass(frozen=True)
@@ -396,9 +419,16 @@ class _Runner:
     """Runs one stage for many shapes, keeps what it finds, and turns what goes wrong into failures."""
 
     def __init__(
-        self, executor: Executor, clock: Clock, cache: Cache, database: Database, failures: list[Failure]
+        self,
+        executor: Executor,
+        clock: Clock,
+        cache: Cache,
+        database: Database,
+        failures: list[Failure],
+        config: Config,
     ) -> None:
         self.executor = executor
+        self._config = config
         self.clock = clock
         self._cache = cache
         self._paths = {s.id: _relative(s, database.root) for s in database.shapes}
@@ -484,11 +514,16 @@ class _Runner:
                     drop(name, str(error), 0.0)
                     continue
                 content = self._cache.load(stage.folder, task.key)
-                if content is None:
-                    sent.append((name, task.key))
-                    yield task.arguments()
-                else:
+                if content is not None:
                     take(name, task.key, content, 0.0)
+                    continue
+                try:
+                    arguments = task.arguments()
+                except MeshError as error:
+                    drop(name, str(error), 0.0)
+                    continue
+                sent.append((name, task.key))
+                yield arguments
 
         for outcome in self.executor.run(stage.function, open_tasks()):
             name, key = sent[outcome.index]
@@ -497,6 +532,35 @@ class _Runner:
                 take(name, key, outcome.value, outcome.cpu_seconds)
             else:
                 drop(name, outcome.reason, outcome.cpu_seconds)
+
+    def recall(self, stage: stages.Stage, key: str, plan: Callable[[], _Task]) -> bytes:
+        """A result that was there a moment ago, computed anew if the cache has lost it.
+
+        Parameters
+        ----------
+        stage : Stage
+        key : str
+        plan : callable
+            Its task.
+
+        Raises
+        ------
+        MeshError
+            It cannot be had again: the mesh has changed or gone, or fails this time.
+        """
+        content = self._cache.load(stage.folder, key)
+        if content is not None:
+            return content
+        task = plan()
+        if task.key != key:
+            raise MeshError("its file was changed while it was used; build again")
+        # The executor may be in the middle of a stage, so this rare task has a worker of its own.
+        with _open_workers(self._config, 1) as executor:
+            (outcome,) = executor.run(stage.function, [task.arguments()])
+        if outcome.reason is not None:
+            raise MeshError(outcome.reason)
+        self._cache.store(stage.folder, key, outcome.value)
+        return outcome.value
 
 
 def _cluster(

@@ -21,7 +21,7 @@ from shapeviz_report import __version__, stages
 from shapeviz_report.bins import read_bins
 from shapeviz_report.cache import Cache
 from shapeviz_report.errors import ConfigError, MeshError, SiteError
-from shapeviz_report.executor import Executor, LocalExecutor
+from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import BLOCKS, PRESETS, Preset
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.pipeline import Progress, QuietProgress
@@ -277,7 +277,7 @@ def _measure(
     try:
         files = collect_files(mesh)
         edge_length = float(site.summary["parameters"]["edge_length"])
-        with LocalExecutor(1, time_limit) as executor:
+        with LocalExecutor(1, time_limit, memory_share(1)) as executor:
             with progress.stage("prepare", 0):
                 key = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
                 prepared = _compute(executor, cache, stages.PREPARE, key, lambda: (files, edge_length))
@@ -290,6 +290,7 @@ def _measure(
                 )
     except MeshError as error:
         raise MeshError(f"the mesh {mesh} cannot be used: {error}") from error
+    cache.tell_spoiled()
     return facts, stages.read_array(measured)
 
 

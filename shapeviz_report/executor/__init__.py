@@ -2,5 +2,6 @@
 
 from shapeviz_report.executor.base import Executor, Outcome
 from shapeviz_report.executor.local import LocalExecutor
+from shapeviz_report.executor.memory import memory_share
 
-__all__ = ["Executor", "LocalExecutor", "Outcome"]
+__all__ = ["Executor", "LocalExecutor", "Outcome", "memory_share"]

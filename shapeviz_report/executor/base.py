@@ -46,7 +46,7 @@ class Executor(Protocol):
         Tasks are drawn only as workers become free for them, so their inputs need not all be in memory at
         once. ``function`` must be importable by name, and must find all it needs in its arguments: the worker
         may be on a machine that has neither our files nor our cache. A :class:`ShapevizError` that it raises, a
-        crash and a task over the time limit become outcomes with a reason; any other exception is a bug and
-        is raised here.
+        crash and a task over the time limit or the bound of memory become outcomes with a reason; any other exception
+        is a bug and is raised here.
         """
         ...

@@ -7,11 +7,13 @@ the cluster's worker.
 
 from __future__ import annotations
 
+import os
 import queue
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import suppress
+from functools import cache
 from itertools import islice
 from threading import Lock
 from typing import Any
@@ -19,6 +21,7 @@ from typing import Any
 from shapeviz_report.errors import ClusterError, ConfigError
 from shapeviz_report.executor.base import Outcome
 from shapeviz_report.executor.local import LocalExecutor
+from shapeviz_report.executor.memory import memory_share
 
 ANSWER_TIME = 15.0
 """Seconds that a scheduler has to answer."""
@@ -44,6 +47,8 @@ class DaskExecutor:
         Of the scheduler, such as ``tcp://host:8786``.
     time_limit : float
         Seconds that one task may take before it is stopped.
+    memory_limit : int or None
+        Bytes of memory that one task may take; None for a core's share of what its machine has.
     fingerprint : callable
         Without arguments; returns a text that is the same here and on every worker that may take part.
     check : callable
@@ -59,7 +64,12 @@ class DaskExecutor:
     """
 
     def __init__(
-        self, address: str, time_limit: float, fingerprint: Callable[[], str], check: Callable[[], Any]
+        self,
+        address: str,
+        time_limit: float,
+        memory_limit: int | None,
+        fingerprint: Callable[[], str],
+        check: Callable[[], Any],
     ) -> None:
         try:
             from distributed import Client
@@ -67,7 +77,7 @@ class DaskExecutor:
             raise ConfigError(
                 "a Dask cluster needs Dask here as well: pip install 'shapeviz-report[dask]'"
             ) from error
-        self.time_limit = time_limit
+        self.limits = (time_limit, memory_limit)
         self._expected = (fingerprint, fingerprint(), check)
         try:
             self._client = Client(address, timeout=ANSWER_TIME, set_as_default=False)
@@ -107,7 +117,7 @@ class DaskExecutor:
                 room = TASKS_A_THREAD * self._threads() - len(running)
                 for index, task in islice(waiting, max(0, room)):
                     future = self._client.submit(
-                        _run_there, self._expected, self.time_limit, function, task, pure=False
+                        _run_there, self._expected, self.limits, function, task, pure=False
                     )
                     running[future] = index
                     future.add_done_callback(done.put)
@@ -173,14 +183,17 @@ _checked: set[str] = set()
 
 def _run_there(
     expected: tuple[Callable[[], str], str, Callable[[], Any]],
-    time_limit: float,
+    limits: tuple[float, int | None],
     function: Callable[..., Any],
     task: tuple[Any, ...],
 ) -> Outcome:
     """Run one task in a process of its own on the machine of a cluster's worker."""
+    time_limit, memory_limit = limits
+    if memory_limit is None:
+        memory_limit = _share()
     with _lock:
-        executor = _idle.pop() if _idle else LocalExecutor(1, time_limit)
-    executor.time_limit = time_limit
+        executor = _idle.pop() if _idle else LocalExecutor(1, time_limit, memory_limit)
+    executor.time_limit, executor.memory_limit = time_limit, memory_limit
     try:
         _check(executor, *expected)
         (outcome,) = executor.run(function, [task])
@@ -188,6 +201,12 @@ def _run_there(
     finally:
         with _lock:
             _idle.append(executor)
+
+
+@cache
+def _share() -> int:
+    """Bytes that one task may take on this machine, whose cores may belong to several workers of the cluster."""
+    return memory_share(os.cpu_count() or 1)
 
 
 def _check(

@@ -7,16 +7,19 @@ down takes one task with it and nothing else, and a caller's script is not impor
 from __future__ import annotations
 
 import os
+import signal
 import socket
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
-from shapeviz_report.errors import ShapevizError
+from shapeviz_report.errors import ShapevizError, WorkerError
 from shapeviz_report.executor.base import Outcome
+from shapeviz_report.executor.memory import bound
 
 
 class LocalExecutor:
@@ -28,11 +31,14 @@ class LocalExecutor:
         Number of processes.
     time_limit : float
         Seconds that one task may take before its worker is stopped.
+    memory_limit : int
+        Bytes of memory that one worker may take.
     """
 
-    def __init__(self, jobs: int, time_limit: float) -> None:
+    def __init__(self, jobs: int, time_limit: float, memory_limit: int) -> None:
         self.jobs = jobs
         self.time_limit = time_limit
+        self.memory_limit = memory_limit
         self._workers: list[_Worker] = []
 
     def __enter__(self) -> LocalExecutor:
@@ -72,7 +78,18 @@ class LocalExecutor:
                     except (EOFError, ConnectionError):
                         worker.stop()
                         self._workers.remove(worker)
-                        yield Outcome(index, None, f"the process working on it ended ({worker.fate})", 0.0)
+                        reason = f"the process working on it ended ({worker.fate})"
+                        if worker.process.returncode in _WANTING:
+                            reason += f", perhaps for want of memory: {self._advice}"
+                        yield Outcome(index, None, reason, 0.0)
+                        continue
+                    if isinstance(error, MemoryError):
+                        # What native code left undone when it got no memory is not for the next task.
+                        worker.stop()
+                        self._workers.remove(worker)
+                        yield Outcome(
+                            index, None, f"it needs more memory than there is for it: {self._advice}", cpu
+                        )
                         continue
                     idle.append(worker)
                     if isinstance(error, ShapevizError):
@@ -87,10 +104,18 @@ class LocalExecutor:
                 worker.stop()
                 self._workers.remove(worker)
 
+    @property
+    def _advice(self) -> str:
+        return (
+            f"one process may take {self.memory_limit / 2**30:.1f} GiB; simplify the mesh, or allow more with "
+            "--memory-limit, on a full machine with fewer --jobs"
+        )
+
     def _send(self, message: tuple[Any, ...], idle: list[_Worker]) -> _Worker:
         """Give a task to an idle worker, or to a new one."""
         while idle:
             worker = idle.pop()
+            bound(worker.process.pid, self.memory_limit)
             try:
                 worker.connection.send(message)
                 return worker
@@ -100,8 +125,15 @@ class LocalExecutor:
                 self._workers.remove(worker)
         worker = _Worker()
         self._workers.append(worker)
-        worker.connection.send(message)
+        bound(worker.process.pid, self.memory_limit)
+        # If it ended or refused before it had read all, its answer or its end says so.
+        with suppress(ConnectionError):
+            worker.connection.send(message)
         return worker
+
+
+_WANTING = (-signal.SIGABRT, -signal.SIGKILL, -signal.SIGSEGV)
+"""How a process ends that gets no memory: C++ aborts, C uses what it did not get, and the system kills."""
 
 
 class _Worker:
@@ -120,13 +152,20 @@ class _Worker:
                 "NUMBA_NUM_THREADS",
             ):
                 environment[variable] = "1"
-            self.process = subprocess.Popen(
-                [sys.executable, "-m", "shapeviz_report.executor.worker", str(theirs.fileno())],
-                pass_fds=[theirs.fileno()],
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-            )
+            try:
+                # Standard input is its lifeline: it closes when this process ends, however that comes.
+                self.process = subprocess.Popen(
+                    [sys.executable, "-m", "shapeviz_report.executor.worker", str(theirs.fileno())],
+                    pass_fds=[theirs.fileno()],
+                    env=environment,
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.DEVNULL,
+                )
+            except OSError as error:
+                ours.close()
+                raise WorkerError(
+                    f"A worker process cannot be started: {error.strerror}. End other programs, or use fewer --jobs."
+                ) from error
         self.connection = Connection(ours.detach())
 
     @property
@@ -134,7 +173,7 @@ class _Worker:
         """How the process ended."""
         code = self.process.returncode
         if code is not None and code < 0:
-            return f"signal {-code}" + (", out of memory?" if code == -9 else "")
+            return f"signal {-code}"
         return f"exit code {code}"
 
     def stop(self) -> None:
@@ -146,3 +185,5 @@ class _Worker:
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
+        assert self.process.stdin is not None
+        self.process.stdin.close()

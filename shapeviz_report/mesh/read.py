@@ -110,6 +110,8 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
             vertices, faces = polygons.vertices, triangulate(polygons)
         if not len(faces):
             raise MeshError("it has vertices, but no faces" if len(vertices) else "it has no faces")
+    except (MemoryError, ImportError):  # the machine's fault, not the file's
+        raise
     except (
         Exception
     ) as error:  # a broken file can make a parser fail in any way; none of them may end a build
@@ -145,8 +147,6 @@ def _read_polygons(suffix: str, data: bytes, files: Mapping[str, bytes]) -> Poly
 
 def _explanation(error: Exception) -> str:
     """What a parser's exception tells the owner of a file; most speak of the parser's own insides."""
-    if isinstance(error, MemoryError):
-        return " (it announces more than fits into memory)"
     if "string or file could not be read" in str(error):  # numpy's words; a warning in older versions
         return " (something else stands where a number belongs)"
     detail = " ".join(str(error).split()).rpartition("Error: ")[2]

@@ -70,3 +70,54 @@ def test_a_failed_write_leaves_nothing(tmp_path, monkeypatch) -> None:
 def test_default_root(monkeypatch, tmp_path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     assert default_root() == tmp_path / "shapeviz-report"
+
+
+def _spoil(path, kind: str, other: bytes) -> None:
+    entry = path.read_bytes()
+    flip = {"mark": 0, "digest": 30, "first": 56, "last": -1}
+    if kind in flip:
+        changed = bytearray(entry)
+        changed[flip[kind]] ^= 1
+        path.write_bytes(changed)
+    elif kind in ("folder", "pipe", "link to nowhere", "link to a folder"):
+        path.unlink()
+        if kind == "folder":
+            path.mkdir()
+            (path / "file").write_bytes(b"x")
+        elif kind == "pipe":
+            os.mkfifo(path)
+        else:
+            path.symlink_to(path.parent if kind == "link to a folder" else "nowhere")
+    else:
+        path.write_bytes(
+            {
+                "empty": b"",
+                "cut in its head": entry[:20],
+                "cut": entry[:-7],
+                "longer": entry + b"x",
+                "without a head": entry[56:],
+                "random": bytes(range(256)) * 9,
+                "of another stage": other,
+            }[kind]
+        )
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [
+        "mark", "digest", "first", "last", "folder", "pipe", "link to nowhere", "link to a folder", "empty",
+        "cut in its head", "cut", "longer", "without a head", "random", "of another stage",
+    ],
+)  # fmt: skip
+def test_a_spoiled_entry_is_thrown_away_and_can_be_stored_anew(tmp_path, caplog, kind: str) -> None:
+    cache = Cache(tmp_path)
+    cache.store("stage", "abcdef", b"some content")
+    cache.store("other", "abcdef", b"some content")
+    _spoil(cache.path("stage", "abcdef"), kind, cache.path("other", "abcdef").read_bytes())
+    assert cache.load("stage", "abcdef") is None
+    assert cache.spoiled == 1
+    cache.store("stage", "abcdef", b"some content")
+    assert cache.load("stage", "abcdef") == b"some content"
+    assert cache.load("other", "abcdef") == b"some content"
+    cache.tell_spoiled()
+    assert "1 kept result in the cache" in caplog.text

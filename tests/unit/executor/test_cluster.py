@@ -24,19 +24,19 @@ def address(tmp_path_factory):
 def test_a_scheduler_that_is_not_there(monkeypatch) -> None:
     monkeypatch.setattr(module, "ANSWER_TIME", 1.0)
     with pytest.raises(ClusterError, match=r"tcp://127.0.0.1:9 does not answer.*dask scheduler"):
-        DaskExecutor("tcp://127.0.0.1:9", 60, platform.python_version, os.getpid)
+        DaskExecutor("tcp://127.0.0.1:9", 60, None, platform.python_version, os.getpid)
 
 
 def test_an_address_that_is_none(monkeypatch) -> None:
     monkeypatch.setattr(module, "ANSWER_TIME", 1.0)
     with pytest.raises(ClusterError, match="does not answer"):
-        DaskExecutor("nonsense://", 60, platform.python_version, os.getpid)
+        DaskExecutor("nonsense://", 60, None, platform.python_version, os.getpid)
 
 
 def test_a_worker_with_other_code_is_refused(address) -> None:
     # What differs here and there by itself: the process that answers.
     with (
-        DaskExecutor(address, 60, os.getpid, os.getpid) as executor,
+        DaskExecutor(address, 60, None, os.getpid, os.getpid) as executor,
         pytest.raises(ClusterError, match=r"worker tcp://.* has other versions of shapeviz-report"),
     ):
         list(executor.run(divmod, [(1, 2)]))
@@ -44,21 +44,21 @@ def test_a_worker_with_other_code_is_refused(address) -> None:
 
 def test_a_worker_that_lacks_something_is_refused(address) -> None:
     with (
-        DaskExecutor(address, 60, platform.machine, lack_something) as executor,
+        DaskExecutor(address, 60, None, platform.machine, lack_something) as executor,
         pytest.raises(ClusterError, match=r"worker tcp://.* cannot take part: OSMesa is missing here"),
     ):
         list(executor.run(divmod, [(1, 2)]))
 
 
 def test_a_worker_that_can_draw_takes_part(address) -> None:
-    with DaskExecutor(address, 60, platform.python_version, check_renderer) as executor:
+    with DaskExecutor(address, 60, None, platform.python_version, check_renderer) as executor:
         assert [outcome.value for outcome in executor.run(divmod, [(7, 2)])] == [(3, 1)]
 
 
 def test_a_killed_worker_loses_nothing(tmp_path) -> None:
     with (
         running_cluster(tmp_path, workers=2) as cluster,
-        DaskExecutor(cluster.address, 60, platform.python_version, os.getpid) as executor,
+        DaskExecutor(cluster.address, 60, None, platform.python_version, os.getpid) as executor,
     ):
         outcomes = executor.run(time.sleep, [(0.05,)] * 60)
         found = [next(outcomes)]
@@ -72,7 +72,7 @@ def test_a_cluster_without_workers_is_said(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(module, "PATIENCE", 1.0)
     with (
         running_cluster(tmp_path, workers=0) as cluster,
-        DaskExecutor(cluster.address, 60, platform.python_version, os.getpid) as executor,
+        DaskExecutor(cluster.address, 60, None, platform.python_version, os.getpid) as executor,
         pytest.raises(ClusterError, match="no worker for 1 seconds"),
     ):
         list(executor.run(divmod, [(1, 2)]))
@@ -81,7 +81,7 @@ def test_a_cluster_without_workers_is_said(tmp_path, monkeypatch) -> None:
 def test_a_scheduler_that_goes_is_said(tmp_path, monkeypatch) -> None:
     with (
         running_cluster(tmp_path, workers=1) as cluster,
-        DaskExecutor(cluster.address, 60, platform.python_version, os.getpid) as executor,
+        DaskExecutor(cluster.address, 60, None, platform.python_version, os.getpid) as executor,
     ):
         outcomes = executor.run(time.sleep, [(0.2,)] * 40)
         next(outcomes)

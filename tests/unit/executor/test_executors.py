@@ -5,15 +5,20 @@ from __future__ import annotations
 import os
 import platform
 import signal
+import subprocess
+import sys
 import time
+from pathlib import Path
 
 import pytest
 from cluster import running_cluster
 
-from shapeviz_report.errors import MeshError
+from shapeviz_report.errors import MeshError, WorkerError
 from shapeviz_report.executor import Executor, LocalExecutor
 from shapeviz_report.executor.cluster import DaskExecutor
 from shapeviz_report.mesh import read_mesh
+
+GIB = 2**30
 
 
 @pytest.fixture(scope="module")
@@ -26,10 +31,12 @@ def cluster(tmp_path_factory):
 def make_executor(request):
     """A function that opens an executor with two workers, given a time limit."""
     if request.param == "local":
-        return lambda time_limit: LocalExecutor(2, time_limit)
+        return lambda time_limit, memory_limit=2 * GIB: LocalExecutor(2, time_limit, memory_limit)
     address = request.getfixturevalue("cluster").address
     # Functions of the standard library: the workers of a cluster do not have our tests.
-    return lambda time_limit: DaskExecutor(address, time_limit, platform.python_version, os.getpid)
+    return lambda time_limit, memory_limit=2 * GIB: DaskExecutor(
+        address, time_limit, memory_limit, platform.python_version, os.getpid
+    )
 
 
 @pytest.fixture
@@ -83,7 +90,11 @@ def test_a_crash_takes_one_task_only(executor) -> None:
         ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)",) if i == 3 else ("0",) for i in range(8)
     ]
     found = collect(executor, exec, tasks)
-    assert found.pop(3) == (None, f"the process working on it ended (signal {signal.SIGSEGV})")
+    value, reason = found.pop(3)
+    assert value is None
+    assert reason.startswith(
+        f"the process working on it ended (signal {signal.SIGSEGV}), perhaps for want of"
+    )
     assert all(reason is None for _, reason in found.values())
     assert len(found) == 7
 
@@ -93,6 +104,99 @@ def test_a_task_that_hangs_is_stopped(make_executor) -> None:
         found = collect(executor, time.sleep, [(600,), (0,), (0,), (0,)])
     assert found.pop(0) == (None, "it took longer than 5 seconds")
     assert all(reason is None for _, reason in found.values())
+
+
+# Touched and untouched memory, in one piece and in many, asked for by Python, by numpy and by C.
+_GREEDY = {
+    "one piece": "bytearray(3 << 30)",
+    "untouched": "import numpy; numpy.empty(3 << 30, numpy.uint8)",
+    "many pieces": "kept = []\nwhile True: kept.append(bytearray(1 << 20))",
+    "a huge count": "import numpy; numpy.zeros(1 << 50)",
+    "a mapping": "import mmap; mmap.mmap(-1, 3 << 30, flags=mmap.MAP_PRIVATE)",
+    "its answer": "raise MemoryError",
+}
+
+
+@pytest.mark.skipif(platform.system() != "Linux", reason="only Linux bounds the memory of a process")
+@pytest.mark.parametrize("kind", _GREEDY)
+def test_a_task_that_takes_too_much_memory_is_told_so(make_executor, kind: str) -> None:
+    with make_executor(60, GIB) as executor:
+        found = collect(executor, exec, [("0",), (_GREEDY[kind],), ("0",), ("bytearray(1 << 28)",)])
+    value, reason = found.pop(1)
+    assert value is None
+    assert reason.startswith("it needs more memory than there is for it: one process may take 1.0 GiB;")
+    assert found == dict.fromkeys((0, 2, 3), (None, None))
+
+
+@pytest.mark.skipif(platform.system() != "Linux", reason="only Linux bounds the memory of a process")
+def test_native_code_that_dies_for_want_of_memory_takes_one_task_only(executor) -> None:
+    greedy = "import ctypes\nwhile p := ctypes.CDLL(None).malloc(1 << 20): pass\nimport os; os.abort()"
+    found = collect(executor, exec, [("0",), (greedy,), ("0",)])
+    assert "perhaps for want of memory: one process may take 2.0 GiB" in found.pop(1)[1]
+    assert found == dict.fromkeys((0, 2), (None, None))
+
+
+@pytest.mark.skipif(platform.system() != "Linux", reason="only Linux bounds the memory of a process")
+def test_a_task_too_large_to_be_handed_over_is_told_so() -> None:
+    with LocalExecutor(2, 60, GIB) as executor:
+        found = collect(executor, len, [(b"0",), (bytes(9 << 27),), (b"000",)])
+    assert "needs more memory" in found.pop(1)[1]
+    assert found == {0: (1, None), 2: (3, None)}
+
+
+def test_a_worker_that_cannot_be_started_is_a_sentence(monkeypatch) -> None:
+    monkeypatch.setattr(sys, "executable", "/nowhere/python")
+    with (
+        LocalExecutor(1, 60, GIB) as executor,
+        pytest.raises(WorkerError, match="cannot be started: No such"),
+    ):
+        collect(executor, os.getpid, [()])
+
+
+@pytest.mark.skipif(
+    platform.system() != "Linux", reason="elsewhere a worker ends when its native code returns"
+)
+@pytest.mark.parametrize("native", [False, True])
+def test_workers_end_when_their_parent_is_killed(tmp_path, native: bool) -> None:
+    # PyDLL keeps the interpreter's lock while C sleeps: no thread of the worker can run meanwhile.
+    busy = "import ctypes; ctypes.PyDLL(None).sleep(600)" if native else "import time; time.sleep(600)"
+    task = (
+        f"import os; from pathlib import Path; (Path({str(tmp_path)!r}) / str(os.getpid())).touch(); {busy}"
+    )
+    script = (
+        "from shapeviz_report.executor import LocalExecutor\n"
+        f"list(LocalExecutor(2, 600, 2**30).run(exec, [({task!r},)] * 2))"
+    )
+    parent = subprocess.Popen([sys.executable, "-c", script])
+    try:
+        wait_until(lambda: len(list(tmp_path.iterdir())) == 2)
+    finally:
+        parent.kill()
+        parent.wait()
+    pids = [int(file.name) for file in tmp_path.iterdir()]
+    wait_until(lambda: not any(is_running(pid) for pid in pids))
+
+
+def wait_until(condition, seconds: float = 20) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+def is_running(pid: int) -> bool:
+    # One that nobody has collected yet has ended too.
+    try:
+        return (Path("/proc") / str(pid) / "stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except FileNotFoundError:
+        return False
+
+
+def test_no_descriptor_is_left_open() -> None:
+    before = len(os.listdir("/dev/fd"))
+    with LocalExecutor(2, 60, GIB) as executor:
+        collect(executor, exec, [("0",), ("import os; os._exit(3)",), ("raise MemoryError",)])
+    assert len(os.listdir("/dev/fd")) == before
 
 
 def test_a_bug_keeps_its_traceback(executor) -> None:
