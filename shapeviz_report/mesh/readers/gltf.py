@@ -46,6 +46,9 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES, _TRIANGLE_STRIP, _TRIANGLE_FAN = 4, 5, 6
 _POINTS_AND_LINES = range(4)
 
+_MOVES = frozenset({"translation", "rotation", "scale"})
+_STILL = np.eye(4)
+
 Document = Mapping[str, Any]
 
 
@@ -243,9 +246,10 @@ class _Reader:
         if node.get("mesh") is not None:
             self.entry("meshes", node["mesh"])
             count = self.triangles[node["mesh"]] * self.count_instances(node)
+        transform = _STILL
         if node.get("matrix") is not None:
             transform = np.array(node["matrix"], np.float64).reshape(4, 4).T
-        else:
+        elif not _MOVES.isdisjoint(node):
             transform = _compose(
                 np.array([node.get("translation", (0, 0, 0))], np.float64),
                 np.array([node.get("rotation", (0, 0, 0, 1))], np.float64),
