@@ -52,8 +52,6 @@ def _parse(data: bytes) -> Element:
     Whatever encoding is declared, the parser meets UTF-8: all that matters here is ASCII, names apart, and so there is
     no encoding in which a declaration could pass that is not allowed.
     """
-    if data.startswith(b"PK\3\4"):
-        raise MeshError("it is a .zae archive, COLLADA in a zip; unpack it")
     text = _in_utf8(data)
     if not text.lstrip().startswith(b"<") or b"COLLADA" not in text:
         raise MeshError("it is not COLLADA")
@@ -279,6 +277,8 @@ class _Reader:
             return 0
         total = 0
         for primitive in _primitives(mesh):
+            # what has corners is read, whatever it announces, so that both can be compared
+            total += any(run.text or len(run) for run in primitive.iterfind("*") if run.tag in ("p", "ph"))
             if primitive.tag == "polylist":
                 total += int(np.maximum(_integers(primitive.findtext("vcount") or "") - 2, 0).sum())
             elif primitive.tag == "triangles":
