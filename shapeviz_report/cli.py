@@ -40,6 +40,8 @@ STAGES = {
     "sample": "Finding value ranges",
     "describe": "Describing shapes",
     "render": "Drawing thumbnails",
+    "examine": "Outlining meshes",
+    "compare": "Comparing look-alikes",
     "cluster": "Finding clusters",
     "project": "Projecting",
     "search": "Searching features",
@@ -237,6 +239,10 @@ def _check(options: argparse.Namespace) -> int:
         print("\nWould be repaired, in so many files:")
         for what, count in sorted(mended.items(), key=lambda item: (-item[1], item[0])):
             print(f"  {count:6,}  {what}")
+    if result.copies:
+        print("\nThe same shape again:")
+        for copy in result.copies:
+            print(f"  {_one_line(copy.second)} is {_one_line(copy.first)}: {copy.match.words}")
     _print_failures(result.failures)
     if not result.failures:
         print("\nAll files can be used.")

@@ -22,6 +22,7 @@ from shapeviz_report.cache import Cache, default_root, discard, write_atomically
 from shapeviz_report.clusters import Partition, describe_clusters
 from shapeviz_report.config import SEARCHES, Config
 from shapeviz_report.contrasts import choose_contrasts
+from shapeviz_report.copies import Outline, join_copies, pair_outlines
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
@@ -50,12 +51,15 @@ from shapeviz_report.types import (
     BinScores,
     BinSearch,
     Clusters,
+    Copy,
     Database,
     Failure,
     FeatureBlock,
     FeatureSearch,
     FeatureTable,
     FloatArray,
+    IntArray,
+    Match,
     Painting,
     Projection,
     Publication,
@@ -64,6 +68,7 @@ from shapeviz_report.types import (
     Report,
     Retrieval,
     ShapeEntry,
+    group_copies,
 )
 
 logger = logging.getLogger(__name__)
@@ -151,11 +156,14 @@ class CheckResult:
         Shape id -> what would be mended, for shapes that can be used.
     failures : tuple of Failure
         Files that cannot be used.
+    copies : tuple of Copy
+        Shapes that are the same shape again.
     """
 
     database: Database
     repairs: dict[str, dict[str, int]]
     failures: tuple[Failure, ...]
+    copies: tuple[Copy, ...] = ()
 
 
 def build_report(
@@ -238,6 +246,9 @@ def build_report(
         shapes = tuple(s for s in database.shapes if s.id in described)
         if not shapes:
             raise DatabaseError(_nothing_usable(database_path, failures))
+        examined = run("examine", stages.EXAMINE, described, _plan_examining(paths), stages.read_examined)
+        copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
+        groups = group_copies(copies, [s.id for s in shapes])
         rows = [i for i, s in enumerate(database.shapes) if s.id in described]
         features = FeatureTable(
             tuple(s.id for s in shapes),
@@ -257,9 +268,9 @@ def build_report(
         space = make_space(features, scaled, labels, seed=config.seed)
         mapped = scaled if bins is None else scale_bins(features, preset, bins)
         projections = _project(run, space, features, bins, mapped, config.seed)
-        search = _search(run, space, labels, config)
+        search = _search(run, space, labels, groups, config)
         scores = _score_bins(run, compared_values(features, preset), labels, config.seed)
-        found = _search_bins(run, features, scaled, labels, config)
+        found = _search_bins(run, features, scaled, labels, groups, config)
         chosen = bins if bins is not None else found.automatic.bins if found is not None else None
         by_bins = scale_bins(features, preset, chosen) if chosen else None
         retrieval = _rate_retrieval(run, space, labels, search, chosen or None, by_bins)
@@ -312,6 +323,7 @@ def build_report(
         models=models,
         clusters=clusters,
         publication=publication,
+        copies=copies,
     )
     with clock.stage("write"):
         write_site(report, destination, single_file=config.single_file)
@@ -362,14 +374,21 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         run = _Runner(executor, clock, cache, database, failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
 
-        def plan(shape: str) -> _Task:
-            files = collect_files(paths[shape])
-            return _Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
-
-        examined = run("check", stages.EXAMINE, paths, plan, stages.read_repairs)
+        examined = run("check", stages.EXAMINE, paths, _plan_examining(paths), stages.read_examined)
+        copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
     cache.tell_spoiled()
-    repairs = {shape: result.value for shape, result in examined.items()}
-    return CheckResult(database, repairs, tuple(failures))
+    repairs = {shape: result.value[0] for shape, result in examined.items()}
+    return CheckResult(database, repairs, tuple(failures), copies)
+
+
+def _plan_examining(paths: Mapping[str, Path]) -> Callable[[str], _Task]:
+    """How the mesh file of a shape is examined."""
+
+    def plan(shape: str) -> _Task:
+        files = collect_files(paths[shape])
+        return _Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
+
+    return plan
 
 
 @contextmanager
@@ -563,6 +582,29 @@ class _Runner:
         return outcome.value
 
 
+def _compare(run: _Runner, paths: Mapping[str, Path], outlines: Mapping[str, Outline]) -> tuple[Copy, ...]:
+    """The shapes that are the same shape again; those whose comparison fails are taken for different."""
+    certain, possible = pair_outlines(outlines)
+    found: dict[tuple[str, str], Match | None] = {}
+    with run.clock.stage("compare", len(possible)) as step:
+
+        def plan(pair: tuple[str, str]) -> _Task:
+            first, second = (collect_files(paths[shape]) for shape in pair)
+            names = [stages.identify(paths[shape], files) for shape, files in zip(pair, (first, second))]
+            return _Task(stages.COMPARE.key(*names), lambda: (first, second))
+
+        def take(pair: tuple[str, str], _: str, content: bytes, cpu_seconds: float) -> None:
+            found[pair] = stages.read_match(content)
+            step(cpu_seconds)
+
+        def drop(pair: tuple[str, str], reason: str, cpu_seconds: float) -> None:
+            logger.warning("Whether %s and %s are copies is not known: %s", *pair, reason)
+            step(cpu_seconds)
+
+        run.find(stages.COMPARE, possible, plan, take, drop)
+    return join_copies(certain, found, list(outlines))
+
+
 def _cluster(
     run: _Runner,
     shapes: Sequence[ShapeEntry],
@@ -643,7 +685,7 @@ def _project(
 
 
 def _search(
-    run: _Runner, space: SearchSpace, labels: Sequence[str | None], config: Config
+    run: _Runner, space: SearchSpace, labels: Sequence[str | None], groups: IntArray, config: Config
 ) -> FeatureSearch | None:
     """The search for the best subset of features, its maps made by the executor and kept."""
     if config.search == "none":
@@ -677,7 +719,13 @@ def _search(
             )
 
         return search_features(
-            space, labels, config.search, evaluate=evaluate, seed=config.seed, k=config.neighbours
+            space,
+            labels,
+            config.search,
+            evaluate=evaluate,
+            seed=config.seed,
+            k=config.neighbours,
+            groups=groups,
         )
 
 
@@ -713,7 +761,12 @@ def _score_bins(
 
 
 def _search_bins(
-    run: _Runner, features: FeatureTable, scaled: FloatArray, labels: Sequence[str | None], config: Config
+    run: _Runner,
+    features: FeatureTable,
+    scaled: FloatArray,
+    labels: Sequence[str | None],
+    groups: IntArray,
+    config: Config,
 ) -> BinSearch | None:
     """The bins that separate each class, those that separate all, and what these are worth."""
     if config.search == "none":
@@ -726,13 +779,13 @@ def _search_bins(
     everything = squared_distances(scaled[space.rows])
     shared = {"k": config.neighbours, "seed": config.seed}
     questions: list[tuple[str, Sequence[str | None], dict[str, Any]]] = [("select", labels, shared)]
-    folds = deal_folds(codes, config.seed)
+    folds = deal_folds(codes, config.seed, groups[space.rows])
     for fold in folds:
         questions.append(("hold out", labels, shared | {"fold": fold, "everything": everything}))
     # Each fold meets labels of its own, which tells more of chance than one labeling for all.
     for number in range(min(SHUFFLES, len(folds))):
         shuffled = shuffle_labels(space, labels, config.seed + number)
-        fold = deal_folds(encode(space, shuffled)[1], config.seed)[number]
+        fold = deal_folds(encode(space, shuffled)[1], config.seed, groups[space.rows])[number]
         questions.append(("hold out", shuffled, shared | {"fold": fold, "everything": everything}))
     honest = len(questions)
     for label in (label for label, size in zip(classes, sizes) if size > 1):

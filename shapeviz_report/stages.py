@@ -21,9 +21,11 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report import demo
 from shapeviz_report.cache import code_version, make_key
 from shapeviz_report.clusters import Partition, part
+from shapeviz_report.copies import Outline, compare, outline
 from shapeviz_report.errors import MeshError
 from shapeviz_report.features import compute_histograms, describe, find_bins, measure, sample_values
 from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
+from shapeviz_report.mesh.clean import bounding_diagonal
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import (
@@ -43,6 +45,7 @@ from shapeviz_report.types import (
     FloatArray,
     HeldOutBins,
     IntArray,
+    Match,
     Mesh,
     MinimalBins,
     MinimalSet,
@@ -53,7 +56,7 @@ from shapeviz_report.types import (
 
 
 def examine_shape(files: Mapping[str, bytes]) -> bytes:
-    """What would be repaired in a mesh file, for :func:`read_repairs`.
+    """What would be repaired in a mesh file, and its outline, for :func:`read_examined`.
 
     Parameters
     ----------
@@ -61,17 +64,37 @@ def examine_shape(files: Mapping[str, bytes]) -> bytes:
         As :func:`~shapeviz_report.mesh.collect_files` finds them.
     """
     try:
-        return json.dumps({"repairs": clean(parse_mesh(files))[1]}).encode()
+        mesh, repairs = clean(parse_mesh(files))
     except MeshError as error:
-        return json.dumps({"refused": str(error)}).encode()
+        return _pack_arrays(note=np.array(json.dumps({"refused": str(error)})))
+    note = {"repairs": repairs, "sha256": content_hash(files)}
+    return _pack_arrays(note=np.array(json.dumps(note)), values=outline(mesh))
 
 
-def read_repairs(examined: bytes) -> dict[str, int]:
-    """What would be repaired, and how often. Raises :class:`MeshError` with the reason if it cannot be used."""
-    note = json.loads(examined)
+def read_examined(examined: bytes) -> tuple[dict[str, int], Outline]:
+    """What would be repaired, and how often, and the outline. Raises :class:`MeshError` with the reason if the mesh
+    cannot be used."""
+    arrays = _read_arrays(examined)
+    note = json.loads(str(arrays["note"]))
     if "refused" in note:
         raise MeshError(note["refused"])
-    return note["repairs"]
+    return note["repairs"], Outline(note["sha256"], arrays["values"])
+
+
+def compare_shapes(first: Mapping[str, bytes], second: Mapping[str, bytes]) -> bytes:
+    """Whether two mesh files are the same shape, for :func:`read_match`."""
+    originals = [parse_mesh(files) for files in (first, second)]
+    one, other = (clean(mesh)[0] for mesh in originals)
+    scale = bounding_diagonal(originals[1]) / bounding_diagonal(originals[0])
+    with threadpool_limits(limits=1):
+        match = compare(one, other, scale)
+    return json.dumps(None if match is None else asdict(match)).encode()
+
+
+def read_match(content: bytes) -> Match | None:
+    """What :func:`compare_shapes` found; None for shapes that differ."""
+    fields = json.loads(content)
+    return None if fields is None else Match(**fields)
 
 
 def prepare_shape(files: Mapping[str, bytes], edge_length: float) -> bytes:
@@ -328,7 +351,8 @@ def identify(path: Path, files: Mapping[str, bytes]) -> str:
 
 _READERS = ("numpy", "scipy", "trimesh", "manifold3d", "lxml")
 
-EXAMINE = Stage("examined", examine_shape, ("mesh", "types.mesh"), _READERS)
+EXAMINE = Stage("examined", examine_shape, ("mesh", "types.mesh", "copies"), _READERS)
+COMPARE = Stage("compared", compare_shapes, ("mesh", "types", "copies"), _READERS)
 PREPARE = Stage("prepared", prepare_shape, ("mesh", "types.mesh"), ("mmgpy", *_READERS))
 SAMPLE = Stage("sampled", sample_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
 DESCRIBE = Stage(
@@ -354,6 +378,8 @@ GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "sci
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
     stages = (
+        EXAMINE,
+        COMPARE,
         PREPARE,
         SAMPLE,
         DESCRIBE,

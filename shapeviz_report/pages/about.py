@@ -36,6 +36,7 @@ class AboutPage:
                 "bins": next(iter(report.projections.values()))[0].bins,
                 "balanced": PRESETS[str(report.parameters["preset"])].balanced,
                 "searched": report.search is not None,
+                "copies": report.copies,
                 "clusters": _clusters(report),
                 "stages": _stages(report),
                 "parameters": [(name, _plain(value)) for name, value in report.parameters.items()],
@@ -176,6 +177,11 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
                 ("retrieval-classes.csv", "the same for the shapes of each class"),
             )
             if report.retrieval is not None
+            else ()
+        ),
+        *(
+            (("copies.csv", "pairs of shapes that are the same shape again, and what says so"),)
+            if report.copies
             else ()
         ),
         *(

@@ -89,6 +89,10 @@ def describe_fields(report: Report) -> list[dict[str, object]]:
             found.append(_column(f"column:{name}", name, values))
     if report.clusters is not None and not report.clusters.stand_in:
         found.append(_clusters(report.clusters))
+    if report.copies:
+        copied = {shape for copy in report.copies for shape in (copy.first, copy.second)}
+        has = ["has copies" if shape.id in copied else None for shape in report.shapes]
+        found.append(_field("copies", "Copies") | _values(has, natural))
     for key, title, unit, measure in _FACTS:
         found.append(_numbers(f"fact:{key}", title, [measure(facts) for facts in report.facts], unit))
     tight = ["watertight" if facts.watertight else "open" for facts in report.facts]

@@ -68,15 +68,31 @@ def compare_spreads(names: Sequence[tuple[str, ...]], hits: FloatArray) -> tuple
     return tuple(spreads)
 
 
-def deal_folds(codes: Codes, seed: int) -> tuple[Codes, ...]:
+def deal_folds(codes: Codes, seed: int, groups: npt.NDArray[np.integer] | None = None) -> tuple[Codes, ...]:
     """Part the labelled shapes into folds in which each class has its share; indices.
 
-    Classes are dealt out one after the other, so that the folds differ by at most one shape.
+    Classes are dealt out one after the other, so that the folds differ by at most one shape where no shapes belong
+    together. Of those that do, the first is dealt, and the others follow it.
+
+    Parameters
+    ----------
+    codes : (m,) int array
+        -1 for a shape without a label.
+    seed : int
+    groups : (m,) int array, optional
+        Shapes of one number, such as copies of each other, come into the same fold.
     """
     random = np.random.default_rng(seed)
+    labelled = np.flatnonzero(codes >= 0)
+    own = labelled if groups is None else np.asarray(groups)[labelled]
+    _, first, of = np.unique(own, return_index=True, return_inverse=True)
+    leaders = np.sort(labelled[first])
     classes = range(codes.max(initial=-1) + 1)
-    dealt = np.concatenate([random.permutation(np.flatnonzero(codes == c)) for c in classes])
-    return tuple(np.sort(dealt[i::FOLDS]) for i in range(FOLDS) if len(dealt[i::FOLDS]))
+    dealt = np.concatenate([random.permutation(leaders[codes[leaders] == c]) for c in classes])
+    fold = np.empty(len(codes), dtype=np.intp)
+    fold[dealt] = np.arange(len(dealt)) % FOLDS
+    fold[labelled] = fold[labelled[first]][of]
+    return tuple(labelled[fold[labelled] == i] for i in range(min(FOLDS, len(dealt))))
 
 
 def seen_scores(weights: csr_matrix, codes: Codes, held_out: Codes) -> FloatArray:

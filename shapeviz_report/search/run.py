@@ -25,6 +25,7 @@ from shapeviz_report.types import (
     GreedySearch,
     GreedyStep,
     HeldOutFold,
+    IntArray,
     SearchRow,
     SeedSpread,
     SubsetScores,
@@ -67,6 +68,7 @@ def search_features(
     seed: int = 0,
     k: int = NEIGHBOURS,
     rounds: int | None = None,
+    groups: IntArray | None = None,
 ) -> FeatureSearch:
     """Search for the subset of features whose map separates the classes best.
 
@@ -88,9 +90,12 @@ def search_features(
         Of the neighbourhood hit.
     rounds : int
         Rounds of Table 2; by default ``ROUNDS`` of the method.
+    groups : (n,) int array, optional
+        Of all rows of the feature table; shapes of one group are held out together.
     """
     chosen = [labels[i] for i in space.rows]
-    return _Search(space, chosen, method, evaluate, seed, k).run(rounds or ROUNDS[method])
+    own = None if groups is None else groups[space.rows]
+    return _Search(space, chosen, method, evaluate, seed, k, own).run(rounds or ROUNDS[method])
 
 
 class _Search:
@@ -104,7 +109,9 @@ class _Search:
         evaluate: EvaluateSubsets | None,
         seed: int,
         k: int,
+        groups: IntArray | None,
     ) -> None:
+        self.groups = groups
         self.space, self.method, self.seed = space, method, seed
         self.evaluate = evaluate or (lambda s, subsets: map_subsets(space.squared, method, s, subsets))
         self.classes = tuple(sorted({label for label in labels if label is not None}))
@@ -255,7 +262,7 @@ class _Search:
             subsets = sorted(self.maps)
             weights = self.stack(subsets)
         folds = []
-        for fold in deal_folds(self.codes, self.seed):
+        for fold in deal_folds(self.codes, self.seed, self.groups):
             if exhaustive:
                 scores = seen_scores(weights, self.codes, fold)
                 chosen, seen = subsets[int(scores.argmax())], float(scores.max())

@@ -76,6 +76,8 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
     if report.retrieval is not None:
         files["retrieval.csv"] = _csv(retrieval_rows(report.retrieval))
         files["retrieval-classes.csv"] = _csv(retrieval_class_rows(report.retrieval))
+    if report.copies:
+        files["copies.csv"] = _csv(_copy_rows(report))
     if report.bins is not None:
         files["selected-bins.txt"] = _bin_list(report.bins.automatic).encode()
     return files
@@ -121,6 +123,7 @@ def summary(report: Report, version: str) -> dict[str, object]:
             }
             for method, (projection, quality) in report.projections.items()
         },
+        "copies": [[copy.first, copy.second, copy.match.words] for copy in report.copies],
         "clusters": None if report.clusters is None else _clusters(report, report.clusters),
         "search": None if report.search is None else _search(report, report.search),
         "bins": None if report.bins is None else _bins(report, report.bins),
@@ -315,6 +318,16 @@ def _shape_rows(report: Report) -> list[list[str]]:
                 facts.sha256,
             ]
         )
+    return rows
+
+
+def _copy_rows(report: Report) -> list[list[str]]:
+    """A pair of copies a row."""
+    rows = [["first", "second", "kind", "distance", "largest", "scale", "mirrored"]]
+    for copy in report.copies:
+        match = copy.match
+        measured = map(_number, (match.distance, match.largest, match.scale))
+        rows.append([copy.first, copy.second, match.kind, *measured, "true" if match.mirrored else "false"])
     return rows
 
 

@@ -16,6 +16,7 @@ from shapeviz_report.types.bins import (
     Painting,
 )
 from shapeviz_report.types.clusters import Cluster, Clusters
+from shapeviz_report.types.copies import Copy, Match, group_copies, representatives
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import HitRange, Projection, Quality
@@ -42,6 +43,7 @@ __all__ = [
     "BinStep",
     "Cluster",
     "Clusters",
+    "Copy",
     "Database",
     "Failure",
     "FeatureBlock",
@@ -57,6 +59,7 @@ __all__ = [
     "IntArray",
     "Licence",
     "Logo",
+    "Match",
     "Mesh",
     "MinimalBins",
     "MinimalSet",
@@ -73,4 +76,6 @@ __all__ = [
     "ShapeFacts",
     "SubsetScores",
     "UpAxis",
+    "group_copies",
+    "representatives",
 ]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from shapeviz_report.types.arrays import FloatArray
 from shapeviz_report.types.bins import BinScores, BinSearch, Painting
 from shapeviz_report.types.clusters import Clusters
+from shapeviz_report.types.copies import Copy
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
@@ -60,6 +61,8 @@ class Report:
         None where there are too few shapes.
     publication : Publication
         What the owner says of the database.
+    copies : tuple of Copy
+        Pairs of shapes that are the same shape again, in the order of the shapes.
     """
 
     database: Database
@@ -84,3 +87,4 @@ class Report:
     models: tuple[bytes, ...] | None = None
     clusters: Clusters | None = None
     publication: Publication = Publication()
+    copies: tuple[Copy, ...] = ()

@@ -1,0 +1,426 @@
+"""Copies: shapes that are the same shape again, whatever was done to their files.
+
+A copy may be the same file, or the same surface moved, turned, mirrored, scaled evenly, renumbered, remeshed, decimated
+or triangulated otherwise. Each shape is outlined by numbers that none of this changes; only shapes whose outlines
+nearly agree are laid on each other, and only surfaces that then lie on each other are copies. ``docs/method.md`` says
+what the limits were chosen by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import permutations, product
+
+import numpy as np
+from scipy.spatial import cKDTree
+from scipy.spatial.transform import Rotation
+from trimesh.triangles import closest_point
+
+from shapeviz_report.types import FloatArray, IntArray, Mesh
+from shapeviz_report.types.copies import (
+    IDENTICAL_FILE,
+    IDENTICAL_GEOMETRY,
+    SAME_SURFACE,
+    Copy,
+    Match,
+)
+
+OUTLINE_POINTS = 4000
+"""Points of a surface behind its outline; they tell the quantiles of distances to some thousandths."""
+
+QUANTILES = 16
+"""Of the distances of a surface's points from its centre, in an outline."""
+
+OUTLINE_REACH = 0.04
+"""Outlines that differ by more in any number are of different shapes. Decimation to half changes them by 0.01."""
+
+NEAREST_OUTLINES = 8
+"""Shapes with the nearest outlines that one is compared with, so that comparisons grow with the number of shapes."""
+
+SURFACE_DISTANCE = 0.0004
+"""Largest root mean square distance of one surface, as a fraction of its size."""
+
+SURFACE_LARGEST = 0.006
+"""Largest distance of a point of one surface from another, as a fraction of its size."""
+
+ROUNDING = 1e-5
+"""Triangles whose corners differ by less than this fraction of the size are the same."""
+
+POINTS = 1500
+"""Points of each surface that are laid on the other."""
+
+TRIED_POINTS = 150
+"""Those that choose among many first positions."""
+
+CANDIDATES = 6
+"""Nearest samples of a surface whose faces a point is measured against."""
+
+WIDE_CANDIDATES = 40
+"""The same where these leave a distance: samples of thin parts lie near each other on different faces."""
+
+SAME_LENGTH = 0.05
+"""Principal axes whose lengths differ by less, as a fraction of the size, may stand for each other."""
+
+STARTS = 4
+"""First positions from which surfaces are fitted."""
+
+STEPS = 12
+"""Steps of a fit; it converges quadratically."""
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Numbers of a surface that no motion, reflection, even scaling or triangulation changes.
+
+    Attributes
+    ----------
+    sha256 : str
+        Of the file's content.
+    values : (19,) float64 array
+        Lengths of the principal axes, a third of the root of the area, and quantiles of the distance from the centre;
+        all in units of the root mean square of this distance.
+    """
+
+    sha256: str
+    values: FloatArray
+
+
+def outline(mesh: Mesh) -> FloatArray:
+    """The values of an :class:`Outline` of a cleaned mesh."""
+    frame = _find_frame(mesh)
+    points, _ = sample(mesh, OUTLINE_POINTS)
+    reach = np.linalg.norm(points - frame.centre, axis=1) / frame.radius
+    quantiles = np.quantile(reach, (np.arange(QUANTILES) + 0.5) / QUANTILES)
+    return np.concatenate([frame.lengths, [np.sqrt(frame.area) / frame.radius / 3], quantiles])
+
+
+def pair_outlines(outlines: Mapping[str, Outline]) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
+    """Which shapes may be copies.
+
+    Parameters
+    ----------
+    outlines : mapping of str to Outline
+        By shape id, in the order of the database.
+
+    Returns
+    -------
+    certain : list of (str, str)
+        Shapes of identical files, each with the first of them.
+    possible : list of (str, str)
+        Shapes of other files, the first of each file, that are to be compared; sorted.
+    """
+    first: dict[str, str] = {}
+    certain = []
+    for shape, found in outlines.items():
+        original = first.setdefault(found.sha256, shape)
+        if original != shape:
+            certain.append((original, shape))
+    ids = list(first.values())
+    if len(ids) < 2:
+        return certain, []
+    values = np.array([outlines[shape].values for shape in ids])
+    # The shape itself is the nearest, or as near as the nearest.
+    count = min(NEAREST_OUTLINES + 1, len(ids))
+    near = cKDTree(values).query(values, k=count, p=np.inf, distance_upper_bound=OUTLINE_REACH)[1]
+    pairs = {
+        (min(row, other), max(row, other))
+        for row, others in enumerate(near.tolist())
+        for other in others
+        if other not in (row, len(ids))
+    }
+    return certain, [(ids[a], ids[b]) for a, b in sorted(pairs)]
+
+
+def join_copies(
+    certain: Iterable[tuple[str, str]], compared: Mapping[tuple[str, str], Match | None], ids: Sequence[str]
+) -> tuple[Copy, ...]:
+    """All copies, in the order of ``ids``.
+
+    Parameters
+    ----------
+    certain : pairs of ids
+        Of identical files.
+    compared : mapping of pairs of ids to Match or None
+        What :func:`compare` found.
+    ids : sequence of str
+    """
+    place = {shape: number for number, shape in enumerate(ids)}
+    found = [Copy(a, b, Match(IDENTICAL_FILE)) for a, b in certain]
+    found += [Copy(a, b, match) for (a, b), match in compared.items() if match is not None]
+    return tuple(sorted(found, key=lambda copy: (place[copy.first], place[copy.second])))
+
+
+def compare(first: Mesh, second: Mesh, scale: float = 1.0) -> Match | None:
+    """Whether two surfaces are the same.
+
+    Parameters
+    ----------
+    first, second : Mesh
+        Cleaned, hence in units of the diagonals of their bounding boxes.
+    scale : float
+        The diagonal of the second over that of the first, as the files have them.
+
+    Returns
+    -------
+    Match or None
+        None where no motion, reflection and even scaling lays one surface on the other.
+    """
+    one, other = _Surface(first), _Surface(second)
+    times = scale * other.frame.radius / one.frame.radius
+    fits = [
+        (fit, mirrored)
+        for mirrored in (False, True)
+        if (fit := _fit(one, other, mirrored=mirrored)) is not None
+    ]
+    fits = [found for found in fits if found[0].close]
+    if not fits:
+        return None
+    # Both fit a shape that is its own mirror image, and rounding must not choose.
+    best, mirrored = min(
+        fits, key=lambda found: (found[0].distance > 2 * fits[0][0].distance, found[0].distance)
+    )
+    if len(fits) > 1 and fits[0][0].distance <= 2 * best.distance + ROUNDING:
+        best, mirrored = fits[0]
+    times *= best.scale
+    if _same_triangles(one, other, best):
+        return Match(IDENTICAL_GEOMETRY, scale=times, mirrored=mirrored)
+    return Match(SAME_SURFACE, best.distance, best.largest, times, mirrored)
+
+
+def sample(mesh: Mesh, count: int) -> tuple[FloatArray, IntArray]:
+    """Points (count, 3) spread evenly over a surface and their faces (count,); the same ones every time."""
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    random = np.random.default_rng(0)
+    position = (np.arange(count) + random.random(count)) / count * area.sum()
+    face = np.minimum(np.searchsorted(np.cumsum(area), position), len(area) - 1)
+    u, v = random.random((2, count, 1))
+    root = np.sqrt(u)
+    return (1 - root) * a[face] + root * (1 - v) * b[face] + root * v * c[face], face
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """Where a surface lies: exact moments of its area.
+
+    Attributes
+    ----------
+    centre : (3,) float64 array
+    radius : float
+        Root mean square of the distance from the centre.
+    axes : (3, 3) float64 array
+        Rows: the principal axes, the longest first.
+    lengths : (3,) float64 array
+        Root mean square extents along them over ``radius``; falling.
+    area : float
+    """
+
+    centre: FloatArray
+    radius: float
+    axes: FloatArray
+    lengths: FloatArray
+    area: float
+
+
+def _find_frame(mesh: Mesh) -> _Frame:
+    corners = mesh.vertices[mesh.faces]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
+    total = float(areas.sum())
+    middles = corners.mean(axis=1)
+    centre = areas @ middles / total
+    corners = corners - centre
+    middles = middles - centre
+    # The second moment of a triangle: area / 12 times the sum of those of its corners and nine of its middle.
+    spread = np.einsum("f,fci,fcj->ij", areas, corners, corners)
+    spread = (spread + 9 * np.einsum("f,fi,fj->ij", areas, middles, middles)) / (12 * total)
+    values, vectors = np.linalg.eigh(spread)
+    radius = float(np.sqrt(np.trace(spread)))
+    lengths = np.sqrt(np.maximum(values[::-1], 0)) / radius
+    return _Frame(centre, radius, vectors.T[::-1], lengths, total)
+
+
+class _Surface:
+    """A surface in units of its own radius, centred, ready to be measured against."""
+
+    def __init__(self, mesh: Mesh) -> None:
+        self.frame = _find_frame(mesh)
+        self.size = 1 / self.frame.radius
+        vertices = (mesh.vertices - self.frame.centre) / self.frame.radius
+        self.triangles = vertices[mesh.faces]
+        normals = np.cross(
+            self.triangles[:, 1] - self.triangles[:, 0], self.triangles[:, 2] - self.triangles[:, 0]
+        )
+        self.normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        own = Mesh(vertices, mesh.faces)
+        samples, owners = sample(own, 3 * POINTS)
+        # Points in an order of their own: any first of them are spread over the surface.
+        order = np.random.default_rng(0).permutation(len(samples))
+        self.points = samples[order[:POINTS]]
+        # Small faces, which chance may pass over, have a point each.
+        self.owners = np.concatenate([owners, np.arange(len(mesh.faces))])
+        self.tree = cKDTree(np.concatenate([samples, self.triangles.mean(axis=1)]))
+
+    def closest(self, points: FloatArray, candidates: int = CANDIDATES) -> tuple[FloatArray, FloatArray]:
+        """The nearest points of the surface to some points, and the normals there; both (n, 3)."""
+        _, near = self.tree.query(points, k=min(candidates, len(self.owners)))
+        faces = self.owners[near.reshape(len(points), -1)]
+        asked = np.repeat(points, faces.shape[1], axis=0)
+        found = closest_point(self.triangles[faces.ravel()], asked).reshape(*faces.shape, 3)
+        best = np.linalg.norm(found - points[:, None], axis=2).argmin(axis=1)
+        rows = np.arange(len(points))
+        return found[rows, best], self.normals[faces[rows, best]]
+
+    def distances(self, points: FloatArray) -> FloatArray:
+        """The distance of each point from the surface, looked for the wider the farther it seems."""
+        found = np.linalg.norm(self.closest(points)[0] - points, axis=1)
+        doubtful = np.flatnonzero(found > ROUNDING * self.size)
+        if len(doubtful):
+            again = self.closest(points[doubtful], WIDE_CANDIDATES)[0] - points[doubtful]
+            found[doubtful] = np.linalg.norm(again, axis=1)
+        return found
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """A similarity ``x -> scale * turn @ x + shift`` of the first surface on the second, and how well it lies there."""
+
+    turn: FloatArray
+    scale: float
+    shift: FloatArray
+    distance: float = np.inf
+    largest: float = np.inf
+
+    @property
+    def close(self) -> bool:
+        return self.distance <= SURFACE_DISTANCE and self.largest <= SURFACE_LARGEST
+
+    def apply(self, points: FloatArray) -> FloatArray:
+        return self.scale * points @ self.turn.T + self.shift
+
+    def undo(self, points: FloatArray) -> FloatArray:
+        return (points - self.shift) @ self.turn / self.scale
+
+
+def _fit(one: _Surface, other: _Surface, *, mirrored: bool) -> _Fit | None:
+    """The best of the fits from the most promising first positions."""
+    starts = _first_turns(one.frame, other.frame, mirrored=mirrored)
+    few = one.points[:TRIED_POINTS]
+    misses = [float(np.mean(other.tree.query(few @ turn.T)[0] ** 2)) for turn in starts]
+    best: _Fit | None = None
+    for number in np.argsort(misses, kind="stable")[:STARTS]:
+        fit = _measure(one, other, _settle(one, other, _Fit(starts[number], 1.0, np.zeros(3))))
+        if best is None or fit.distance < best.distance:
+            best = fit
+        if best.distance < ROUNDING:
+            break
+    return best
+
+
+def _first_turns(one: _Frame, other: _Frame, *, mirrored: bool) -> list[FloatArray]:
+    """Rotations, or reflections, that lay principal axes on principal axes; where axes are as long as each other, all
+    that may be meant, closely enough for a fit to find the way."""
+    lengths = one.lengths
+    alike = np.abs(np.diff(lengths)) < SAME_LENGTH
+    if alike.all():
+        between = [rotation.as_matrix() for rotation in _even_rotations()]
+    elif alike.any():
+        axis = np.eye(3)[0 if alike[1] else 2]
+        between = [
+            Rotation.from_rotvec(angle * axis).as_matrix() for angle in np.arange(0, np.pi / 2, np.pi / 16)
+        ]
+    else:
+        between = [np.eye(3)]
+    orders = [
+        order
+        for order in permutations(range(3))
+        if all(abs(lengths[place] - lengths[axis]) < SAME_LENGTH for place, axis in enumerate(order))
+    ]
+    wanted = -1.0 if mirrored else 1.0
+    turns = []
+    for order, signs, rotation in product(orders, product((1.0, -1.0), repeat=3), between):
+        turn = other.axes.T @ (np.array(signs)[:, None] * np.eye(3)[list(order)]) @ rotation @ one.axes
+        if np.linalg.det(turn) * wanted > 0:
+            turns.append(turn)
+    return turns
+
+
+def _even_rotations() -> Rotation:
+    """Rotations that, with those of the cube, leave none more than some 15 degrees away."""
+    return Rotation.random(24, random_state=0)
+
+
+def _settle(one: _Surface, other: _Surface, fit: _Fit) -> _Fit:
+    """Move the first surface onto the second: Gauss-Newton steps on the distances along normals, from points of each
+    to the other (Chen and Medioni, 1992)."""
+    points = one.points[: POINTS // 3]
+    back = other.points[: POINTS // 3]
+    for _ in range(STEPS):
+        moved = fit.apply(points)
+        closest, normals = other.closest(moved)
+        # From the other side: where the first surface is nearest to points of the second, in place.
+        own, turned = one.closest(fit.undo(back))
+        moved = np.concatenate([moved, fit.apply(own)])
+        closest = np.concatenate([closest, back])
+        normals = np.concatenate([normals, turned @ fit.turn.T])
+        missing = np.einsum("ij,ij->i", closest - moved, normals)
+        stretch = np.einsum("ij,ij->i", moved, normals)
+        steps = np.column_stack([np.cross(moved, normals), normals, stretch])
+        # A sphere may turn as it likes: steps that change nothing are not taken.
+        step = np.linalg.lstsq(steps, missing, rcond=1e-6)[0]
+        turn = Rotation.from_rotvec(step[:3]).as_matrix()
+        growth = float(np.clip(1 + step[6], 0.5, 2.0))
+        fit = _Fit(turn @ fit.turn, fit.scale * growth, growth * (turn @ fit.shift) + step[3:6])
+        if np.abs(step).max() < 1e-9:
+            break
+    return fit
+
+
+def _measure(one: _Surface, other: _Surface, fit: _Fit) -> _Fit:
+    """The fit with the distances of the surfaces in it."""
+    there = np.concatenate([one.points, _spread(one.triangles)])
+    back = np.concatenate([other.points, _spread(other.triangles)])
+    moved = fit.apply(there)
+    away = other.distances(moved) / other.size
+    home = one.distances(fit.undo(back)) / one.size
+    means = [float(np.sqrt(np.mean(d[:POINTS] ** 2))) for d in (away, home)]
+    return _Fit(fit.turn, fit.scale, fit.shift, max(means), float(max(away.max(), home.max())))
+
+
+def _spread(triangles: FloatArray) -> FloatArray:
+    """Corners of triangles, ``POINTS`` at most, from all over the list."""
+    corners = triangles.reshape(-1, 3)
+    return corners[:: max(1, len(corners) // POINTS)][:POINTS]
+
+
+def _same_triangles(one: _Surface, other: _Surface, fit: _Fit) -> bool:
+    """Whether each triangle of one surface is one of the other's, in any order and numbering."""
+    if len(one.triangles) != len(other.triangles):
+        return False
+    moved = fit.apply(one.triangles.reshape(-1, 3)).reshape(-1, 3, 3)
+    middles = other.triangles.mean(axis=1)
+    # The fit is as good as its points; triangles that belong together make it exact.
+    _, partner = cKDTree(middles).query(moved.mean(axis=1))
+    if len(np.unique(partner)) < len(partner):
+        return False
+    theirs = other.triangles[partner]
+    between = np.linalg.norm(moved[:, :, None] - theirs[:, None], axis=3)
+    nearest = between.argmin(axis=2)
+    if not (np.sort(nearest, axis=1) == np.arange(3)).all():
+        return False
+    theirs = np.take_along_axis(theirs, nearest[:, :, None], axis=1).reshape(-1, 3)
+    flat = moved.reshape(-1, 3)
+    turn, shift, growth = _superpose(flat, theirs)
+    gap = np.linalg.norm(growth * flat @ turn.T + shift - theirs, axis=1).max()
+    return bool(gap <= ROUNDING * other.size)
+
+
+def _superpose(points: FloatArray, targets: FloatArray) -> tuple[FloatArray, FloatArray, float]:
+    """The similarity that lays points on their targets best (Umeyama, 1991): rotation, shift, scale."""
+    middle, goal = points.mean(axis=0), targets.mean(axis=0)
+    a, b = points - middle, targets - goal
+    u, stretches, v = np.linalg.svd(b.T @ a)
+    signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u @ v))])
+    turn = u * signs @ v
+    scale = float((stretches * signs).sum() / (a**2).sum())
+    return turn, goal - scale * turn @ middle, scale

@@ -1,0 +1,129 @@
+"""Copies are found whatever was done to them, and shapes that are only alike are none."""
+
+from __future__ import annotations
+
+import fast_simplification
+import numpy as np
+import pytest
+import trimesh
+from scipy.spatial.transform import Rotation
+
+from shapeviz_report import demo
+from shapeviz_report.copies import Outline, compare, join_copies, outline, pair_outlines
+from shapeviz_report.mesh import clean, parse_mesh
+from shapeviz_report.search.certainty import deal_folds
+from shapeviz_report.types import Copy, Match, Mesh, group_copies, representatives
+
+TURN = Rotation.from_rotvec([0.3, -1.1, 0.7]).as_matrix()
+
+
+def demo_mesh(name: str, index: int) -> Mesh:
+    return parse_mesh({"a.off": demo.encode_shape(name, index, 0)})
+
+
+def changed(mesh: Mesh, how: str) -> Mesh:
+    """The mesh as another file may have it."""
+    vertices, faces = mesh.vertices, mesh.faces
+    random = np.random.default_rng(1)
+    if how == "moved and scaled":
+        vertices = 1000 * vertices @ TURN.T + [5, -3000, 20]
+    elif how == "mirrored":
+        vertices, faces = vertices * [-1, 1, 1] @ TURN.T, faces[:, ::-1]
+    elif how == "renumbered":
+        order = random.permutation(len(vertices))
+        vertices, faces = vertices[order], np.argsort(order)[faces][random.permutation(len(faces))]
+    elif how == "noise":
+        vertices = vertices + 1e-6 * np.ptp(vertices, axis=0).max() * random.standard_normal(vertices.shape)
+    elif how == "decimated":
+        vertices, faces = fast_simplification.simplify(vertices, faces.astype(np.int64), 0.5)
+        vertices = vertices @ TURN.T
+    elif how == "refined":
+        vertices, faces = trimesh.remesh.subdivide(vertices, faces)
+    return Mesh(np.asarray(vertices, float), np.asarray(faces, np.int32))
+
+
+def match(first: Mesh, second: Mesh) -> Match | None:
+    return compare(clean(first)[0], clean(second)[0])
+
+
+@pytest.mark.parametrize(
+    ("how", "kind", "mirrored"),
+    [
+        ("moved and scaled", "identical geometry", False),
+        ("mirrored", "identical geometry", True),
+        ("renumbered", "identical geometry", False),
+        ("noise", "identical geometry", False),
+        ("decimated", "same surface", False),
+        ("refined", "same surface", False),
+    ],
+)
+def test_a_copy_is_found_with_what_was_done_to_it(how: str, kind: str, mirrored: bool) -> None:
+    original = demo_mesh("hand", 2)
+    found = match(original, changed(original, how))
+    assert found is not None
+    assert (found.kind, found.mirrored) == (kind, mirrored)
+
+
+@pytest.mark.parametrize("how", ["moved and scaled", "mirrored", "refined"])
+@pytest.mark.parametrize("solid", ["box", "cube", "ring", "sheet"])
+def test_symmetric_and_flat_shapes_are_found_too_and_need_no_mirror(solid: str, how: str) -> None:
+    made = {
+        "box": trimesh.creation.box((2, 3, 4)),
+        "cube": trimesh.creation.box((1, 1, 1)),
+        "ring": trimesh.creation.torus(1, 0.3, 24, 12),
+        "sheet": trimesh.Trimesh([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]),
+    }[solid]
+    original = Mesh(np.array(made.vertices, float), np.array(made.faces, np.int32))
+    found = match(original, changed(original, how))
+    assert found is not None
+    assert not found.mirrored
+
+
+def test_boxes_of_other_proportions_are_no_copies() -> None:
+    boxes = [trimesh.creation.box(size) for size in ((2, 3, 4), (2, 3, 4.2))]
+    assert match(*(Mesh(np.array(b.vertices, float), np.array(b.faces, np.int32)) for b in boxes)) is None
+
+
+def test_shapes_of_a_class_are_no_copies_of_each_other() -> None:
+    names = [(name, index) for name in ("cup", "plier", "glasses") for index in range(6)]
+    meshes = {f"{name}/{index}": clean(demo_mesh(name, index))[0] for name, index in names}
+    certain, possible = pair_outlines({i: Outline(i, outline(mesh)) for i, mesh in meshes.items()})
+    assert certain == []
+    assert [pair for pair in possible if compare(*(meshes[i] for i in pair)) is not None] == []
+
+
+def test_outlines_propose_copies_and_identical_files_need_no_comparison() -> None:
+    original = demo_mesh("bird", 1)
+    meshes = {
+        how: changed(original, how) for how in ("as it is", "mirrored", "decimated", "moved and scaled")
+    }
+    outlines = {how: Outline(how, outline(clean(mesh)[0])) for how, mesh in meshes.items()}
+    outlines["again"] = outlines["as it is"]
+    certain, possible = pair_outlines(outlines)
+    assert certain == [("as it is", "again")]
+    assert len(possible) == 6
+
+
+def test_groups_follow_chains_of_copies() -> None:
+    ids = ["a", "b", "c", "d", "e"]
+    found = join_copies([("b", "e")], {("c", "e"): Match("same surface"), ("a", "d"): None}, ids)
+    assert [(copy.first, copy.second) for copy in found] == [("b", "e"), ("c", "e")]
+    groups = group_copies(found, ids)
+    assert groups.tolist() == [0, 1, 1, 2, 1]
+    assert representatives(groups).tolist() == [0, 1, 3]
+    assert group_copies([Copy("a", "gone", Match("identical file"))], ids).tolist() == [0, 1, 2, 3, 4]
+
+
+def test_no_fold_parts_copies() -> None:
+    codes = np.repeat(np.arange(4), 10)
+    groups = np.arange(40)
+    groups[[3, 25, 39]] = 3
+    folds = deal_folds(codes, 0, groups)
+    assert sorted(np.concatenate(folds).tolist()) == list(range(40))
+    assert sum(bool(np.isin([3, 25, 39], fold).any()) for fold in folds) == 1
+
+
+def test_folds_without_copies_are_dealt_as_before() -> None:
+    codes = np.array([0, 1, -1, 1, 0, 1, 1, 0, 1])
+    for plain, grouped in zip(deal_folds(codes, 3), deal_folds(codes, 3, np.arange(9)), strict=True):
+        assert plain.tolist() == grouped.tolist()
