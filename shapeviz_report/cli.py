@@ -19,6 +19,7 @@ from tqdm import tqdm
 from shapeviz_report import __version__
 from shapeviz_report.config import FILE_NAME, PUBLICATION, Config, load_config
 from shapeviz_report.errors import ShapevizError
+from shapeviz_report.order import classes_of
 from shapeviz_report.types import Database, Failure, Report
 
 if TYPE_CHECKING:
@@ -299,7 +300,6 @@ def _print_found(result: QueryResult, mesh: Path) -> None:
 
 def _print_database(database: Database) -> None:
     print(f"{database.name}: {len(database.shapes):,} shapes, read as {database.layout} from {database.root}")
-    from shapeviz_report.pages.fields import natural
 
     for labeling in database.labelings:
         sizes = Counter(s.labels[labeling] for s in database.shapes if labeling in s.labels)
@@ -308,8 +308,8 @@ def _print_database(database: Database) -> None:
             f"\nLabeling {labeling!r}: {len(sizes)} classes"
             + (f", {missing} shapes without" if missing else "")
         )
-        for label, count in sorted(sizes.items(), key=lambda item: natural(item[0])):
-            print(f"  {count:6,}  {_one_line(label)}")
+        for label in classes_of(sizes):
+            print(f"  {sizes[label]:6,}  {_one_line(label)}")
     if not database.labelings:
         print("\nNo labels: the map will be drawn in one colour, and there is no neighbourhood hit.")
     for warning in database.warnings:
@@ -325,7 +325,7 @@ def _print_failures(failures: Sequence[Failure]) -> None:
 
 
 def _print_summary(report: Report, destination: Path) -> None:
-    classes = len({label for label in report.labels if label is not None})
+    classes = len(classes_of(report.labels))
     rows = [
         ("shapes", f"{len(report.shapes):,}"),
         ("classes", f"{classes:,}" if classes else "none: no labels"),

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial.distance import cdist
 
+from shapeviz_report.order import classes_of
 from shapeviz_report.quality import neighbour_weights
 from shapeviz_report.types import BinSearch, FeatureTable, FloatArray
 
@@ -24,7 +25,7 @@ def find_centres(scaled: FloatArray, labels: Sequence[str | None]) -> dict[str, 
     labels : n labels
     """
     centres = {}
-    for label in sorted({label for label in labels if label is not None}):
+    for label in classes_of(labels):
         rows = np.flatnonzero([other == label for other in labels])
         offsets = scaled[rows] - scaled[rows].mean(axis=0)
         centres[label] = int(rows[np.square(offsets).sum(axis=1).argmin()])
@@ -46,7 +47,7 @@ def find_rivals(xy: FloatArray, labels: Sequence[str | None], k: int) -> dict[st
         At least 1; less where there are fewer other shapes.
     """
     k = min(k, len(xy) - 1)
-    classes = sorted({label for label in labels if label is not None})
+    classes = classes_of(labels)
     members = np.array([[label == name for label in labels] for name in classes], dtype=float)
     shares = members @ neighbour_weights(xy, k) @ members.T
     means = members / members.sum(axis=1, keepdims=True)
@@ -103,9 +104,7 @@ def choose_contrasts(
         for column in (column for chosen in separated.sets for column in chosen.bins):
             pairs.setdefault(column, []).extend((separated.label, rivals[separated.label]))
     columns = {column: place for place, column in enumerate(table.columns)}
-    means = {
-        label: table.values[[other == label for other in labels]].mean(axis=0) for label in sorted(centres)
-    }
+    means = {label: table.values[[other == label for other in labels]].mean(axis=0) for label in centres}
     for column in found.automatic.bins:
         amounts = {label: values[columns[column]] for label, values in means.items()}
         pairs.setdefault(column, []).extend((max(amounts, key=amounts.get), min(amounts, key=amounts.get)))

@@ -37,6 +37,7 @@ from shapeviz_report.features import (
     scale,
 )
 from shapeviz_report.mesh import collect_files
+from shapeviz_report.order import classes_of
 from shapeviz_report.projections import PROJECTIONS, align, squared_distances
 from shapeviz_report.publication import licence_warning, read_publication
 from shapeviz_report.quality import score
@@ -733,7 +734,7 @@ def _score_bins(
     run: _Runner, compared: FloatArray, labels: Sequence[str | None], seed: int
 ) -> BinScores | None:
     """How well every bin separates each class from the rest, by every scorer; a task a class."""
-    classes = sorted({label for label in labels if label is not None})
+    classes = classes_of(labels)
     if len(classes) < 2:
         return None
     content = sha256(compared.tobytes()).hexdigest()

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.sparse import csr_matrix
 
+from shapeviz_report.order import classes_of, natural
 from shapeviz_report.types import FloatArray, HitRange, Quality
 
 NEIGHBOURS = 10
@@ -48,7 +49,7 @@ def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, 
     """
     count = len(labels)
     k = min(k, count - 1)
-    classes = sorted({label for label in labels if label is not None})
+    classes = classes_of(labels)
     number = {label: i for i, label in enumerate(classes)}
     codes = np.array([-1 if label is None else number[label] for label in labels])
     labelled = codes >= 0
@@ -72,7 +73,7 @@ def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, 
     return Quality(
         k=k,
         nh=nh,
-        nh_c=dict(sorted(nh_c.items(), key=lambda item: (-item[1], item[0]))),
+        nh_c=dict(sorted(nh_c.items(), key=lambda item: (-item[1], natural(item[0])))),
         nh_s=float(nh[labelled].mean()),
         null_mean=float(null.mean()),
         null_std=float(null.std()),
@@ -94,7 +95,7 @@ def hit_range(labels: Sequence[str | None], k: int = NEIGHBOURS) -> HitRange:
     others = len(labels) - 1
     if not named or min(k, others) < 1:
         return HitRange({}, {}, None, None)
-    sizes = dict(sorted(named.items()))
+    sizes = {label: named[label] for label in classes_of(named)}
     codes = np.repeat(np.arange(len(sizes)), list(sizes.values()))
     highest = highest_hits(codes, min(k, others))
     return HitRange(

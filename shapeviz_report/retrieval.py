@@ -14,6 +14,7 @@ import numba
 import numpy as np
 import numpy.typing as npt
 
+from shapeviz_report.order import classes_of
 from shapeviz_report.quality import TIE
 from shapeviz_report.types import FloatArray, IntArray, Rating, Retrieval
 
@@ -82,12 +83,12 @@ def query_classes(labels: Sequence[str | None]) -> tuple[tuple[str, ...], IntArr
     Returns
     -------
     classes : tuple of str
-        Those of at least two shapes, by name.
+        Those of at least two shapes, in natural order.
     codes : (n,) int32 array
         Place among the classes; -1 for a shape of none of them.
     """
     names = [label for label in labels if label is not None]
-    classes = tuple(sorted({name for name in names if names.count(name) > 1}))
+    classes = tuple(name for name in classes_of(names) if names.count(name) > 1)
     number = {name: place for place, name in enumerate(classes)}
     return classes, np.array([-1 if label is None else number.get(label, -1) for label in labels], np.int32)
 

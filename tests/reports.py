@@ -19,6 +19,7 @@ from shapeviz_report.clusters import describe_clusters, part
 from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.models import pack_model, simplify
+from shapeviz_report.order import classes_of
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.retrieval import query_classes, rate, rate_chance, rate_subsets
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
@@ -185,7 +186,7 @@ def with_search(report: Report, *, limit: int = 1000) -> Report:
 def with_scores(report: Report) -> Report:
     """The report with the scores of its bins for every class against the rest, by all scorers; without where there
     are not two classes."""
-    classes = tuple(sorted({label for label in report.labels if label is not None}))
+    classes = classes_of(report.labels)
     if len(classes) < 2:
         return report
     compared = compared_values(report.features, PRESETS["default"])

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import ClassVar
 
+from shapeviz_report.order import natural
 from shapeviz_report.types import Database, ShapeEntry
 
 
@@ -103,5 +104,5 @@ def endings_of(parts: Sequence[str]) -> list[str]:
 
 
 def sorted_shapes(shapes: Iterable[ShapeEntry]) -> tuple[ShapeEntry, ...]:
-    """Shapes in the order that a database has them in."""
-    return tuple(sorted(shapes, key=lambda shape: shape.id))
+    """Shapes in the order that a database has them in: natural, by id."""
+    return tuple(sorted(shapes, key=lambda shape: natural(shape.id)))

@@ -9,6 +9,7 @@ from pathlib import Path
 from shapeviz_report.database.formats import is_read, is_unread_mesh, why_not_read
 from shapeviz_report.database.text import readable
 from shapeviz_report.errors import DatabaseError
+from shapeviz_report.order import natural
 from shapeviz_report.types import Failure
 
 _NEVER_SHAPES = ("__MACOSX",)
@@ -123,5 +124,5 @@ def scan_folder(root: Path) -> Found:
             else:
                 fail(relative, "this is not a regular file")
     files.sort(key=lambda file: (file.relative, os.fsencode(file.location)))
-    failures.sort(key=lambda failure: (failure.path, failure.reason))
+    failures.sort(key=lambda failure: (natural(failure.path), failure.reason))
     return Found(tuple(files), tuple(failures))

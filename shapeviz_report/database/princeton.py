@@ -28,6 +28,7 @@ from shapeviz_report.database.folder import MeshFile, scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, suffix_of
 from shapeviz_report.database.text import clean, decode
 from shapeviz_report.errors import DatabaseError
+from shapeviz_report.order import natural
 from shapeviz_report.types import Database, Failure, ShapeEntry
 
 CLASSIFICATION_FOLDER = "classification"
@@ -145,7 +146,7 @@ class Princeton(Layout):
                     f"{listed_in[model].relative_to(root).as_posix()} lists the model {model}, but below "
                     f"{root.name} there is no mesh called m{model} or {model}",
                 )
-                for model in sorted(set(listed_in) - set(meshes))
+                for model in sorted(set(listed_in) - set(meshes), key=natural)
             ),
             warnings=tuple(warnings),
         )
@@ -269,7 +270,7 @@ def _combine(
                         )
         above = {name: parent for name, parent in parents.items() if parent is not None}
         classifications.append(Classification(name, classes, above))
-    return sorted(classifications, key=lambda found: (-len(set(found.classes.values())), found.name))
+    return sorted(classifications, key=lambda found: (-len(set(found.classes.values())), natural(found.name)))
 
 
 def _levels(classification: Classification, models: Sequence[str]) -> list[tuple[str, dict[str, str]]]:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report import charts
+from shapeviz_report.order import classes_of
 from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.types import FloatArray, Projection, Report
 
@@ -63,8 +64,8 @@ class Page(Protocol):
 
 
 def class_names(report: Report) -> tuple[str, ...]:
-    """The classes of the active labeling that have a shape, sorted."""
-    return tuple(sorted({label for label in report.labels if label is not None}))
+    """The classes of the active labeling that have a shape, in natural order."""
+    return classes_of(report.labels)
 
 
 def clusters_chunk(report: Report) -> dict[str, object] | None:

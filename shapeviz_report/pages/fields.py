@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
+from shapeviz_report.order import natural
 from shapeviz_report.types import Clusters, Report, ShapeFacts
 
 #: Most values of a column that still says what kind of shape one is; beyond, it names them, and is only searched.
@@ -38,20 +39,6 @@ _FACTS: tuple[tuple[str, str, str, Callable[[ShapeFacts], float | None]], ...] =
 )
 
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
-
-
-def natural(text: str) -> tuple[object, ...]:
-    """A key that sorts as people do: ``cup 2`` before ``cup 10``, capitals among small letters.
-
-    The text itself comes last, so that only equal texts are equal.
-    """
-    parts = re.split(r"(\d+)", text.casefold(), flags=re.ASCII)
-    # Split at numbers, every second part is one: text is compared with text, numbers with numbers. A number is
-    # compared by its length before its digits, because Python turns no text of thousands of digits into one.
-    key = tuple(
-        (len(part.lstrip("0")), part.lstrip("0")) if place % 2 else part for place, part in enumerate(parts)
-    )
-    return key, text
 
 
 def describe_fields(report: Report) -> list[dict[str, object]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from shapeviz_report.pages.fields import natural
+from shapeviz_report.order import natural
 from shapeviz_report.types import Report
 
 #: What stands between a class and its parent in a value that names both.

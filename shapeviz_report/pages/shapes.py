@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from shapeviz_report.order import natural
 from shapeviz_report.pages.base import PageContent
-from shapeviz_report.pages.fields import describe_fields, natural
+from shapeviz_report.pages.fields import describe_fields
 from shapeviz_report.pages.hierarchy import describe_hierarchy
 from shapeviz_report.types import Report
 

@@ -9,6 +9,7 @@ from itertools import product
 import numpy as np
 import numpy.typing as npt
 
+from shapeviz_report.order import classes_of
 from shapeviz_report.scorers.base import Scorer
 from shapeviz_report.types import FloatArray
 
@@ -70,7 +71,7 @@ def each_from_each(
     """
     classes = set(classes)
     distinct: dict[frozenset[str], tuple[str, str]] = {}
-    for pair in product(sorted(classes), sorted(_others(labels, classes, others))):
+    for pair in product(classes_of(classes), classes_of(_others(labels, classes, others))):
         if pair[0] != pair[1]:
             distinct.setdefault(frozenset(pair), pair)  # a pair and its reverse are one contest
     return [Contest(_rows(labels, {one}), _rows(labels, {other})) for one, other in distinct.values()]

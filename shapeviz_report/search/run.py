@@ -8,6 +8,7 @@ from math import comb
 import numpy as np
 from scipy.sparse import csr_matrix, vstack
 
+from shapeviz_report.order import classes_of
 from shapeviz_report.projections import turn_towards
 from shapeviz_report.quality import NEIGHBOURS, highest_hits, neighbour_weights, neighbourhood_hits
 from shapeviz_report.search.certainty import (
@@ -114,7 +115,7 @@ class _Search:
         self.groups = groups
         self.space, self.method, self.seed = space, method, seed
         self.evaluate = evaluate or (lambda s, subsets: map_subsets(space.squared, method, s, subsets))
-        self.classes = tuple(sorted({label for label in labels if label is not None}))
+        self.classes = classes_of(labels)
         number = {label: i for i, label in enumerate(self.classes)}
         self.codes = np.array([-1 if label is None else number[label] for label in labels], dtype=np.intp)
         self.labelled = self.codes >= 0

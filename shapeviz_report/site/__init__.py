@@ -18,6 +18,7 @@ from markupsafe import Markup
 
 from shapeviz_report.cache import write_atomically
 from shapeviz_report.errors import SiteError
+from shapeviz_report.order import natural
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.pages.bins import model_name, painting_name
@@ -388,7 +389,7 @@ def _check_report(report: Report) -> None:
             raise ValueError(f"inconsistent report: {what}")
 
     require(len(set(ids)) == count, "two shapes share an id")
-    require(list(ids) == sorted(ids), "shapes are not sorted by id")
+    require(list(ids) == sorted(ids, key=natural), "shapes are not sorted by id")
     require(ids == report.features.shape_ids, "feature rows are not those of the shapes")
     require(
         report.features.values.shape == (count, len(report.features.columns)), "feature table of another size"

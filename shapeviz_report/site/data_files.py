@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from shapeviz_report.pages.base import class_names
 from shapeviz_report.quality import hit_range, share_of_range
 from shapeviz_report.site.retrieval_data import (
     retrieval_class_rows,
@@ -85,7 +86,7 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
 
 def summary(report: Report, version: str) -> dict[str, object]:
     """The content of ``summary.json``: counts, failures, quality, times. Missing numbers are None."""
-    classes = {label for label in report.labels if label is not None}
+    classes = class_names(report)
     return {
         "generator": GENERATOR,
         "version": version,

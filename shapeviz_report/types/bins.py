@@ -19,7 +19,7 @@ class BinScores:
     methods : tuple of str
         Names of the scorers.
     classes : tuple of str
-        Sorted by name.
+        In natural order.
     values : (methods, classes, columns) float32 array
         Relative scores in [0, 1]: the best bin of a method and class has 1, and all have 0 where none tells the
         class from the rest. Columns as in the feature table.

@@ -23,7 +23,7 @@ class Report:
     """All that a site shows: the input of the pages.
 
     ``shapes``, ``facts``, ``thumbnails``, ``labels``, the rows of ``features`` and of every projection and
-    quality have the same order: that of ``shapes``, sorted by id.
+    quality have the same order: that of ``shapes``, in natural order of ids.
 
     Attributes
     ----------

@@ -202,7 +202,7 @@ class FeatureSearch:
     features : tuple of str
         Columns of ``subsets.members``.
     classes : tuple of str
-        Columns of ``subsets.nh_c``, sorted by name.
+        Columns of ``subsets.nh_c``, in natural order.
     rows : (m,) int32 array
         The shapes that took part, as rising rows of the feature table.
     shape_count : int

@@ -82,9 +82,9 @@ export class Bins {
    * a part of names or of a feature's title; else all that several such texts name, with spaces or commas between.
    */
   find(text) {
-    const wanted = text.trim().toLocaleLowerCase();
+    const wanted = text.trim().toLowerCase();
     if (wanted === "") return [];
-    this.#searched ??= this.names.map((name) => name.toLocaleLowerCase());
+    this.#searched ??= this.names.map((name) => name.toLowerCase());
     const found = this.#named(wanted);
     if (found.length > 0) return found;
     const parts = wanted.split(/[\s,;]+/).filter(Boolean);
@@ -100,7 +100,7 @@ export class Bins {
     const where = (holds) => this.#searched.flatMap((name, column) => (holds(name, column) ? [column] : []));
     const begun = where((name) => name.startsWith(wanted));
     if (begun.length > 0) return begun;
-    const titled = this.features.map(({ title }) => title.toLocaleLowerCase().includes(wanted));
+    const titled = this.features.map(({ title }) => title.toLowerCase().includes(wanted));
     return where((name, column) => name.includes(wanted) || titled[this.#featureOf[column]]);
   }
 

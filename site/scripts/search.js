@@ -63,5 +63,5 @@ export function findWords(texts, query) {
 
 /** Small letters without accents: who types "munze" means "Münze". */
 function plain(text) {
-  return text.toLocaleLowerCase().normalize("NFD").replace(/[\u0300-\u036f]/g, "");
+  return text.toLowerCase().normalize("NFD").replace(/[\u0300-\u036f]/g, "");
 }

@@ -16,6 +16,7 @@ from threadpoolctl import threadpool_limits
 
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.features import Preset
+from shapeviz_report.order import classes_of
 from shapeviz_report.projections import PROJECTIONS, arrange, canonical_order
 from shapeviz_report.quality import neighbour_weights, neighbourhood_hits
 from shapeviz_report.search.bins.kernels.neighbour_hits import hits_with_each
@@ -119,7 +120,7 @@ def make_bin_space(
 
 
 def encode(space: BinSpace, labels: Sequence[str | None]) -> tuple[tuple[str, ...], Codes]:
-    """The classes by name, and the class of each shape of a space as a number, -1 without a label.
+    """The classes in natural order, and the class of each shape of a space as a number, -1 without a label.
 
     Parameters
     ----------
@@ -127,7 +128,7 @@ def encode(space: BinSpace, labels: Sequence[str | None]) -> tuple[tuple[str, ..
     labels : labels of all shapes of the table
     """
     own = [labels[row] for row in space.rows]
-    classes = tuple(sorted({label for label in own if label is not None}))
+    classes = classes_of(own)
     numbers = {label: number for number, label in enumerate(classes)}
     return classes, np.array([-1 if label is None else numbers[label] for label in own], dtype=np.int64)
 

@@ -11,6 +11,7 @@ import pytest
 
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import DatabaseError
+from shapeviz_report.order import natural
 from shapeviz_report.types import Database
 
 
@@ -208,7 +209,7 @@ def test_ids_are_unique_whatever_the_names(tmp_path):
         utf8,
     )
     ids = [shape.id for shape in read_database(tmp_path).shapes]
-    assert ids == sorted(ids)
+    assert ids == sorted(ids, key=natural)
     assert len(set(ids)) == 8
     assert {"cup/1.off", "cup/1.obj", "cup/1.OBJ", "cup/2.off.obj", "cup/3", "cup/Tasse-ü.off"} < set(ids)
     assert "".join(ids).encode("utf-8")

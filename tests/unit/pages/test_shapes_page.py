@@ -13,7 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from reports import NASTY_LABELS, with_columns, with_parents
 
-from shapeviz_report.pages.fields import MOST_INTERVALS, describe_fields, natural
+from shapeviz_report.order import natural
+from shapeviz_report.pages.fields import MOST_INTERVALS, describe_fields
 from shapeviz_report.pages.hierarchy import describe_hierarchy
 from shapeviz_report.pages.shapes import ShapesPage
 from shapeviz_report.types import Cluster, Clusters
