@@ -72,30 +72,55 @@ def shape_names(ids: Sequence[str]) -> list[str]:
     """A name a shape that tells it from all others, and is no longer than that needs.
 
     The name is the last part of the id, the file's name. Shapes that share theirs have instead the last folders,
-    and the file's name, as many as are needed; folders that are the same in all of those, and a file name that is the
-    same in the whole database, are left out:
-    ``chair/1a04/models/model`` is ``1a04`` where every file is called ``models/model``.
+    and the file's name, as many as are needed. What tells none of those apart is left out: the file's name, where
+    most of them lie alone in a folder, and folders that most of them share at the same depth.
+    ``chair/1a04/models/model`` is ``1a04`` where every shape is called ``models/model`` in a folder of its own.
 
     Parameters
     ----------
     ids : sequence of str
         As :func:`shape_ids` returns them: no two are equal.
     """
-    parts = [id.split("/")[::-1] for id in ids]
-    times = Counter(own[0] for own in parts)
-    alike = [own for own in parts if times[own[0]] > 1]
-    values = [
-        {own[depth] for own in alike if depth < len(own)} for depth in range(max(map(len, alike), default=0))
+    paths = [tuple(id.split("/")[::-1]) for id in ids]
+    groups: dict[str, list[tuple[str, ...]]] = {}
+    for path in paths:
+        groups.setdefault(path[0], []).append(path)
+    held = Counter(path[1:] for path in paths)
+    kept: dict[tuple[str, ...], tuple[str, ...]] = {}
+    for group in groups.values():
+        if len(group) == 1:
+            kept[group[0]] = group[0][:1]
+        else:
+            alone = sum(held[path[1:]] == 1 for path in group)
+            kept |= _telling_parts(group, [0] if 2 * alone > len(group) else [])
+    endings = Counter(name for parts in kept.values() for name in endings_of(parts))
+    whole = set(ids)
+    return [
+        next(
+            (
+                name
+                for name in endings_of(kept[path])
+                if endings[name] == 1 and (name == id or name not in whole)
+            ),
+            id,
+        )
+        for id, path in zip(ids, paths, strict=True)
     ]
-    tells = [len(times) > 1, *(len(found) > 1 for found in values[1:])]
-    kept = [[part for part, told in zip(own, tells) if told] for own in alike]
-    endings = Counter(name for own in kept for name in endings_of(own))
-    endings.update(name for name, count in times.items() if count == 1)
-    shortest = iter(
-        next((name for name in endings_of(own) if endings[name] == 1), "/".join(whole[::-1]))
-        for own, whole in zip(kept, alike)
-    )
-    return [own[0] if times[own[0]] == 1 else next(shortest) for own in parts]
+
+
+def _telling_parts(
+    group: Sequence[tuple[str, ...]], left_out: list[int]
+) -> dict[tuple[str, ...], tuple[str, ...]]:
+    """What is kept of paths, given from their ends: all but the depths to leave out and those that tell none apart."""
+
+    def without(depths: Sequence[int]) -> list[tuple[str, ...]]:
+        return [tuple(part for depth, part in enumerate(path) if depth not in depths) for path in group]
+
+    for depth in range(1, max(map(len, group))):
+        _, times = Counter(path[depth] for path in group if depth < len(path)).most_common(1)[0]
+        if 2 * times > len(group) and len(set(without([*left_out, depth]))) == len(group):
+            left_out = [*left_out, depth]
+    return dict(zip(group, without(left_out)))
 
 
 def endings_of(parts: Sequence[str]) -> list[str]:

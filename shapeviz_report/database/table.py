@@ -14,7 +14,7 @@ from functools import partial
 from itertools import zip_longest
 from pathlib import Path
 
-from shapeviz_report.database.base import Layout, database_name, shape_ids, sorted_shapes
+from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.formats import MESH_FORMATS, is_read, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
 from shapeviz_report.errors import DatabaseError
@@ -101,6 +101,7 @@ class Table(Layout):
             )
         relatives = sorted(listed)
         columns = dict.fromkeys(column for relative in relatives for column in listed[relative].rows[0].cells)
+        ids = shape_ids(relatives)
         cells = [listed[relative].rows[0].filled for relative in relatives]
         labels = [cell.pop(LABEL_COLUMN, "") for cell in cells]
         groups = [column for column in columns if _names_groups([cell.get(column) for cell in cells])]
@@ -116,14 +117,14 @@ class Table(Layout):
                 ShapeEntry(
                     id,
                     listed[relative].path,
-                    os.path.splitext(relative.rpartition("/")[2])[0],
+                    name,
                     labels={
                         **({LABEL_COLUMN: label} if label else {}),
                         **{column: cell[column] for column in groups if column in cell},
                     },
                     metadata=cell,
                 )
-                for id, relative, cell, label in zip(shape_ids(relatives), relatives, cells, labels)
+                for id, name, relative, cell, label in zip(ids, shape_names(ids), relatives, cells, labels)
             ),
             labelings=(*((LABEL_COLUMN,) if any(labels) else ()), *groups),
             failures=failures,

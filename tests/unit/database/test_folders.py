@@ -8,8 +8,11 @@ import tempfile
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from shapeviz_report.database import read_database
+from shapeviz_report.database.base import shape_names
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.order import natural
 from shapeviz_report.types import Database
@@ -280,6 +283,35 @@ def test_names_tell_shapes_apart(tmp_path):
     }
     database = read_database(make(tmp_path / "twice", "cup.off", "cup.ply", "ant.off"))
     assert [shape.name for shape in database.shapes] == ["ant", "cup.off", "cup.ply"]
+
+
+@pytest.mark.parametrize(
+    ("ids", "names"),
+    [
+        (["c/1a/models/m", "d/2b/models/m"], ["1a", "2b"]),
+        # A stray file, beside the folders, in one of them, or of the same name, makes no name of the others longer.
+        (["c/1a/models/m", "c/2b/models/m", "d/3c/models/m", "c/stray"], ["1a", "2b", "3c", "stray"]),
+        (["c/1a/models/m", "c/2b/models/m", "d/3c/models/m", "c/1a/models/x"], ["1a", "2b", "3c", "x"]),
+        (["c/1a/models/m", "c/2b/models/m", "d/3c/models/m", "c/m"], ["1a", "2b", "3c", "c/m"]),
+        (["c/1a/models/m", "c/2b/models/m", "z/a/1", "z/b/1"], ["1a", "2b", "a", "b"]),
+        # A folder that repeats in another class gets its class; the others do not.
+        (["c/10/models/m", "d/10/models/m", "c/2/models/m"], ["c/10", "d/10", "2"]),
+        (["cup/1", "cup/2", "ant/1", "ant/3"], ["cup/1", "2", "ant/1", "3"]),
+        (["b/x/m", "a/y/m"], ["x", "y"]),
+        (["x/m", "y/m", "x"], ["x/m", "y", "x"]),
+    ],
+)
+def test_names_are_no_longer_than_needed(ids, names):
+    assert shape_names(ids) == names
+
+
+@given(
+    st.sets(st.lists(st.sampled_from("abm"), min_size=1, max_size=4).map("/".join), min_size=1, max_size=9)
+)
+def test_no_two_names_are_equal(ids):
+    names = shape_names(sorted(ids))
+    assert len(set(names)) == len(ids)
+    assert all(names)
 
 
 def test_companions_of_a_mesh_are_no_failures(tmp_path):
