@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from tqdm import tqdm
 
 from shapeviz_report import __version__
-from shapeviz_report.config import FILE_NAME, PUBLICATION, Config, load_config
+from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.order import classes_of
 from shapeviz_report.types import Database, Failure, Report
@@ -94,8 +94,9 @@ def _parser() -> argparse.ArgumentParser:
         "build",
         help="build the site of a shape database",
         description="Build the site of a shape database. What was computed before and has not changed is reused.",
-        epilog=f"Every option may also stand in {FILE_NAME} in the database's folder, with _ for -; flags win.\n\n"
-        + EXIT_CODES,
+        epilog=f"Options may also stand in {FILE_NAME} in the database's folder, with _ for -, but for those of the machine\n"
+        f"({', '.join(MACHINE)}): they may stand in a file that --config names, or in\n"
+        f"the environment, such as {ENVIRONMENT_PREFIX}CACHE. Flags win.\n\n" + EXIT_CODES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     _add_database(build)
@@ -183,7 +184,13 @@ def _add_destination(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
-    """A flag for each of these options, as :class:`Config` describes them."""
+    """A flag for each of these options, as :class:`Config` describes them, and one for a file of them."""
+    parser.add_argument(
+        "--config",
+        metavar="FILE",
+        type=Path,
+        help="options from a TOML file of your own, which may hold any of them",
+    )
     for option in dataclasses.fields(Config):
         if option.name not in names:
             continue
@@ -210,7 +217,7 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 def _build(options: argparse.Namespace) -> int:
     from shapeviz_report.pipeline import build_report
 
-    config = load_config(options.database, _given(options))
+    config = load_config(options.database, _given(options), options.config)
     report = build_report(options.database, options.output, config, TerminalProgress())
     _print_summary(report, options.output)
     return 0
@@ -219,7 +226,9 @@ def _build(options: argparse.Namespace) -> int:
 def _demo(options: argparse.Namespace) -> int:
     from shapeviz_report.pipeline import build_demo
 
-    report = build_demo(options.output, load_config(None, _given(options)), TerminalProgress())
+    report = build_demo(
+        options.output, load_config(None, _given(options), options.config), TerminalProgress()
+    )
     _print_summary(report, options.output)
     return 0
 
@@ -228,7 +237,7 @@ def _check(options: argparse.Namespace) -> int:
     from shapeviz_report.database import read_database
     from shapeviz_report.pipeline import check_database
 
-    config = load_config(options.database, _given(options))
+    config = load_config(options.database, _given(options), options.config)
     if options.list:
         database = read_database(options.database, layout=config.layout, labeling=config.labeling)
         print("\n".join(shape.id for shape in database.shapes))
@@ -255,7 +264,7 @@ def _query(options: argparse.Namespace) -> int:
     from shapeviz_report.querying import find_similar
     from shapeviz_report.site.data_files import json_text
 
-    config = load_config(None, {"time_limit": options.time_limit, "cache": options.cache})
+    config = load_config(None, {"time_limit": options.time_limit, "cache": options.cache}, options.config)
     result = find_similar(
         options.site,
         options.mesh,

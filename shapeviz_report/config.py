@@ -1,4 +1,9 @@
-"""Every option of a build, in one place: defaults, then ``shapeviz.toml``, then flags or arguments."""
+"""Every option of a build, in one place.
+
+Later ones win: defaults, the ``shapeviz.toml`` of the database, a file that the user names, the environment, flags or
+arguments. The first of the files is a stranger's, as the meshes are: it says what the database is, and nothing of the
+machine that builds it.
+"""
 
 from __future__ import annotations
 
@@ -11,9 +16,13 @@ from pathlib import Path
 from typing import Any
 
 from shapeviz_report.errors import ConfigError
+from shapeviz_report.files import read_regular
 
 FILE_NAME = "shapeviz.toml"
 """The options' file; it lies in the database's folder."""
+
+MOST_BYTES = 1024**2
+"""Size of the largest file of options."""
 
 PRESETS = ("default", "paper")
 PUBLICATION = (
@@ -21,10 +30,16 @@ PUBLICATION = (
 )  # fmt: skip
 """Options that say how the site presents itself; no figure depends on them."""
 SEARCHES = ("tsne", "umap", "none")
+ENVIRONMENT_PREFIX = "SHAPEVIZ_"
 
 
 def _option(default: Any, text: str, metavar: str | None = None) -> Any:
-    return field(default=default, metadata={"help": text, "metavar": metavar})
+    return field(default=default, metadata={"help": text, "metavar": metavar, "of_machine": False})
+
+
+def _machine_option(default: Any, text: str, metavar: str | None = None) -> Any:
+    """An option that reaches out of the database: what is written where, what is connected to, what may be used up."""
+    return field(default=default, metadata={"help": text, "metavar": metavar, "of_machine": True})
 
 
 @dataclass(frozen=True)
@@ -91,7 +106,7 @@ class Config:
         True,
         "whether the site holds a 3D model of every shape, to be turned in the browser: some 80 kB a shape",
     )
-    single_file: bool = _option(
+    single_file: bool = _machine_option(
         False,
         "write one HTML file, to be mailed, instead of a folder: OUT is its name; it holds no 3D models",
     )
@@ -105,20 +120,20 @@ class Config:
     )
     thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
     seed: int = _option(0, "seed of everything random", "N")
-    time_limit: float = _option(300.0, "seconds that one mesh may take in one stage", "SECONDS")
-    memory_limit: float | None = _option(
+    time_limit: float = _machine_option(300.0, "seconds that one mesh may take in one stage", "SECONDS")
+    memory_limit: float | None = _machine_option(
         None,
         "GiB of memory that one worker process may take; by default its share of most of what is free",
         "GIB",
     )
-    jobs: int | None = _option(None, "number of worker processes; by default one a core", "N")
-    scheduler: str | None = _option(
+    jobs: int | None = _machine_option(None, "number of worker processes; by default one a core", "N")
+    scheduler: str | None = _machine_option(
         None,
         "compute on a running Dask cluster, by the address of its scheduler such as tcp://host:8786, instead of in "
         "worker processes of this machine",
         "ADDRESS",
     )
-    cache: Path | None = _option(None, "where results are kept between builds", "FOLDER")
+    cache: Path | None = _machine_option(None, "where results are kept between builds", "FOLDER")
 
     def __post_init__(self) -> None:
         if self.preset not in PRESETS:
@@ -164,39 +179,101 @@ class Config:
         }
 
 
-def load_config(database: Path | None, options: Mapping[str, Any]) -> Config:
-    """The options for a database: those given, else those of its ``shapeviz.toml``, else the defaults.
+MACHINE = tuple(f.name for f in dataclasses.fields(Config) if f.metadata["of_machine"])
+"""Options that reach out of the database; its own file may not hold them."""
+
+
+def load_config(database: Path | None, options: Mapping[str, Any], file: Path | None = None) -> Config:
+    """The options for a database.
 
     Parameters
     ----------
     database : Path or None
-        The database's folder, or a table in it; None for no file.
+        The database's folder, or a table in it, whose ``shapeviz.toml`` is read; None for no such file.
     options : mapping
         Named as the fields of :class:`Config`; None means not given.
+    file : Path, optional
+        A file of options that the user names: it may hold any option, and paths to anywhere.
 
     Raises
     ------
     ConfigError
-        The file is not TOML, or an option is unknown, of the wrong type or out of range.
+        A file is not TOML, or an option is unknown, of the wrong type or out of range; or the database's file holds
+        an option of the machine or a path that leaves the database's folder.
     """
     values: dict[str, Any] = {}
     if database is not None:
         folder = database if database.is_dir() else database.parent
-        file = folder / FILE_NAME
+        values |= _database_options(folder / FILE_NAME)
+    if file is not None:
         for key, value in _read_file(file).items():
-            values[key] = _convert(key, value, f"in {file}", folder)
+            values[key] = _convert(key, value, f"in {file}", file.parent)
+    values |= _environment_options()
     for key, value in options.items():
         if value is not None:
             values[key] = _convert(key, value, "as an option", Path())
     return Config(**values)
 
 
-def _read_file(file: Path) -> dict[str, Any]:
-    if not file.is_file():
+def _database_options(file: Path) -> dict[str, Any]:
+    """The options of a database's own file; none if there is no such file."""
+    if not os.path.lexists(file):
         return {}
+    _check_inside(file, FILE_NAME, file.parent)
+    values = {}
+    for key, value in _read_file(file).items():
+        if key in MACHINE:
+            raise ConfigError(
+                f"{key} (in {file}) is not for the database to say, which may come from somebody else. Take it out of "
+                f"this file, and give it as --{key.replace('_', '-')}, in the environment as "
+                f"{ENVIRONMENT_PREFIX}{key.upper()}, or in a file of your own that --config names"
+            )
+        values[key] = _convert(key, value, f"in {file}", file.parent)
+        for path in values[key] if isinstance(values[key], tuple) else (values[key],):
+            if isinstance(path, Path):
+                _check_inside(path, f"{key} (in {file})", file.parent)
+    return values
+
+
+def _check_inside(path: Path, what: str, folder: Path) -> None:
     try:
-        return tomllib.loads(file.read_text(encoding="utf-8-sig"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        inside = path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError) as error:
+        raise ConfigError(f"{what} is no path that can be followed: {error}") from error
+    if not inside:
+        raise ConfigError(
+            f"{what} leads to {str(path)!r}, outside of the database's folder {folder}; such a file is not "
+            "read. Copy it into the folder; or name it as a flag, or in a file of your own that --config names"
+        )
+
+
+def _environment_options() -> dict[str, Any]:
+    """The options of the machine that stand in the environment, such as ``SHAPEVIZ_CACHE``; empty ones do not count."""
+    values = {}
+    for option in dataclasses.fields(Config):
+        variable = ENVIRONMENT_PREFIX + option.name.upper()
+        text = os.environ.get(variable, "")
+        if not option.metadata["of_machine"] or not text:
+            continue
+        kind = str(option.type)
+        value: Any = text
+        try:
+            if kind.startswith("bool"):
+                value = {"1": True, "true": True, "0": False, "false": False}.get(text.lower(), text)
+            elif kind.startswith(("int", "float")):
+                value = int(text) if kind.startswith("int") else float(text)
+        except ValueError:
+            pass  # `_convert` says what it should have been
+        values[option.name] = _convert(option.name, value, f"in the environment, {variable}", Path())
+    return values
+
+
+def _read_file(file: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(read_regular(file, MOST_BYTES).decode("utf-8-sig"))
+    except OSError as error:
+        raise ConfigError(f"the options in {file} cannot be read: {error.strerror}") from error
+    except (UnicodeDecodeError, RecursionError, tomllib.TOMLDecodeError) as error:
         raise ConfigError(f"{file} cannot be read as TOML: {error}") from error
 
 

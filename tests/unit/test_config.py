@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import dataclasses
+import os
 from pathlib import Path
 
 import pytest
 
-from shapeviz_report.config import Config, load_config
+from shapeviz_report.config import MACHINE, Config, load_config
 from shapeviz_report.errors import ConfigError
 
 
@@ -33,11 +35,101 @@ def test_the_file_wins_over_defaults_and_flags_over_the_file(database) -> None:
 
 
 def test_paths_of_the_file_start_at_its_folder(database) -> None:
-    write(database, 'external = ["deep.npy"]\nbins = "best.txt"\ncache = "/somewhere"\n')
+    write(database, 'external = ["deep.npy"]\nbins = "best.txt"\n')
     config = load_config(database, {})
     assert config.bins == database / "best.txt"
     assert config.external == (database / "deep.npy",)
-    assert config.cache == Path("/somewhere")
+
+
+@pytest.mark.parametrize(
+    ("line", "name"),
+    [
+        ('scheduler = "tcp://example.org:8786"', "scheduler"),
+        ('cache = "kept"', "cache"),
+        ("jobs = 2", "jobs"),
+        ("time_limit = 9", "time_limit"),
+        ("single_file = true", "single_file"),
+    ],
+)
+def test_a_database_says_nothing_of_the_machine(database, monkeypatch, line, name) -> None:
+    write(database, line)
+    flag, variable = "--" + name.replace("_", "-"), "SHAPEVIZ_" + name.upper()
+    with pytest.raises(ConfigError, match=f"{name} .*{flag}.*{variable}.*--config"):
+        load_config(database, {})
+    own = database / "own.toml"
+    (database / "shapeviz.toml").rename(own)
+    said = getattr(load_config(database, {}, own), name)
+    assert said != getattr(Config(), name)
+    monkeypatch.setenv(variable, line.partition(" = ")[2].strip('"'))
+    expected = Path("kept") if name == "cache" else said
+    assert getattr(load_config(database, {}), name) == expected
+
+
+def test_every_option_of_the_machine_is_refused() -> None:
+    assert {"scheduler", "cache", "jobs", "time_limit", "single_file"} <= set(MACHINE)
+    assert [f.name for f in dataclasses.fields(Config) if "limit" in f.name and f.name not in MACHINE] == []
+
+
+def test_who_wins(database, monkeypatch) -> None:
+    write(database, "seed = 1\nneighbours = 1\n")
+    (database / "own.toml").write_text("seed = 2\njobs = 2\ntime_limit = 2\n")
+    monkeypatch.setenv("SHAPEVIZ_JOBS", "3")
+    monkeypatch.setenv("SHAPEVIZ_TIME_LIMIT", "3")
+    monkeypatch.setenv("SHAPEVIZ_CACHE", "")
+    config = load_config(database, {"time_limit": 4.0}, database / "own.toml")
+    assert (config.neighbours, config.seed, config.jobs, config.time_limit) == (1, 2, 3, 4)
+    assert config.cache is None
+    monkeypatch.setenv("SHAPEVIZ_JOBS", "many")
+    with pytest.raises(ConfigError, match=r"jobs must be a whole number.*SHAPEVIZ_JOBS"):
+        load_config(database, {})
+
+
+def test_paths_of_the_database_stay_inside(tmp_path) -> None:
+    database = tmp_path / "database"
+    (database / "sub").mkdir(parents=True)
+    key = tmp_path / "key.txt"
+    key.write_text("secret")
+    (database / "link.txt").symlink_to(key)
+    (database / "away").symlink_to(tmp_path)
+    (database / "loop").symlink_to(database / "loop")
+    (database / "own.txt").symlink_to(database / "sub")
+    for name in ("introduction", "logo", "bins", "external"):
+        for path in (
+            "../key.txt",
+            "sub/../../key.txt",
+            str(key),
+            "link.txt",
+            "away/key.txt",
+            "loop",
+            "a\\u0000b",
+        ):
+            write(database, f'{name} = "{path}"')
+            with pytest.raises(ConfigError, match=name):
+                load_config(database, {})
+        write(database, f'{name} = "own.txt"')
+        load_config(database, {})
+    (database / "shapeviz.toml").unlink()
+    (database / "own.toml").write_text('introduction = "../key.txt"')
+    assert load_config(database, {}, database / "own.toml").introduction == database / "../key.txt"
+    assert load_config(database, {"introduction": str(key)}).introduction == key
+
+
+def test_the_databases_file_is_a_regular_one_inside(tmp_path) -> None:
+    database = tmp_path / "database"
+    database.mkdir()
+    (tmp_path / "other.toml").write_text("seed = 3")
+    (database / "shapeviz.toml").symlink_to(tmp_path / "other.toml")
+    with pytest.raises(ConfigError, match="outside"):
+        load_config(database, {})
+    (database / "shapeviz.toml").unlink()
+    os.mkfifo(database / "shapeviz.toml")
+    with pytest.raises(ConfigError, match="not a regular file"):
+        load_config(database, {})
+
+
+def test_a_file_that_is_named_must_be_there(database) -> None:
+    with pytest.raises(ConfigError, match=r"own\.toml cannot be read: No such file"):
+        load_config(database, {}, database / "own.toml")
 
 
 def test_what_is_on_can_be_switched_off(database) -> None:
@@ -68,7 +160,7 @@ def test_the_file_lies_beside_a_table(database) -> None:
         ("external = [1]", "external must be a list of file names"),
         ('up = "x"', "up must be y or z"),
         ("meshes = 1", "meshes must be true or false"),
-        ("cache = 3", "cache must be a path"),
+        ("bins = 3", "bins must be a path"),
         ("seed = ", "cannot be read as TOML"),
     ],
 )
