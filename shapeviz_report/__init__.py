@@ -12,6 +12,14 @@ The stages can be used on their own: ``database.read_database``, ``mesh.prepare`
 
 from __future__ import annotations
 
+import sys
+
+from shapeviz_report.imports import is_program, trusted_path
+
+if is_program():
+    # before any other module is looked for
+    sys.path[:] = trusted_path()
+
 import os
 from collections.abc import Sequence
 from importlib.metadata import version

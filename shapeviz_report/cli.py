@@ -94,8 +94,8 @@ def _parser() -> argparse.ArgumentParser:
         "build",
         help="build the site of a shape database",
         description="Build the site of a shape database. What was computed before and has not changed is reused.",
-        epilog=f"Options may also stand in {FILE_NAME} in the database's folder, with _ for -, but for those of the machine\n"
-        f"({', '.join(MACHINE)}): they may stand in a file that --config names, or in\n"
+        epilog=f"Options may also stand in {FILE_NAME} in the database's folder, with _ for -, but for those of the\n"
+        f"machine ({', '.join(MACHINE)}): they may stand in a file that --config names, or in\n"
         f"the environment, such as {ENVIRONMENT_PREFIX}CACHE. Flags win.\n\n" + EXIT_CODES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )

@@ -20,6 +20,7 @@ from typing import Any
 from shapeviz_report.errors import ShapevizError, WorkerError
 from shapeviz_report.executor.base import Outcome
 from shapeviz_report.executor.memory import bound
+from shapeviz_report.imports import trusted_path
 
 
 class LocalExecutor:
@@ -142,9 +143,9 @@ class _Worker:
     def __init__(self) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
-            # The same modules as here, whatever put them on the path; one thread each, for there is one
-            # process a core.
-            environment = os.environ | {"PYTHONPATH": os.pathsep.join(p or os.getcwd() for p in sys.path)}
+            # The same modules as here, whatever put them on the path, but none of the current folder; one thread
+            # each, for there is one process a core.
+            environment = os.environ | {"PYTHONPATH": os.pathsep.join(trusted_path()), "PYTHONSAFEPATH": "1"}
             for variable in (
                 "OMP_NUM_THREADS",
                 "OPENBLAS_NUM_THREADS",
@@ -155,7 +156,7 @@ class _Worker:
             try:
                 # Standard input is its lifeline: it closes when this process ends, however that comes.
                 self.process = subprocess.Popen(
-                    [sys.executable, "-m", "shapeviz_report.executor.worker", str(theirs.fileno())],
+                    [sys.executable, "-P", "-m", "shapeviz_report.executor.worker", str(theirs.fileno())],
                     pass_fds=[theirs.fileno()],
                     env=environment,
                     stdin=subprocess.PIPE,
