@@ -49,6 +49,7 @@ def test_paths_of_the_file_start_at_its_folder(database) -> None:
         ("jobs = 2", "jobs"),
         ("time_limit = 9", "time_limit"),
         ("single_file = true", "single_file"),
+        ("memory_limit = 2", "memory_limit"),
     ],
 )
 def test_a_database_says_nothing_of_the_machine(database, monkeypatch, line, name) -> None:
