@@ -12,7 +12,7 @@ from shapeviz_report.database.flat import FlatFolder
 from shapeviz_report.database.formats import MESH_FORMATS
 from shapeviz_report.database.modelnet import ModelNet
 from shapeviz_report.database.princeton import Princeton
-from shapeviz_report.database.table import Table, passed_over
+from shapeviz_report.database.table import TABLE_SUFFIXES, Table, passed_over
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.types import Database
 
@@ -82,7 +82,7 @@ def _choose_layout(path: Path, name: str | None) -> Layout:
 
 def _nothing_found(path: Path) -> str:
     if not path.is_dir():
-        return f"{path} is neither a folder, nor a table (.csv, .tsv, .json), nor a .cla file."
+        return f"{path} is neither a folder, nor a table ({', '.join(TABLE_SUFFIXES)}), nor a .cla file."
     layouts = "".join(f"\n  {layout.name}: {layout.description}" for layout in LAYOUTS)
     suffixes = ", ".join(MESH_FORMATS)
     return f"No shapes were found in {path}. Looked for meshes ({suffixes}) laid out as one of:{layouts}"

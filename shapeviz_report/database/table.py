@@ -8,13 +8,15 @@ import json
 import os
 import re
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import zip_longest
 from pathlib import Path
 
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
+from shapeviz_report.database.folder import scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, is_read, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
 from shapeviz_report.errors import DatabaseError
@@ -35,14 +37,19 @@ FILE_COLUMNS = (
     "id",
 )
 """Names of the column with the files, from the plainest on; case, spaces, ``_`` and ``-`` do not matter."""
-NO_VALUES = frozenset({"nan", "null", "none", "n/a", "#n/a", "<na>"})
-"""Cells (in lower case) with which programs write that there is no value."""
+CLASS_COLUMNS = ("class", "classname", "category")
+"""Names of metadata columns that are labelings whatever their values are; written as those above."""
+NO_VALUES = frozenset({"NaN", "nan", "N/A", "n/a", "#N/A", "<NA>"})
+"""Cells with which programs write that there is no value. A class may be called "none" or "null"."""
 DELIMITERS = (",", ";", "\t", "|")
-TABLE_SUFFIXES = (".csv", ".tsv", ".json")
+LINES_SUFFIXES = (".jsonl", ".ndjson")
+TABLE_SUFFIXES = (".csv", ".tsv", ".json", *LINES_SUFFIXES)
 MOST_CLASSES = 100
 FEWEST_SHAPES_A_CLASS = 3
 
 _EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
+_SECOND_OBJECT = re.compile(r"\s*\{.*\}[ \t\r]*\n\s*\{")
+"""An object that ends on its line and another below, without a comma: JSON lines, whatever the file is called."""
 _csv_reader = partial(csv.reader, skipinitialspace=True)
 
 
@@ -68,13 +75,26 @@ class Listed:
     rows: list[Row]
 
 
+@dataclass(frozen=True)
+class Content:
+    """What a table says: its rows, warnings, and whether it plainly is one of meshes, with a column ``file``."""
+
+    rows: list[Row]
+    warnings: list[str]
+    plain: bool
+
+
+class OtherContentError(DatabaseError):
+    """A table has neither a column of files nor one of classes: it is not about shapes at all."""
+
+
 class Table(Layout):
     """A CSV or JSON table with a column ``file``, a column ``label``, and any further columns as metadata.
 
-    Cells of CSV may be separated by commas, semicolons or tabs; JSON is a list of objects. Paths are relative
-    to the table's folder. A metadata column is a further labeling where it plainly names groups: it has at
-    least 2 and at most ``MOST_CLASSES`` different values, and on average ``FEWEST_SHAPES_A_CLASS`` shapes or
-    more to a value.
+    Cells of CSV may be separated by commas, semicolons, tabs or ``|``; JSON is a list of objects, alone or under a key
+    of an object, or one object a line. Paths are relative to the table's folder. A metadata column is a labeling too
+    where it is called so or plainly names groups: it has at least 2 and at most ``MOST_CLASSES`` different values, and
+    on average ``FEWEST_SHAPES_A_CLASS`` shapes or more to a value.
     """
 
     name = "table"
@@ -89,11 +109,13 @@ class Table(Layout):
 
     def read(self, path: Path) -> Database:
         table = _the_table(path)
-        rows, warnings = _read_rows(table)
+        content = _read(table)
+        rows, warnings = content.rows, content.warnings
         if not rows:
             raise DatabaseError(f"The table {table} names columns, but lists no files.")
         root = table.parent
-        listed, failures = _sort_out(rows, table)
+        finder = _Finder(root)
+        listed, failures = _sort_out(rows, table, finder)
         if repeated := sorted(relative for relative, file in listed.items() if len(file.rows) > 1):
             warnings.append(
                 f"{len(repeated)} files stand in {table.name} more than once with the same values and are "
@@ -104,11 +126,18 @@ class Table(Layout):
         ids = shape_ids(relatives)
         cells = [listed[relative].rows[0].filled for relative in relatives]
         labels = [cell.pop(LABEL_COLUMN, "") for cell in cells]
-        groups = [column for column in columns if _names_groups([cell.get(column) for cell in cells])]
+        groups = [column for column in columns if _names_groups(column, [cell.get(column) for cell in cells])]
+        groups.sort(key=lambda column: _plain(column) not in CLASS_COLUMNS)
         if groups and not any(labels):
             warnings.append(
                 f"{table.name} has no labels; the shapes are grouped by its column '{groups[0]}'."
             )
+        if left_out := _count_unlisted(root, rows, finder):
+            files = "1 mesh file" if left_out == 1 else f"{left_out} mesh files"
+            verb = "is" if left_out == 1 else "are"
+            warnings.append(f"{files} below {root} {verb} not in {table.name} and {verb} left out.")
+        if path.is_dir():
+            warnings += passed_over(path, table)
         return Database(
             name=database_name(root),
             root=root,
@@ -149,22 +178,72 @@ def _the_table(path: Path) -> Path:
 
 
 def _tables_in(folder: Path) -> list[Path]:
-    """The tables that lie in a folder, without those that cannot be read or list no mesh that is there."""
-    return [table for table in _candidates(folder) if _why_no_table(table) is None]
+    """The tables of a folder: those that list meshes that are there, else those that at least say that they do."""
+    judged = {table: _judge(table) for table in _candidates(folder)}
+    found = [table for table, verdict in judged.items() if verdict.finds]
+    return found or [table for table, verdict in judged.items() if verdict.plain]
 
 
-def passed_over(folder: Path) -> list[str]:
-    """What to tell of the CSV and JSON files in a folder that no layout has read; companions of meshes apart."""
+def passed_over(folder: Path, read: Path | None = None) -> list[str]:
+    """What to tell of the tables in a folder other than the one that was ``read``, if they look meant for it.
+
+    That is: they list meshes, have a column of classes, or have a slip, so that nobody can say what they are.
+    Companions of meshes and tables of other things are passed over in silence.
+    """
     try:
         stems = {os.path.splitext(name)[0] for name in os.listdir(folder) if is_read(name)}
     except OSError:
         return []
+    judged = {
+        table: _judge(table) for table in _candidates(folder) if table.stem not in stems and table != read
+    }
     return [
-        f"{table.name} lies in the folder and is not used. "
-        + (_why_no_table(table) or "Name it instead of the folder to read it.")
-        for table in _candidates(folder)
-        if table.stem not in stems
+        f"{table.name} lies in the folder and is not used. {verdict.reason}"
+        for table, verdict in judged.items()
+        if verdict.reason
     ]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether a file is the table of its folder.
+
+    Attributes
+    ----------
+    finds : bool
+        A mesh that it lists is there.
+    plain : bool
+        It has a column ``file``.
+    reason : str
+        What to tell where it is not used; empty for a table of other things.
+    """
+
+    finds: bool
+    plain: bool
+    reason: str
+
+
+def _judge(table: Path) -> Verdict:
+    """Judge a file of unknown content.
+
+    A mesh that is there makes it a table of shapes, or else a column ``file``. Other names of that column do not: many
+    tables of other things have a ``model`` or an ``id``.
+    """
+    try:
+        content = _read(table)
+    except OtherContentError:
+        return Verdict(False, False, "")
+    except DatabaseError as error:
+        return Verdict(False, False, str(error))
+    finder = _Finder(table.parent)
+    found = (finder.find(row.file) for row in content.rows if row.file)
+    if any(path is not None and is_read(path.name) and path.is_file() for path in found):
+        return Verdict(True, content.plain, "Name it instead of the folder to read it.")
+    classes = any(
+        _plain(column) in (LABEL_COLUMN, *CLASS_COLUMNS) for row in content.rows for column in row.cells
+    )
+    told = content.plain or classes
+    return Verdict(False, content.plain, "No mesh that its rows name is there." if told else "")
 
 
 def _candidates(folder: Path) -> list[Path]:
@@ -179,33 +258,6 @@ def _candidates(folder: Path) -> list[Path]:
     return [folder / name for name in names]
 
 
-def _why_no_table(table: Path) -> str | None:
-    """Why a file is not the table of its folder; None if it is.
-
-    A column ``file`` makes it one. Other names say so only if meshes stand in the column: many tables of other things
-    have a ``model`` or an ``id``.
-    """
-    try:
-        text, _ = _read_text(table)
-        is_json = suffix_of(table.name) == ".json"
-        rows = _json_rows(text, table) if is_json else None
-        if rows is None:
-            delimiter, _, above = _csv_columns(text, table)
-            header = next(_csv_reader(text.splitlines()[above:], delimiter=delimiter), [])
-            plain = FILE_COLUMN in [clean(cell).lower() for cell in header]
-        else:
-            plain = any(key.lower() == FILE_COLUMN for entry in json.loads(text) for key in entry)
-        if plain or any(
-            os.path.isfile(path) and is_read(path.name)
-            for row in rows or _csv_rows(text, table)
-            if row.file and (path := _mesh_path(table.parent, row.file))
-        ):
-            return None
-    except DatabaseError as error:
-        return str(error)
-    return "No mesh that its rows name is there."
-
-
 def _read_text(table: Path) -> tuple[str, bool]:
     try:
         return decode(table.read_bytes())
@@ -213,89 +265,138 @@ def _read_text(table: Path) -> tuple[str, bool]:
         raise DatabaseError(f"The table {table} cannot be read: {error.strerror}.") from error
 
 
-def _read_rows(table: Path) -> tuple[list[Row], list[str]]:
-    """The rows of a table, and warnings about it."""
+def _read(table: Path) -> Content:
     text, certain = _read_text(table)
     warnings = [] if certain else [f"{table.name} is not UTF-8; it was read as Windows-1252."]
-    rows = _json_rows(text, table) if suffix_of(table.name) == ".json" else _csv_rows(text, table)
-    return rows, warnings
+    is_csv = suffix_of(table.name) in (".csv", ".tsv")
+    rows, plain = _csv_rows(text, table) if is_csv else _json_rows(text, table)
+    return Content(rows, warnings, plain)
 
 
-def _csv_columns(text: str, table: Path) -> tuple[str, list[str], int]:
-    """The delimiter, which is the one that makes a column of files appear, the columns, and the line below them."""
+def _no_files(names: Iterable[str], complaint: str) -> DatabaseError:
+    """The error of a table without a column of files."""
+    about_shapes = any(_plain(name) in (LABEL_COLUMN, *CLASS_COLUMNS) for name in names)
+    return (DatabaseError if about_shapes else OtherContentError)(complaint)
+
+
+def _csv_rows(text: str, table: Path) -> tuple[list[Row], bool]:
+    """The rows, separated by the delimiter that makes a column of files appear."""
     first, _, rest = text.partition("\n")
     told = _EXCEL_DELIMITER.fullmatch(first.strip())
+    body, above = (rest, 1) if told else (text, 0)
+    seen: list[str] = []
     for delimiter in (told[1],) if told else DELIMITERS:
+        reader = _csv_reader(io.StringIO(body, newline=""), delimiter=delimiter)
         try:
-            header = next(
-                _csv_reader(io.StringIO(rest if told else text, newline=""), delimiter=delimiter), []
-            )
+            header = next(reader, [])
         except csv.Error as error:
             raise DatabaseError(f"The table {table} is not CSV: {error}.") from error
         columns = _columns(header)
         if FILE_COLUMN in columns:
-            return delimiter, columns, int(told is not None)
-    raise DatabaseError(
-        f"The table {table} has no column '{FILE_COLUMN}'. Its first line must name the columns, "
-        f"for instance: file,label."
-    )
-
-
-def _csv_rows(text: str, table: Path) -> list[Row]:
-    delimiter, columns, above = _csv_columns(text, table)
-    if twice := sorted({column for column in columns if column and columns.count(column) > 1}):
-        raise DatabaseError(f"The table {table} has two columns named '{twice[0]}'; rename one.")
-    reader = _csv_reader(io.StringIO(text, newline=""), delimiter=delimiter)
-    for _ in range(above + 1):
-        next(reader)
+            break
+        seen += header
+    else:
+        raise _no_files(
+            seen,
+            f"The table {table} has no column '{FILE_COLUMN}'. Its first line must name the columns, "
+            "for instance: file,label.",
+        )
+    _check_names(columns, header, table)
     rows = []
     try:
         for cells in reader:
+            place = f"line {reader.line_num + above}"
             if any(cell.strip() for cell in cells[len(columns) :]):
                 raise DatabaseError(
-                    f"{table}, line {reader.line_num}: there are more cells than the {len(columns)} columns. "
+                    f"{table}, {place}: there are more cells than the {len(columns)} columns. "
                     f"A cell that contains '{delimiter}' belongs in double quotes."
                 )
             if any(cell.strip() for cell in cells):
-                rows.append(_row(f"line {reader.line_num}", dict(zip_longest(columns, cells, fillvalue=""))))
+                rows.append(_row(place, dict(zip_longest(columns, cells, fillvalue=""))))
     except csv.Error as error:
-        raise DatabaseError(f"{table}, line {reader.line_num}: this is not CSV: {error}.") from error
-    return rows
+        line = reader.line_num + above
+        raise DatabaseError(f"{table}, line {line}: this is not CSV: {error}.") from error
+    return rows, FILE_COLUMN in map(_plain, header)
 
 
-def _json_rows(text: str, table: Path) -> list[Row]:
-    try:
-        entries = json.loads(text, parse_constant=lambda _: None)
-    except (ValueError, RecursionError) as error:
-        raise DatabaseError(f"The table {table} is not JSON: {error}.") from error
-    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
-        raise DatabaseError(
+def _json_rows(text: str, table: Path) -> tuple[list[Row], bool]:
+    entries = _json_entries(text, table)
+    keys = list(dict.fromkeys(key for _, entry in entries for key in entry))
+    names = dict(zip(keys, _columns(keys)))
+    if FILE_COLUMN not in names.values():
+        raise _no_files(keys, f"The table {table} has no key '{FILE_COLUMN}' in its objects.")
+    rows = []
+    for place, entry in entries:
+        _check_names([names[key] for key in entry], list(entry), table, place)
+        rows.append(_row(place, {names[key]: _as_text(value) for key, value in entry.items()}))
+    return rows, FILE_COLUMN in map(_plain, keys)
+
+
+def _json_entries(text: str, table: Path) -> list[tuple[str, dict[str, object]]]:
+    """The objects of a list, of the only such list under a key of an object, or one a line; each with its place."""
+
+    def parse(text: str, where: str = "") -> object:
+        try:
+            return json.loads(text, parse_constant=lambda _: None, object_pairs_hook=unique)
+        except (ValueError, RecursionError) as error:
+            raise DatabaseError(f"The table {table}{where} is not JSON: {error}.") from error
+
+    def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
+        if len(found := dict(pairs)) < len(pairs):
+            twice = [key for key, count in Counter(key for key, _ in pairs).items() if count > 1]
+            raise ValueError(f"an object has the key '{twice[0]}' twice")
+        return found
+
+    if suffix_of(table.name) in LINES_SUFFIXES or _SECOND_OBJECT.match(text):
+        lines = [(f"line {number}", line) for number, line in enumerate(text.split("\n"), 1) if line.strip()]
+        entries = [(place, parse(line, f", {place},")) for place, line in lines]
+    else:
+        whole = parse(text)
+        if isinstance(whole, dict):
+            lists = [
+                value for value in whole.values() if isinstance(value, list) and value and _objects(value)
+            ]
+            whole = lists[0] if len(lists) == 1 else None
+        entries = (
+            [(f"entry {number}", entry) for number, entry in enumerate(whole, 1)]
+            if isinstance(whole, list)
+            else None
+        )
+    if entries is None or not _objects([entry for _, entry in entries]):
+        raise OtherContentError(
             f'The table {table} is not a list of objects: [{{"file": "a.off", "label": "cup"}}, ...].'
         )
-    keys = list(dict.fromkeys(key for entry in entries for key in entry))
-    names = dict(zip(keys, _columns(keys)))
-    rows = [
-        _row(f"entry {number}", {names[key]: _as_text(value) for key, value in entry.items()})
-        for number, entry in enumerate(entries, start=1)
-    ]
-    if not any(row.file for row in rows):
-        raise DatabaseError(f"The table {table} has no key '{FILE_COLUMN}' in its objects.")
-    return rows
+    return entries
+
+
+def _objects(values: Sequence[object]) -> bool:
+    return all(isinstance(value, dict) for value in values)
+
+
+def _plain(name: str) -> str:
+    """The name of a column without what does not matter: case, spaces, ``_`` and ``-``."""
+    return re.sub("[ _-]", "", clean(name)).lower()
 
 
 def _columns(names: Sequence[str]) -> list[str]:
     """The columns as they are kept: that of the files is ``file``, that of the labels ``label``, in any case."""
-    columns = [clean(name) for name in names]
-    plain = [re.sub("[ _-]", "", column).lower() for column in columns]
-    files = next((plain.index(name) for name in FILE_COLUMNS if name in plain), None)
+    plain = [_plain(name) for name in names]
+    files = next((name for name in FILE_COLUMNS if name in plain), None)
     return [
-        FILE_COLUMN
-        if place == files or column.lower() == FILE_COLUMN
-        else LABEL_COLUMN
-        if column.lower() == LABEL_COLUMN
-        else column
-        for place, column in enumerate(columns)
+        FILE_COLUMN if own == files else LABEL_COLUMN if own == LABEL_COLUMN else clean(name)
+        for own, name in zip(plain, names)
     ]
+
+
+def _check_names(columns: Sequence[str], names: Sequence[str], table: Path, place: str = "") -> None:
+    """Raise ``DatabaseError`` where two columns with a name are one."""
+    twice = next((column for column, count in Counter(columns).items() if column and count > 1), None)
+    if twice is not None:
+        where = f", {place}," if place else ""
+        written = ", ".join(f"'{clean(name)}'" for column, name in zip(columns, names) if column == twice)
+        raise DatabaseError(
+            f"The table {table}{where} has two columns named '{twice}' (written {written}); rename one."
+        )
 
 
 def _as_text(value: object) -> str:
@@ -307,21 +408,23 @@ def _as_text(value: object) -> str:
 def _row(place: str, cells: Mapping[str, str]) -> Row:
     """A row without the columns that have no name, as spreadsheets leave them behind."""
     kept = {
-        column: "" if clean(cell).lower() in NO_VALUES else clean(cell)
+        column: "" if clean(cell) in NO_VALUES else clean(cell)
         for column, cell in cells.items()
         if column and column != FILE_COLUMN
     }
     return Row(place, cells.get(FILE_COLUMN, "").strip(), kept)
 
 
-def _sort_out(rows: Sequence[Row], table: Path) -> tuple[dict[str, Listed], tuple[Failure, ...]]:
+def _sort_out(
+    rows: Sequence[Row], table: Path, finder: _Finder
+) -> tuple[dict[str, Listed], tuple[Failure, ...]]:
     """What can be taken, by its path below the table's folder, and the failures."""
     root = table.parent
     by_file: dict[str, Listed] = {}
     failures = []
     for row in rows:
         if row.file:
-            path = _mesh_path(root, row.file)
+            path = finder.find(row.file) or Path(os.path.normpath(os.path.join(root, row.file)))
             relative = readable(os.path.relpath(path, root)).replace(os.sep, "/")
             by_file.setdefault(relative, Listed(path, [])).rows.append(row)
         else:
@@ -347,26 +450,80 @@ def _sort_out(rows: Sequence[Row], table: Path) -> tuple[dict[str, Listed], tupl
     return taken, tuple(sorted(failures, key=lambda failure: (failure.path, failure.reason)))
 
 
-def _mesh_path(root: Path, file: str) -> Path:
-    """Where a listed file is.
+class _Finder:
+    """Where listed files are; it looks into each folder once."""
 
-    A path that does not exist as written is also tried with Windows' separators turned, and in the other
-    Unicode normal forms, which tables and file systems exchange behind their users' backs; each also with the
-    suffixes of meshes.
-    """
-    spellings = (file, file.replace("\\", "/"))
-    forms = (unicodedata.normalize(form, spelling) for spelling in spellings for form in ("NFC", "NFD"))
-    for candidate in (*spellings, *forms):
-        path = os.path.normpath(os.path.join(root, candidate))
-        for suffix in ("", *MESH_FORMATS):
-            if os.path.isfile(path + suffix):
-                return Path(path + suffix)
-        if os.path.lexists(path):
-            return Path(path)
-    return Path(os.path.normpath(os.path.join(root, file)))
+    def __init__(self, root: Path) -> None:
+        self.root = os.fspath(root)
+        self.listings: dict[str, list[str]] = {}
+
+    def find(self, file: str) -> Path | None:
+        """The file, or the folder, that a table means; None if nothing is there, or it cannot be said which.
+
+        A path that does not exist as written is also tried with Windows' separators turned, then in other Unicode
+        normal forms, which tables and file systems exchange behind their users' backs, then in another case; each also
+        with the suffixes of meshes.
+        """
+        spellings = list(dict.fromkeys((file, file.replace("\\", "/"))))
+        for spelling in spellings:
+            path = os.path.normpath(os.path.join(self.root, spelling))
+            for suffix in ("", *MESH_FORMATS):
+                if os.path.isfile(path + suffix):
+                    return Path(path + suffix)
+            if os.path.lexists(path):
+                return Path(path)
+        for like in (_composed, _any_case):
+            for spelling in spellings:
+                if found := self._find_like(spelling, like):
+                    return found
+        return None
+
+    def _find_like(self, file: str, like: Callable[[str], str]) -> Path | None:
+        path = "/" if os.path.isabs(file) else self.root
+        *folders, name = os.path.normpath(file).lstrip("/").split("/")
+        for folder in folders:
+            exact = os.path.normpath(os.path.join(path, folder))
+            if not os.path.isdir(exact):
+                alike = [entry for entry in self._list(path) if like(entry) == like(folder)]
+                if len(alike) != 1:
+                    return None
+                exact = os.path.join(path, alike[0])
+            path = exact
+        for names in ({like(name)}, {like(name + suffix) for suffix in MESH_FORMATS}):
+            alike = [entry for entry in self._list(path) if like(entry) in names]
+            if alike:
+                return Path(path, alike[0]) if len(alike) == 1 else None
+        return None
+
+    def _list(self, folder: str) -> list[str]:
+        if folder not in self.listings:
+            try:
+                self.listings[folder] = os.listdir(folder)
+            except (OSError, ValueError):
+                self.listings[folder] = []
+        return self.listings[folder]
 
 
-def _names_groups(values: Sequence[str | None]) -> bool:
+def _composed(name: str) -> str:
+    return unicodedata.normalize("NFC", name)
+
+
+def _any_case(name: str) -> str:
+    return _composed(_composed(name).casefold())
+
+
+def _count_unlisted(root: Path, rows: Sequence[Row], finder: _Finder) -> int:
+    """How many meshes below the table's folder none of its rows names; 0 for a folder that cannot be looked into."""
+    named = {os.path.realpath(path) for row in rows if row.file and (path := finder.find(row.file))}
+    try:
+        return sum(os.path.realpath(file.location) not in named for file in scan_folder(root).files)
+    except DatabaseError:
+        return 0
+
+
+def _names_groups(column: str, values: Sequence[str | None]) -> bool:
     present = [value for value in values if value]
     classes = len(set(present))
+    if _plain(column) in CLASS_COLUMNS:
+        return classes > 0
     return 2 <= classes <= MOST_CLASSES and len(present) >= FEWEST_SHAPES_A_CLASS * classes

@@ -53,7 +53,7 @@ def test_csv(root, text):
     assert as_read(database) == EXPECTED
     assert database.labelings == ("label",)
     assert not database.failures
-    assert not database.warnings
+    assert database.warnings == (f"1 mesh file below {root} is not in shapes.csv and is left out.",)
     assert all(shape.path.is_file() for shape in database.shapes)
     assert as_read(read_database(root)) == EXPECTED  # the folder as well
 
@@ -263,7 +263,10 @@ def test_no_value_is_no_label(tmp_path, label):
     [
         ("t.json", '[{"file": "a.off"},\n]', "line 2 column 1"),
         ("t.csv", "author,label\nAda,cup\n", "no column 'file'"),
-        ("t.csv", "model,score\nlinear,1\n", "No mesh that its rows name is there"),
+        ("t.csv", "model,label\nlinear,1\n", "No mesh that its rows name is there"),
+        ("t.jsonl", '{"file": "a.off"}\n{"file": "b.off"\n', "line 2"),
+        ("t.json", '[{"category": "cup"}]', "no key 'file'"),
+        ("t.csv", "id,label,label\na,cup,ant\n", "two columns named 'label'"),
     ],
 )
 def test_a_table_that_is_passed_over_is_told_of(tmp_path, name, text, reason):
@@ -275,3 +278,140 @@ def test_a_table_that_is_passed_over_is_told_of(tmp_path, name, text, reason):
     (warning,) = database.warnings
     assert warning.startswith(f"{name} lies in the folder and is not used")
     assert reason in warning
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("taxonomy.json", '[{"synsetId": "1", "name": "cup", "children": []}]'),
+        ("package.json", '{"name": "x", "contributors": [{"name": "Ada"}]}'),
+        ("datapackage.json", '{"resources": [{"path": "readme.csv", "name": "x"}]}'),
+        ("results.csv", "model,score\nlinear,1\n"),
+        ("list.json", "[1, 2]"),
+        ("empty.csv", ""),
+    ],
+)
+def test_tables_of_other_things_are_passed_over_in_silence(root, name, text):
+    table(root, text, name)
+    (root / "readme.csv").touch()
+    assert not read_database(root).warnings
+    table(root, "file\na.off\nb.obj\ndeep/c.ply\nd.off\n")
+    assert not read_database(root).warnings
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reason"),
+    [
+        ("labels.json", '[{"file": "a.off",}]', "not JSON"),
+        ("labels.csv", "file,label\nz.off,cup\n", "No mesh"),
+        ("labels.csv", "name,class\na,cup\n", "no column 'file'"),
+        ("labels.csv", "file,label\na.off,cup,big\n", "line 2: there are more cells"),
+    ],
+)
+def test_a_table_beside_the_one_that_is_read_is_told_of(root, name, text, reason):
+    table(root, "file\na.off\nb.obj\ndeep/c.ply\nd.off\n")
+    table(root, text, name)
+    database = read_database(root)
+    assert len(database.shapes) == 4
+    (warning,) = database.warnings
+    assert warning.startswith(f"{name} lies in the folder and is not used.")
+    assert reason in warning
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("t.jsonl", '{"file": "a.off", "label": "cup"}\r\n\r\n{"file": "b.obj", "label": "ant"}\r\n'),
+        ("t.ndjson", '{"file": "a.off", "label": "cup"}\n{"file": "b.obj", "label": "ant"}'),
+        ("t.json", '{"file": "a.off", "label": "cup"}\n{"file": "b.obj", "label": "ant"}\n'),
+        (
+            "t.json",
+            '{"version": [1], "shapes": [{"file": "a.off", "label": "cup"}, {"file": "b", "label": "ant"}]}',
+        ),
+    ],
+)
+def test_other_arrangements_of_json(root, name, text):
+    table(root, text, name)
+    assert [(shape.id, shape.labels["label"]) for shape in read_database(root).shapes] == [
+        ("a", "cup"),
+        ("b", "ant"),
+    ]
+
+
+@pytest.mark.parametrize("label", ["none", "null", "None", "NULL", "NA", "01", "1.0", "-"])
+@pytest.mark.parametrize("suffix", [".csv", ".json"])
+def test_labels_keep_their_spelling(root, suffix, label):
+    text = (
+        f"file,label\na.off,{label}\n"
+        if suffix == ".csv"
+        else json.dumps([{"file": "a.off", "label": label}])
+    )
+    assert read_database(table(root, text, f"t{suffix}")).shapes[0].labels == {"label": label}
+
+
+@pytest.mark.parametrize("cell", ["", " ", "NaN", "nan", "N/A", "#N/A", "<NA>"])
+def test_cells_without_a_value(root, cell):
+    assert read_database(table(root, f"file,label\na.off,{cell}\n")).shapes[0].labels == {}
+
+
+@pytest.mark.parametrize(("value", "label"), [("1", "1"), ("1.0", "1.0"), ('"01"', "01"), ("-3", "-3")])
+def test_numbers_of_json_are_labels_as_they_are_written(root, value, label):
+    text = f'[{{"file": "a.off", "label": {value}}}]'
+    assert read_database(table(root, text, "t.json")).shapes[0].labels == {"label": label}
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "reason"),
+    [
+        ("t.csv", "file,Label,label\na.off,1,2\n", "'label' \\(written 'Label', 'label'\\)"),
+        ("t.csv", "file,File\na.off,b.off\n", "'file' \\(written 'file', 'File'\\)"),
+        (
+            "t.json",
+            '[{"file": "b"}, {"file": "a.off", "FILE": "b"}]',
+            "entry 2, has two columns named 'file'",
+        ),
+        ("t.json", '[{"file": "a.off", "label": "x", "label": "y"}]', "has the key 'label' twice"),
+    ],
+)
+def test_columns_of_one_name_are_named(root, name, text, reason):
+    with pytest.raises(DatabaseError, match=reason):
+        read_database(table(root, text, name))
+
+
+def test_files_of_another_case_are_found_where_that_is_clear(root):
+    (root / "Twin.off").touch()
+    (root / "twin.off").touch()
+    database = read_database(table(root, "file\nA.OFF\nDEEP\\C\nTWIN.off\ntwin.off\n"))
+    assert [shape.id for shape in database.shapes] == ["a", "deep/c", "twin"]
+    assert [(failure.path, "line 4" in failure.reason) for failure in database.failures] == [
+        ("TWIN.off", True)
+    ]
+
+
+def test_paths_of_mixed_normal_forms_are_found(root):
+    folder = root / "Mu\u0308nzen"
+    folder.mkdir()
+    (folder / "\u00c4.off").touch()
+    database = read_database(table(root, "file\nM\u00fcnzen/A\u0308.off\n"))
+    assert not database.failures
+    assert database.shapes[0].path.is_file()
+
+
+def test_meshes_that_no_row_names_are_counted(root):
+    database = read_database(table(root, "file,label\na.off,cup\nb,x\nb,y\nmissing.off,cup\n"))
+    assert [failure.path for failure in database.failures] == ["b.obj", "missing.off"]
+    assert database.warnings == (f"2 mesh files below {root} are not in shapes.csv and are left out.",)
+
+
+def test_a_column_of_classes_is_a_labeling_however_few_there_are(root):
+    database = read_database(table(root, "file,split,Class\na.off,x,cup\nb.obj,x,ant\ndeep/c.ply,x,\n"))
+    assert database.labelings == ("Class",)
+    assert [shape.labels for shape in database.shapes] == [{"Class": "cup"}, {"Class": "ant"}, {}]
+
+
+def test_names_tell_the_shapes_of_a_table_apart(root):
+    for folder in ("x/1a/models", "y/2b/models"):
+        (root / folder).mkdir(parents=True)
+        (root / folder / "model.obj").touch()
+    database = read_database(table(root, "file\nx/1a/models/model.obj\ny/2b/models/model.obj\na.off\n"))
+    assert [shape.name for shape in database.shapes] == ["a", "1a", "2b"]
