@@ -129,13 +129,14 @@ def join_parts(parts: Iterable[Part]) -> tuple[FloatArray, Indices]:
     for part in parts:
         if not len(part.faces):
             continue
-        used, corners = np.unique(part.faces, return_inverse=True)
-        points, triangles = part.vertices[used], corners.reshape(-1, 3)
+        used = np.zeros(len(part.vertices), bool)
+        used[part.faces] = True
+        points, triangles = part.vertices[used], (np.cumsum(used) - 1)[part.faces]
         linear = part.transforms[:, :3, :3]
         moved = points @ linear.transpose(0, 2, 1) + part.transforms[:, None, :3, 3]
         mirrored = np.linalg.det(linear) < 0
-        copies = np.where(mirrored[:, None, None], triangles[:, ::-1], triangles)
-        copies = copies + count + len(points) * np.arange(len(moved))[:, None, None]
+        copies = triangles + (count + len(points) * np.arange(len(moved)))[:, None, None]
+        copies[mirrored] = copies[mirrored, :, ::-1]
         vertices.append(moved.reshape(-1, 3))
         faces.append(copies.reshape(-1, 3))
         count += moved.shape[0] * moved.shape[1]

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import conformance.collada
 import numpy as np
 import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
 from shapeviz_report.render.viewpoint import choose_view
+from shapeviz_report.stages import prepare_shape, read_picture, render_shape
 from shapeviz_report.types import Mesh
 
 Y_UP = np.eye(3)
@@ -123,3 +125,14 @@ def test_neither_tessellation_nor_order_of_faces_turns_the_shape():
     shuffled = np.random.default_rng(0).permutation(finer.faces)
     view = choose_view(Mesh(np.asarray(finer.vertices), shuffled.astype(np.int32)))
     np.testing.assert_allclose(view, choose_view(mesh), atol=1e-6)
+
+
+@pytest.mark.parametrize("axis", ["x", "y", "z"])
+def test_file_says_what_is_up_unless_the_builder_does(axis):
+    box = conformance.collada.document(asset=f"<up_axis>{axis.upper()}_UP</up_axis>")
+    prepared = prepare_shape({"box.dae": box}, 0.1)
+    for wanted, given in ((axis, None), ("z", "z")):
+        view = read_picture(render_shape(prepared, 32, given))[1]
+        upward = view[:, "xyz".index(wanted)]
+        assert upward[0] == pytest.approx(0, abs=1e-9)
+        assert upward[1] > 0.5
