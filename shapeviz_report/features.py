@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.descriptors import DESCRIPTORS, Surface
+from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
 from shapeviz_report.descriptors.kernels.histograms import add_up
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, Mesh
@@ -19,6 +20,15 @@ BINS = 10
 
 QUANTILES = (0.01, 0.99)
 """Ends of the data-driven histogram ranges: wide enough for the values, closed to stray ones."""
+
+ROUNDING = 1e-6
+"""What rounding may move a continuous value by, as a part of it; as it stands, where it is a difference of values."""
+
+SHARE_ROUNDING = 1e-7
+"""What rounding may move a share by: it is a quotient of two numbers, rounded once to float32."""
+
+LEAST = 1e-3
+"""Rounding moves continuous values smaller than this as much as this one: they are differences of larger ones."""
 
 BLOCKS = tuple(FeatureBlock(d.name, d.dimensions, BINS) for d in DESCRIPTORS)
 """The features of Table 1: 187 dimensions, 1870 columns."""
@@ -71,8 +81,8 @@ PRESETS = {
 
 
 def fixed_edges() -> FloatArray:
-    """The (187, 11) bin edges of every dimension that the descriptors define."""
-    return np.concatenate([np.tile(d.edges, (d.dimensions, 1)) for d in DESCRIPTORS])
+    """The (187, 11) bin edges of every dimension that the descriptors define, clear of the values they take."""
+    return clear_edges(np.concatenate([np.tile(d.edges, (d.dimensions, 1)) for d in DESCRIPTORS]))
 
 
 def quantile_edges(samples: Sequence[FloatArray]) -> FloatArray:
@@ -83,10 +93,55 @@ def quantile_edges(samples: Sequence[FloatArray]) -> FloatArray:
     samples : sequence of (s, 187) arrays
         As :func:`sample_values` gives them.
     """
-    low, high = np.quantile(np.concatenate(samples), QUANTILES, axis=0)
-    # Where all values agree any width does: they all fall into one bin.
-    high = np.where(high > low, high, low + 1)
-    return low[:, None] + (high - low)[:, None] * np.linspace(0, 1, BINS + 1)
+    low, high = np.quantile(np.concatenate(samples).astype(np.float64), QUANTILES, axis=0)
+    # Where all values agree any width does: they all fall into one bin. Rounding is no difference.
+    high = np.where(high - low > BINS * ROUNDING, high, low + 1)
+    return clear_edges(low[:, None] + (high - low)[:, None] * np.linspace(0, 1, BINS + 1))
+
+
+def clear_edges(edges: FloatArray) -> FloatArray:
+    r"""Move the inner edges off the values that descriptors take, so that rounding does not choose the bin.
+
+    A value at an edge belongs above it. Many vertices have such a value exactly, but rounding puts it on either
+    side. So an edge on a value goes below it. Shares of :math:`t \in T` things (:attr:`Descriptor.totals`) are
+
+    .. math:: V = \{m / t : t \in T, 0 \le m \le t\}, \quad
+              e' = \tfrac{1}{2} (v_{j-1} + v_j) \;\text{if}\; |e - v_j| \le 10^{-7}
+
+    with :math:`v_j` the least value from :math:`e - 10^{-7}` up: down by half a step of the lattice, which is at
+    least 1.7e-6 for PFH (870 pairs, fewer on tiny meshes) and 1.2e-7 for Sc (up to 2000 points). Other edges of
+    shares stay. Values that vary continuously are round ones on flat and regular shapes (0, 1/2, 0.6): all of
+    their edges go down, by :math:`10^{-6} \max(|e|, 10^{-3})`.
+
+    Parameters
+    ----------
+    edges : (187, 11) array
+        Rising along each row.
+
+    Returns
+    -------
+    (187, 11) float64 array
+        The first and last edges, which no value is compared with, stay.
+    """
+    cleared, start = edges.astype(np.float64), 0
+    for descriptor in DESCRIPTORS:
+        rows = slice(start, start + descriptor.dimensions)
+        inner = cleared[rows, 1:-1]
+        if descriptor.totals:
+            values = _shares(descriptor)
+            place = np.searchsorted(values, inner - SHARE_ROUNDING).clip(1, len(values) - 1)
+            below, at = values[place - 1], values[place]
+            cleared[rows, 1:-1] = np.where(np.abs(inner - at) <= SHARE_ROUNDING, (below + at) / 2, inner)
+        else:
+            cleared[rows, 1:-1] -= ROUNDING * np.maximum(np.abs(inner), LEAST)
+        start = rows.stop
+    return cleared
+
+
+@cache
+def _shares(descriptor: Descriptor) -> FloatArray:
+    """All values that a descriptor of shares can take, rising."""
+    return np.unique(np.concatenate([np.arange(total + 1) / total for total in descriptor.totals]))
 
 
 def sample_values(mesh: Mesh, count: int) -> FloatArray:

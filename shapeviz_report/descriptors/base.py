@@ -30,9 +30,13 @@ class Descriptor:
         Where on a shape, or in what surroundings, small and large values are found.
     edges : tuple of float
         The 11 rising edges of the 10 histogram bins of the default preset, the same for every dimension.
-        Values beyond the first or last edge belong to the first or last bin.
+        Values beyond the first or last edge belong to the first or last bin. Histograms take them as
+        :func:`shapeviz_report.features.clear_edges` moves them.
     compute : callable
         ``Surface -> (n, dimensions)`` float array, finite for every surface.
+    totals : tuple of int
+        Where values are shares of a number of things, the numbers that there may be of them: every value is a
+        whole multiple of one over one of these. Empty where values vary continuously.
     """
 
     name: str
@@ -44,6 +48,7 @@ class Descriptor:
     high: str
     edges: tuple[float, ...]
     compute: Callable[[Surface], np.ndarray]
+    totals: tuple[int, ...] = ()
 
     @property
     def dimensions(self) -> int:

@@ -6,7 +6,7 @@ import numpy as np
 
 from shapeviz_report.descriptors.base import Descriptor
 from shapeviz_report.descriptors.kernels.pairs import count_pfh
-from shapeviz_report.descriptors.surface import Surface
+from shapeviz_report.descriptors.surface import NEIGHBOURS, Surface
 
 
 def compute(surface: Surface) -> np.ndarray:
@@ -75,4 +75,5 @@ POINT_FEATURE_HISTOGRAM = Descriptor(
     high="patches with many such pairs",
     edges=tuple(float(x) for x in np.linspace(0.0, 0.8, 11) ** 2),
     compute=compute,
+    totals=tuple(size * (size - 1) for size in range(2, NEIGHBOURS + 1)),
 )

@@ -66,4 +66,5 @@ SHAPE_CONTEXT = Descriptor(
     high="points with much of the shape in that part of their surroundings",
     edges=tuple(float(x) for x in np.linspace(0.0, 0.8, 11) ** 2),
     compute=compute,
+    totals=tuple(range(1, SEEN + 1)),
 )

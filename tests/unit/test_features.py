@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from solids import ball, lump, tube
+import trimesh
+from solids import ball, from_trimesh, lump, sheet, tube
 
-from shapeviz_report.descriptors import DESCRIPTORS, Surface
+from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import (
     BLOCKS,
     PRESETS,
+    clear_edges,
     compute_histograms,
     describe,
     find_bins,
@@ -89,6 +91,73 @@ def test_quantile_edges_cut_off_one_per_cent() -> None:
     values = np.concatenate(samples)
     assert np.mean(values[:, 1] < edges[1, 0]) == pytest.approx(0.01, abs=0.002)
     assert np.mean(values[:, 1] > edges[1, -1]) == pytest.approx(0.01, abs=0.002)
+
+
+def shares(descriptor: Descriptor) -> np.ndarray:
+    """Every value that a descriptor of shares can take."""
+    return np.array(sorted({m / total for total in descriptor.totals for m in range(total + 1)}))
+
+
+@pytest.mark.parametrize("preset", ["default", "paper"])
+def test_no_edge_lies_on_a_share(preset) -> None:
+    meshes = (ball(3), lump(), sheet(), tube())
+    edges = (
+        fixed_edges()
+        if preset == "default"
+        else quantile_edges([sample_values(mesh, 400) for mesh in meshes])
+    )
+    start = 0
+    for descriptor in DESCRIPTORS:
+        inner = edges[start : start + descriptor.dimensions, 1:-1]
+        start += descriptor.dimensions
+        if descriptor.totals:
+            values = shares(descriptor)
+            place = np.searchsorted(values, inner).clip(1, len(values) - 1)
+            away = np.minimum(np.abs(inner - values[place - 1]), np.abs(inner - values[place]))
+            assert away.min() > 0.99e-7
+    assert (np.diff(edges) > 0).all()
+
+
+def test_an_edge_on_a_value_moves_to_the_middle_of_the_step_below_and_others_stay() -> None:
+    edges = np.tile(np.linspace(0.0, 1.0, 11), (187, 1))
+    edges[29, 1:4] = 1 / 870, 0.0015, 87 / 870 + 3e-8
+    cleared = clear_edges(edges)
+    assert cleared[29, 1] == pytest.approx(0.5 / 870)
+    assert cleared[29, 2] == 0.0015
+    assert 86.5 / 870 <= cleared[29, 3] < 87 / 870 - 1e-6
+    np.testing.assert_array_equal(cleared[:, [0, 10]], edges[:, [0, 10]])
+
+
+def test_rounding_moves_no_vertex_of_flat_and_regular_shapes_to_another_bin() -> None:
+    rng = np.random.default_rng(0)
+    box = from_trimesh(trimesh.creation.box((3, 2, 1)).subdivide().subdivide().subdivide())
+    for mesh in (sheet(), box, tube(), lump()):
+        surface = Surface(mesh)
+        values = np.hstack([d.compute(surface).astype(np.float64) for d in DESCRIPTORS])
+        sample = values[rng.integers(0, len(values), 400)].astype(np.float32)
+        for edges in (fixed_edges(), quantile_edges([sample])):
+            bins = [
+                find_bins(
+                    (values * (1 + size * rng.uniform(-1, 1, values.shape))).T.astype(np.float32), edges
+                )
+                for size in (0, 1e-12, 6e-8)
+            ]
+            np.testing.assert_array_equal(bins[0], bins[1])
+            np.testing.assert_array_equal(bins[0][5:154], bins[2][5:154])
+
+
+@pytest.mark.parametrize("dimension", [0, 1, 2, 3, 4, 160])
+def test_round_values_fall_above_their_edges_whatever_the_rounding(dimension) -> None:
+    nominal = np.concatenate([np.tile(d.edges, (d.dimensions, 1)) for d in DESCRIPTORS])[dimension, 1:-1]
+    noise = np.linspace(-1e-7, 1e-7, 9)
+    values = np.concatenate([nominal * (1 + part) for part in noise])[None].astype(np.float32)
+    bins = find_bins(values, fixed_edges()[[dimension]])
+    assert bins.reshape(9, 9).tolist() == [list(range(1, 10))] * 9
+
+
+def test_a_range_of_rounding_is_one_value() -> None:
+    samples = np.full((500, 187), 0.25, np.float32) + np.linspace(-1e-7, 1e-7, 500, dtype=np.float32)[:, None]
+    assert set(find_bins(samples.T, quantile_edges([samples])).ravel()) == {0}
 
 
 def test_balanced_scaling_gives_every_feature_the_same_say() -> None:

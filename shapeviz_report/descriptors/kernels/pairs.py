@@ -96,7 +96,7 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     )
     forward, backward = np.empty(width, np.int32), np.empty(width, np.int32)
     tally = np.empty((4, 125), np.int32)
-    share = np.float32(1.0 / (size * (size - 1)))
+    share = 1.0 / (size * (size - 1))
     for i in range(count):
         for s in range(2 * width):
             j = neighbours[i, s % size]
@@ -128,7 +128,7 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
                 tally[1, backward[pairs - 1]] += 1
         for cell in range(125):
             pairs = tally[0, cell] + tally[1, cell] + tally[2, cell] + tally[3, cell]
-            result[i, cell] = np.float32(pairs) * share
+            result[i, cell] = pairs * share
     return result
 
 
