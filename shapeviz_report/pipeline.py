@@ -75,7 +75,10 @@ from shapeviz_report.types import (
 logger = logging.getLogger(__name__)
 
 SAMPLED_VERTICES = 400_000
-"""Vertices behind data-driven histogram ranges, over all shapes; at least 16 and at most 1000 of each."""
+"""Vertices behind data-driven histogram ranges, over all shapes."""
+
+SAMPLED_OF_A_SHAPE = (16, 1000)
+"""The least and most of these of one shape."""
 
 SUBSETS_A_TASK = 16
 """Maps that a worker makes before it reports back: few enough to lose little, many enough to send distances seldom."""
@@ -226,7 +229,7 @@ def build_report(
         if preset.fixed_ranges:
             edges = fixed_edges()
         else:
-            share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), 16, 1000))
+            share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), *SAMPLED_OF_A_SHAPE))
             samples = run(
                 "sample", stages.SAMPLE, prepared, lambda s: plan(stages.SAMPLE, s, share), stages.read_array
             )

@@ -1,0 +1,64 @@
+"""Every number that decides a value has a name, and stands under it in docs/method.md."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import pkgutil
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import shapeviz_report
+from shapeviz_report import descriptors
+
+METHOD = Path(__file__).parents[2] / "docs" / "method.md"
+
+ROW = re.compile(r"^\| `([\w.]+)` \| `(\w+)` \| ([^|`]+) \|", re.MULTILINE)
+
+
+def constants() -> dict[tuple[str, str], np.ndarray]:
+    """The numbers that modules of the method bind to names in capitals where they are defined, by module and name."""
+    modules = [
+        found.name for found in pkgutil.walk_packages(descriptors.__path__, f"{descriptors.__name__}.")
+    ]
+    found = {}
+    for name in (*modules, "shapeviz_report.features", "shapeviz_report.quality"):
+        module = importlib.import_module(name)
+        for statement in ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8")).body:
+            targets = statement.targets if isinstance(statement, ast.Assign) else []
+            targets += [statement.target] if isinstance(statement, ast.AnnAssign) else []
+            for target in targets:
+                value = (
+                    np.asarray(getattr(module, target.id)) if isinstance(target, ast.Name) else np.array("")
+                )
+                if value.dtype.kind in "iuf":
+                    found[name.removeprefix(f"{shapeviz_report.__name__}."), target.id] = value
+    return found
+
+
+def stated() -> dict[tuple[str, str], list[float]]:
+    """The rows of the table of constants, by module and name."""
+    text = METHOD.read_text(encoding="utf-8")
+    return {(m[1], m[2]): [float(number) for number in m[3].split(",")] for m in ROW.finditer(text)}
+
+
+def test_sweep_finds_what_the_modules_hold() -> None:
+    assert {("descriptors.surface", "NEIGHBOURS"), ("descriptors.kernels.pairs", "SMALLEST")} <= set(
+        constants()
+    )
+
+
+def test_every_constant_is_stated_with_its_value() -> None:
+    rows = stated()
+    for key, value in constants().items():
+        assert key in rows, f"{key} is missing from the table of constants in {METHOD.name}"
+        assert rows[key] == pytest.approx(value.ravel().astype(float).tolist(), rel=1e-5), key
+
+
+def test_every_row_is_a_constant() -> None:
+    for (module, name), values in stated().items():
+        held = getattr(importlib.import_module(f"{shapeviz_report.__name__}.{module}"), name)
+        assert values == pytest.approx(np.ravel(held).astype(float).tolist(), rel=1e-5), (module, name)
