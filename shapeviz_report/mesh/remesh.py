@@ -13,6 +13,12 @@ MAX_VERTICES = 100_000
 ATTEMPTS = (1.0, 0.99, 0.97, 0.94)
 """Shares of the edge length to try: Mmg may give up at one length, and come through at another hardly shorter."""
 
+ROOM = 2**28
+"""Bytes that Mmg may take for any mesh. It takes half of it before it begins."""
+
+ROOM_PER_VERTEX = 2**9
+"""Bytes that it may take for each vertex that it gets or makes. It takes some 300."""
+
 _FAILED = (
     "it cannot be remeshed: perhaps all its parts are specks, far smaller than the space between them; "
     "remove what lies far off, and mend it in a 3D program"
@@ -84,6 +90,8 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
     ------
     MeshError
         Mmg gives up on it.
+    MemoryError
+        Mmg gives up, and the memory that it may have needed is not there.
     """
     # Importing mmgpy costs 0.1 s and loads native libraries: only the processes that remesh pay.
     from mmgpy import MmgMeshS
@@ -94,10 +102,10 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
     for share in ATTEMPTS:
         target = share * edge_length / diagonal
         surface = MmgMeshS()
-        surface.set_mesh_size(vertices=len(mesh.vertices), triangles=len(mesh.faces))
-        surface.set_vertices((mesh.vertices - low) / diagonal)
-        surface.set_triangles(mesh.faces)
         try:
+            surface.set_mesh_size(vertices=len(mesh.vertices), triangles=len(mesh.faces))
+            surface.set_vertices((mesh.vertices - low) / diagonal)
+            surface.set_triangles(mesh.faces)
             # Moving vertices would take as long as all the rest, and the edges are as even as is needed without.
             surface.remesh(hsiz=target, hausd=target / 2, nomove=1, verbose=-1)
         except RuntimeError:
@@ -105,4 +113,8 @@ def remesh(mesh: Mesh, edge_length: float) -> Mesh:
         vertices, faces = surface.get_vertices(), surface.get_triangles()
         if len(faces) > 0 and np.isfinite(vertices).all():
             return Mesh(vertices * diagonal + low, np.ascontiguousarray(faces, dtype=np.int32))
+    # Mmg fails alike for want of memory and for what it cannot remesh. If what it would have taken is not to be had
+    # now either, that is why, and the mesh may be well.
+    del surface
+    np.empty(ROOM + ROOM_PER_VERTEX * (len(mesh.vertices) + MAX_VERTICES), np.uint8)
     raise MeshError(_FAILED)
