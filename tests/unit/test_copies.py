@@ -81,7 +81,10 @@ def test_symmetric_and_flat_shapes_are_found_too_and_need_no_mirror(solid: str, 
 
 def test_boxes_of_other_proportions_are_no_copies() -> None:
     boxes = [trimesh.creation.box(size) for size in ((2, 3, 4), (2, 3, 4.2))]
-    assert match(*(Mesh(np.array(b.vertices, float), np.array(b.faces, np.int32)) for b in boxes)) is None
+    meshes = [clean(Mesh(np.array(b.vertices, float), np.array(b.faces, np.int32)))[0] for b in boxes]
+    assert compare(*meshes) is None
+    outlines = {str(number): Outline(str(number), outline(mesh)) for number, mesh in enumerate(meshes)}
+    assert pair_outlines(outlines) == ([], [])
 
 
 def test_shapes_of_a_class_are_no_copies_of_each_other() -> None:
