@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 from tqdm import tqdm
 
@@ -59,15 +59,18 @@ STAGES = {
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
     options = _parser().parse_args(arguments)
-    logging.basicConfig(level=logging.WARNING, format="%(levelname)s: %(message)s")
+    handler = logging.StreamHandler()
+    handler.setFormatter(_LogFormatter("%(levelname)s: %(message)s"))
+    logging.basicConfig(level=logging.WARNING, handlers=[handler])
     signal.signal(signal.SIGTERM, _terminate)
     try:
         return int(options.command(options))
     except ShapevizError as error:
-        print(f"shapeviz-report: {error}", file=sys.stderr)
+        first, *rest = error.lines
+        _say(f"shapeviz-report: {first}", *rest, file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("\nStopped. What was computed is kept: the same command continues from here.", file=sys.stderr)
+        _say("", "Stopped. What was computed is kept: the same command continues from here.", file=sys.stderr)
         return 130
     except BrokenPipeError:
         # The reader of our output has gone, as in `... | head`.
@@ -240,22 +243,22 @@ def _check(options: argparse.Namespace) -> int:
     config = load_config(options.database, _given(options), options.config)
     if options.list:
         database = read_database(options.database, layout=config.layout, labeling=config.labeling)
-        print("\n".join(shape.id for shape in database.shapes))
+        _say(*(shape.id for shape in database.shapes))
         return 0
     result = check_database(options.database, config, TerminalProgress())
     _print_database(result.database)
     mended = Counter(what for repairs in result.repairs.values() for what in repairs)
     if mended:
-        print("\nWould be repaired, in so many files:")
+        _say("", "Would be repaired, in so many files:")
         for what, count in sorted(mended.items(), key=lambda item: (-item[1], item[0])):
-            print(f"  {count:6,}  {what}")
+            _say(f"  {count:6,}  {what}")
     if result.copies:
-        print("\nThe same shape again:")
+        _say("", "The same shape again:")
         for copy in result.copies:
-            print(f"  {_one_line(copy.second)} is {_one_line(copy.first)}: {copy.match.words}")
+            _say(f"  {copy.second} is {copy.first}: {copy.match.words}")
     _print_failures(result.failures)
     if not result.failures:
-        print("\nAll files can be used.")
+        _say("", "All files can be used.")
     return 1 if result.failures else 0
 
 
@@ -276,7 +279,7 @@ def _query(options: argparse.Namespace) -> int:
         progress=TerminalProgress(),
     )
     if options.json:
-        print(json_text(dataclasses.asdict(result), indent=1))
+        _say(*json_text(dataclasses.asdict(result), indent=1).splitlines())
     else:
         _print_found(result, options.mesh)
     return 0
@@ -288,49 +291,48 @@ def _print_found(result: QueryResult, mesh: Path) -> None:
         what = result.bins[0] if len(result.bins) == 1 else f"{len(result.bins)} bins"
     else:
         what = ", ".join(result.features or ())
-    among = f"{result.shapes:,} shapes of {_one_line(result.database)}"
-    print(f"{_one_line(str(mesh))}: the most similar of {among}, by {what}.")
+    among = f"{result.shapes:,} shapes of {result.database}"
+    _say(f"{mesh}: the most similar of {among}, by {what}.")
     if result.left_out:
-        print(f"Left out, for a mesh alone has no value for it: {_one_line(', '.join(result.left_out))}.")
-    print(
-        f"Two shapes of the database are typically {result.typical:.3f} apart. Below a feature: how many percent of\n"
-        "the database are farther from the mesh than this shape, by that feature alone.\n"
+        _say(f"Left out, for a mesh alone has no value for it: {', '.join(result.left_out)}.")
+    _say(
+        f"Two shapes of the database are typically {result.typical:.3f} apart. Below a feature: how many percent of",
+        "the database are farther from the mesh than this shape, by that feature alone.",
+        "",
     )
     features = list(result.found[0].closer)
-    labels = [_one_line(found.label or "") for found in result.found]
+    labels = [found.label or "" for found in result.found]
     width = max(len("class"), *map(len, labels)) if any(labels) else 0
     heading = f"{'class':{width}}  " if width else ""
-    print(f"{'':4}  distance  {heading}{'  '.join(f'{name:>4}' for name in features)}  shape")
+    _say(f"{'':4}  distance  {heading}{'  '.join(f'{name:>4}' for name in features)}  shape")
     for place, (found, label) in enumerate(zip(result.found, labels), start=1):
         shares = "  ".join(f"{100 * found.closer[name]:{max(4, len(name))}.0f}" for name in features)
         said = f"{label:{width}}  " if width else ""
-        print(f"{place:4}  {found.distance:8.3f}  {said}{shares}  {_one_line(found.id)}")
+        _say(f"{place:4}  {found.distance:8.3f}  {said}{shares}  {found.id}")
 
 
 def _print_database(database: Database) -> None:
-    print(f"{database.name}: {len(database.shapes):,} shapes, read as {database.layout} from {database.root}")
+    _say(f"{database.name}: {len(database.shapes):,} shapes, read as {database.layout} from {database.root}")
 
     for labeling in database.labelings:
         sizes = Counter(s.labels[labeling] for s in database.shapes if labeling in s.labels)
         missing = len(database.shapes) - sum(sizes.values())
-        print(
-            f"\nLabeling {labeling!r}: {len(sizes)} classes"
-            + (f", {missing} shapes without" if missing else "")
-        )
+        without = f", {missing} shapes without" if missing else ""
+        _say("", f"Labeling {labeling!r}: {len(sizes)} classes{without}")
         for label in classes_of(sizes):
-            print(f"  {sizes[label]:6,}  {_one_line(label)}")
+            _say(f"  {sizes[label]:6,}  {label}")
     if not database.labelings:
-        print("\nNo labels: the map will be drawn in one colour, and there is no neighbourhood hit.")
+        _say("", "No labels: the map will be drawn in one colour, and there is no neighbourhood hit.")
     for warning in database.warnings:
-        print(f"\nNote: {warning}")
+        _say("", f"Note: {warning}")
 
 
 def _print_failures(failures: Sequence[Failure]) -> None:
     if not failures:
         return
-    print(f"\nCannot be used: {len(failures)} {'file' if len(failures) == 1 else 'files'}")
+    _say("", f"Cannot be used: {len(failures)} {'file' if len(failures) == 1 else 'files'}")
     for failure in failures:
-        print(f"  {_one_line(failure.path)}: {_one_line(failure.reason)}")
+        _say(f"  {failure.path}: {failure.reason}")
 
 
 def _print_summary(report: Report, destination: Path) -> None:
@@ -350,21 +352,42 @@ def _print_summary(report: Report, destination: Path) -> None:
     stages = "  ".join(f"{name} {seconds:.1f}" for name, seconds in report.seconds.items())
     rows.append(("seconds", f"{total:.1f}  ({stages})"))
     rows.append(("CPU seconds", f"{total_cpu:.1f}"))
-    print()
+    _say("")
     for name, value in rows:
-        print(f"{name:>12}  {value}")
+        _say(f"{name:>12}  {value}")
     _print_failures(report.failures[:10])
     if len(report.failures) > 10:
-        print(f"  ... and {len(report.failures) - 10} more: see the About page")
+        _say(f"  ... and {len(report.failures) - 10} more: see the About page")
     for warning in report.database.warnings:
-        print(f"\nNote: {_one_line(warning)}")
+        _say("", f"Note: {warning}")
     page = destination if destination.is_file() else destination / "index.html"
-    print(f"\nThe site is ready. Open {page.absolute()}")
+    _say("", f"The site is ready. Open {page.absolute()}")
+
+
+def _say(*lines: str, file: TextIO | None = None) -> None:
+    """Print each text as one line: all that the command tells goes this way, for it may hold names of strangers."""
+    file = file or sys.stdout
+    encoding = file.encoding or "utf-8"
+    for line in lines:
+        print(_one_line(line).encode(encoding, "replace").decode(encoding), file=file)
+    file.flush()
 
 
 def _one_line(text: str) -> str:
-    """Text of a database as the terminal may show it: no line breaks, no control characters."""
+    """Text of a database as the terminal may show it: no line breaks, no control characters, none that turn the
+    direction of writing, and no bytes that are no text.
+    """
     return "".join(c if c.isprintable() else "?" for c in text)
+
+
+class _LogFormatter(logging.Formatter):
+    """Log records as :func:`_say` prints: the message as one line, a traceback line by line."""
+
+    def formatMessage(self, record: logging.LogRecord) -> str:
+        return _one_line(super().formatMessage(record))
+
+    def formatException(self, ei: Any) -> str:
+        return "\n".join(map(_one_line, super().formatException(ei).splitlines()))
 
 
 class TerminalProgress:
@@ -375,7 +398,7 @@ class TerminalProgress:
         """See :class:`shapeviz_report.pipeline.Progress`."""
         title = STAGES[name]
         if total == 0:
-            print(title, file=sys.stderr, flush=True)
+            _say(title, file=sys.stderr)
             yield lambda: None
             return
         live = sys.stderr.isatty()

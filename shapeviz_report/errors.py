@@ -7,7 +7,17 @@ from __future__ import annotations
 
 
 class ShapevizError(Exception):
-    """An error that its message alone explains: what is wrong, in which file, what to do."""
+    """An error that its message alone explains: what is wrong, in which file, what to do.
+
+    Each argument is a line of the message, so that a name with a line break in it begins none.
+    """
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        return tuple(map(str, self.args)) or (type(self).__name__,)
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines)
 
 
 class ConfigError(ShapevizError):

@@ -249,7 +249,7 @@ def build_report(
         described = run("describe", stages.DESCRIBE, pictures, plan_describing, stages.read_features)
         shapes = tuple(s for s in database.shapes if s.id in described)
         if not shapes:
-            raise DatabaseError(_nothing_usable(database_path, failures))
+            raise DatabaseError(*_nothing_usable(database_path, failures))
         examined = run("examine", stages.EXAMINE, described, _plan_examining(paths), stages.read_examined)
         copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
         groups = group_copies(copies, [s.id for s in shapes])
@@ -947,7 +947,9 @@ def _relative(shape: ShapeEntry, root: Path) -> str:
         return shape.path.as_posix()
 
 
-def _nothing_usable(path: Path, failures: Sequence[Failure]) -> str:
-    first = "".join(f"\n  {failure.path}: {failure.reason}" for failure in failures[:5])
-    more = f"\n  and {len(failures) - 5} more" if len(failures) > 5 else ""
-    return f"None of the files in {path} can be used:{first}{more}"
+def _nothing_usable(path: Path, failures: Sequence[Failure]) -> Iterator[str]:
+    """The lines of a message."""
+    yield f"None of the files in {path} can be used:"
+    yield from (f"  {failure.path}: {failure.reason}" for failure in failures[:5])
+    if len(failures) > 5:
+        yield f"  and {len(failures) - 5} more"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -55,7 +56,7 @@ def read_database(
     if database.layout != Table.name and path.is_dir():
         database = replace(database, warnings=(*database.warnings, *passed_over(path)))
     if not database.shapes and not database.failures:
-        raise DatabaseError(_nothing_found(path))
+        raise DatabaseError(*_nothing_found(path))
     if labeling is not None:
         if labeling not in database.labelings:
             existing = ", ".join(f"'{existing}'" for existing in database.labelings) or "none"
@@ -77,12 +78,13 @@ def _choose_layout(path: Path, name: str | None) -> Layout:
     for layout in LAYOUTS:
         if layout.recognises(path):
             return layout
-    raise DatabaseError(_nothing_found(path))
+    raise DatabaseError(*_nothing_found(path))
 
 
-def _nothing_found(path: Path) -> str:
+def _nothing_found(path: Path) -> Iterator[str]:
+    """The lines of a message."""
     if not path.is_dir():
-        return f"{path} is neither a folder, nor a table ({', '.join(TABLE_SUFFIXES)}), nor a .cla file."
-    layouts = "".join(f"\n  {layout.name}: {layout.description}" for layout in LAYOUTS)
-    suffixes = ", ".join(MESH_FORMATS)
-    return f"No shapes were found in {path}. Looked for meshes ({suffixes}) laid out as one of:{layouts}"
+        yield f"{path} is neither a folder, nor a table ({', '.join(TABLE_SUFFIXES)}), nor a .cla file."
+        return
+    yield f"No shapes were found in {path}. Looked for meshes ({', '.join(MESH_FORMATS)}) laid out as one of:"
+    yield from (f"  {layout.name}: {layout.description}" for layout in LAYOUTS)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from small_database import OPTIONS, write_database
+from small_database import OPTIONS, make_shape, write_database
 
 from shapeviz_report import __version__
 from shapeviz_report.cli import main
@@ -146,3 +147,41 @@ def test_a_reader_that_goes_away_is_no_error(database) -> None:
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
     assert done.stdout == "ball/0\n"
     assert "Traceback" not in done.stderr
+
+
+HOSTILE = "a\x1b[31m\nNote: b\u202e\x9b\x07"
+
+
+def test_names_reach_the_terminal_as_one_line_of_printable_characters(tmp_path) -> None:
+    folder = tmp_path / f"d{HOSTILE}"
+    for label in (HOSTILE, "plain"):
+        (folder / label).mkdir(parents=True)
+        make_shape("box", len(label)).export(folder / label / f"good{HOSTILE}.off")
+    (folder / HOSTILE / f"bad{HOSTILE}.off").write_text("OFF\n1 2")
+    os.close(os.open(os.fsencode(folder) + b"/plain/\xff\xfe.off", os.O_CREAT))
+    options = ["--jobs", "1", "--cache", tmp_path / "cache"]
+    shown = "a?[31m?Note: b???"
+
+    listed = run("check", folder, "--list")
+    assert listed.stdout.splitlines()[:1] == [f"{shown}/bad{shown}"]
+    checked = run("check", folder, *options)
+    assert checked.returncode == 1
+    assert f"  {shown}/bad{shown}.off: " in checked.stdout
+    assert f"     2  {shown}\n" in checked.stdout
+    (folder / "plain" / f"good{HOSTILE}.off").unlink()
+    (folder / HOSTILE / f"good{HOSTILE}.off").unlink()
+    stopped = run("build", folder, "-o", tmp_path / "site", *options)
+    assert stopped.returncode == 1
+    assert f"None of the files in {tmp_path}/d{shown} can be used:\n  {shown}/bad" in stopped.stderr
+    for done in (listed, checked, stopped):
+        said = done.stdout + done.stderr
+        assert "Traceback" not in said
+        assert "Note: b" in said
+        assert "\nNote: b" not in said
+        assert all(c.isprintable() or c in "\n\r" for c in said), ascii(said)
+
+
+def test_a_warning_is_logged_as_one_line() -> None:
+    program = "import logging, shapeviz_report.cli as cli; cli.main(['check', 'none']); logging.warning('a\\x1b\\nb')"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stderr.splitlines()[-1] == "WARNING: a??b"
