@@ -20,6 +20,7 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from shapeviz_report.errors import CacheError
 from shapeviz_report.files import read_regular
 
 logger = logging.getLogger(__name__)
@@ -95,7 +96,7 @@ class Cache:
         """
         path = self.path(stage, key)
         try:
-            entry = read_regular(path)
+            entry: bytes | None = read_regular(path)
         except (FileNotFoundError, NotADirectoryError):
             # A link to nowhere is not found either, and is in the way all the same.
             entry = b"" if path.is_symlink() else None
@@ -111,8 +112,14 @@ class Cache:
         return None
 
     def store(self, stage: str, key: str, content: bytes) -> None:
-        """Write an entry, whole or not at all."""
-        write_atomically(self.path(stage, key), _head(stage, key, content) + content)
+        """Write an entry, whole or not at all. Raises :class:`CacheError` if that cannot be done."""
+        try:
+            write_atomically(self.path(stage, key), _head(stage, key, content) + content)
+        except OSError as error:
+            raise CacheError(
+                f"Results cannot be kept in the cache {self.root}: {error.strerror}. Make room there, or name another "
+                "folder with --cache; what was kept before stays."
+            ) from error
 
     def tell_spoiled(self) -> None:
         """Log a warning if entries were spoiled."""

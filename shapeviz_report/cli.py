@@ -33,6 +33,9 @@ exit codes:
   130  stopped by Ctrl-C (143: by a termination signal); the same command continues where it stopped
 """
 
+QUERYING = ("time_limit", "memory_limit", "cache")
+"""Options of a build that a query has as well."""
+
 STAGES = {
     "read": "Reading the database",
     "generate": "Generating shapes",
@@ -68,6 +71,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ShapevizError as error:
         first, *rest = error.lines
         _say(f"shapeviz-report: {first}", *rest, file=sys.stderr)
+        return 1
+    except MemoryError:
+        print(
+            "shapeviz-report: the memory of this machine does not suffice. What was computed is kept: end other "
+            "programs, or use fewer --jobs, and the same command continues.",
+            file=sys.stderr,
+        )
         return 1
     except KeyboardInterrupt:
         _say("", "Stopped. What was computed is kept: the same command continues from here.", file=sys.stderr)
@@ -131,7 +141,18 @@ def _parser() -> argparse.ArgumentParser:
         "--list", action="store_true", help="print the id of every shape, in order, and no more"
     )
     _add_options(
-        check, ["layout", "labeling", "external", "bins", *PUBLICATION, "time_limit", "jobs", "cache"]
+        check,
+        [
+            "layout",
+            "labeling",
+            "external",
+            "bins",
+            *PUBLICATION,
+            "time_limit",
+            "memory_limit",
+            "jobs",
+            "cache",
+        ],
     )
     check.set_defaults(command=_check)
 
@@ -160,7 +181,7 @@ def _parser() -> argparse.ArgumentParser:
         "-n", "--count", metavar="N", type=int, default=10, help="how many shapes to find (10)"
     )
     query.add_argument("--json", action="store_true", help="print everything that was found as JSON")
-    _add_options(query, ["time_limit", "cache"])
+    _add_options(query, QUERYING)
     query.set_defaults(command=_query)
     return parser
 
@@ -267,7 +288,7 @@ def _query(options: argparse.Namespace) -> int:
     from shapeviz_report.querying import find_similar
     from shapeviz_report.site.data_files import json_text
 
-    config = load_config(None, {"time_limit": options.time_limit, "cache": options.cache}, options.config)
+    config = load_config(None, {name: getattr(options, name) for name in QUERYING}, options.config)
     result = find_similar(
         options.site,
         options.mesh,
@@ -276,6 +297,7 @@ def _query(options: argparse.Namespace) -> int:
         count=options.count,
         cache=(config.cache or default_root()).absolute(),
         time_limit=config.time_limit,
+        memory_limit=config.memory_bytes,
         progress=TerminalProgress(),
     )
     if options.json:

@@ -40,6 +40,10 @@ class WorkerError(ShapevizError):
     """The machine cannot run worker processes."""
 
 
+class CacheError(ShapevizError):
+    """Results that cannot be kept where they were to be."""
+
+
 class ClusterError(ShapevizError):
     """A Dask cluster that cannot be used, or no longer."""
 

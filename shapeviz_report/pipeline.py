@@ -634,7 +634,7 @@ def _cluster(
             step(cpu_seconds)
 
         def drop(_: str, reason: str, __: float) -> None:
-            raise DatabaseError(f"Clustering the shapes failed: {reason}. A larger time_limit may help.")
+            raise DatabaseError(f"Clustering the shapes failed: {reason}.")
 
         run.find(stages.CLUSTER, ["all"], plan, take, drop)
     (partition,) = found
@@ -679,7 +679,7 @@ def _project(
             step(cpu_seconds)
 
         def drop(method: str, reason: str, _: float) -> None:
-            raise DatabaseError(f"The projection {method} failed: {reason}. A larger time_limit may help.")
+            raise DatabaseError(f"The projection {method} failed: {reason}.")
 
         methods = [method.name for method in PROJECTIONS]
         run.find(stages.PROJECT, [m for m in methods if m not in shared], plan, take, drop)
@@ -712,8 +712,7 @@ def _search(
 
             def drop(_: tuple[int, ...], reason: str, __: float) -> None:
                 raise DatabaseError(
-                    f"The search for the best features failed: {reason}. A larger time_limit may help; --search none "
-                    "leaves it out."
+                    f"The search for the best features failed: {reason}; --search none leaves it out."
                 )
 
             run.find(stages.SEARCH, chunks, plan, take, drop)
@@ -810,9 +809,7 @@ def _search_bins(
             step(cpu_seconds)
 
         def drop(_: int, reason: str, __: float) -> None:
-            raise DatabaseError(
-                f"The search for bins failed: {reason}. A larger time_limit may help; --search none leaves it out."
-            )
+            raise DatabaseError(f"The search for bins failed: {reason}; --search none leaves it out.")
 
         run.find(stages.SELECT, range(len(questions)), plan, take, drop)
     held_out = [stages.read_held_out(answers[i]) for i in range(1, honest)]
@@ -863,7 +860,7 @@ def _rate_retrieval(
             step(cpu_seconds)
 
         def drop(_: tuple[str, tuple[int, ...]], reason: str, __: float) -> None:
-            raise DatabaseError(f"Rating the retrieval failed: {reason}. A larger time_limit may help.")
+            raise DatabaseError(f"Rating the retrieval failed: {reason}.")
 
         run.find(stages.RETRIEVE, questions, plan, take, drop)
     return Retrieval(
@@ -912,7 +909,7 @@ def _paint(
 
         def drop(row: int, reason: str, _: float) -> None:
             name = features.shape_ids[row]
-            raise DatabaseError(f"Painting bins on {name} failed: {reason}. A larger time_limit may help.")
+            raise DatabaseError(f"Painting bins on {name} failed: {reason}.")
 
         run.find(
             stages.PAINT, shapes, lambda row: plan(row, tuple(place[c] for c in columns[row])), take, drop

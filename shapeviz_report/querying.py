@@ -129,6 +129,7 @@ def find_similar(
     count: int = 10,
     cache: Path,
     time_limit: float,
+    memory_limit: int | None = None,
     progress: Progress | None = None,
 ) -> QueryResult:
     """The shapes of a site that are most similar to a mesh.
@@ -149,6 +150,8 @@ def find_similar(
         Where results are kept.
     time_limit : float
         Seconds for one stage.
+    memory_limit : int, optional
+        Bytes of memory for the worker process; by default most of what is free.
     progress : Progress, optional
 
     Raises
@@ -164,7 +167,8 @@ def find_similar(
         raise ConfigError(f"the number of shapes to find must be at least 1, not {count}")
     opened = _open_site(site)
     chosen, names, left_out = _choose(opened, features, bins)
-    facts, values = _measure(opened, mesh, Cache(cache), time_limit, progress or QuietProgress())
+    with LocalExecutor(1, time_limit, memory_limit or memory_share(1)) as executor:
+        facts, values = _measure(opened, mesh, Cache(cache), executor, progress or QuietProgress())
     table, preset = opened.table, opened.preset
     similar = rank_similar(table, preset, values, **{chosen: names}, count=count)
     blocks = [block.name for block in table.blocks]
@@ -271,23 +275,20 @@ _BROUGHT = "which was brought along to the build as a file: a mesh alone has no 
 
 
 def _measure(
-    site: _Site, mesh: Path, cache: Cache, time_limit: float, progress: Progress
+    site: _Site, mesh: Path, cache: Cache, executor: Executor, progress: Progress
 ) -> tuple[ShapeFacts, FloatArray]:
     """The mesh, prepared and measured as the site's own were."""
     try:
         files = collect_files(mesh)
         edge_length = float(site.summary["parameters"]["edge_length"])
-        with LocalExecutor(1, time_limit, memory_share(1)) as executor:
-            with progress.stage("prepare", 0):
-                key = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
-                prepared = _compute(executor, cache, stages.PREPARE, key, lambda: (files, edge_length))
-            facts = stages.read_facts(prepared)
-            with progress.stage("describe", 0):
-                by_area = site.preset.by_area
-                key = stages.MEASURE.key(key, site.edges.tobytes(), by_area)
-                measured = _compute(
-                    executor, cache, stages.MEASURE, key, lambda: (prepared, site.edges, by_area)
-                )
+        with progress.stage("prepare", 0):
+            key = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
+            prepared = _compute(executor, cache, stages.PREPARE, key, lambda: (files, edge_length))
+        facts = stages.read_facts(prepared)
+        with progress.stage("describe", 0):
+            by_area = site.preset.by_area
+            key = stages.MEASURE.key(key, site.edges.tobytes(), by_area)
+            measured = _compute(executor, cache, stages.MEASURE, key, lambda: (prepared, site.edges, by_area))
     except MeshError as error:
         raise MeshError(f"the mesh {mesh} cannot be used: {error}") from error
     cache.tell_spoiled()

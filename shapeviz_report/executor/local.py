@@ -72,7 +72,10 @@ class LocalExecutor:
                     if connection in late:
                         worker.stop()
                         self._workers.remove(worker)
-                        yield Outcome(index, None, f"it took longer than {self.time_limit:g} seconds", 0.0)
+                        reason = (
+                            f"it took longer than {self.time_limit:g} seconds; a larger time_limit may help"
+                        )
+                        yield Outcome(index, None, reason, 0.0)
                         continue
                     try:
                         value, error, cpu = connection.recv()
@@ -95,6 +98,12 @@ class LocalExecutor:
                     idle.append(worker)
                     if isinstance(error, ShapevizError):
                         yield Outcome(index, None, str(error), cpu)
+                    elif isinstance(error, OSError) and error.errno is not None:
+                        # A task comes with all it needs: what cannot be opened or written is of the machine.
+                        raise WorkerError(
+                            f"A worker process cannot go on: {error.strerror}. What was computed is kept; see to the "
+                            "machine (room on its disks, open files), and run the same command again."
+                        ) from error
                     elif error is not None:
                         raise error
                     else:

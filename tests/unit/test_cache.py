@@ -8,6 +8,7 @@ import textwrap
 import pytest
 
 from shapeviz_report.cache import Cache, code_version, default_root, make_key, write_atomically
+from shapeviz_report.errors import CacheError
 
 
 def test_an_entry_comes_back(tmp_path) -> None:
@@ -121,3 +122,9 @@ def test_a_spoiled_entry_is_thrown_away_and_can_be_stored_anew(tmp_path, caplog,
     assert cache.load("other", "abcdef") == b"some content"
     cache.tell_spoiled()
     assert "1 kept result in the cache" in caplog.text
+
+
+def test_a_cache_that_takes_no_results_is_told_of(tmp_path) -> None:
+    (tmp_path / "cache").write_text("a file where the folder should be")
+    with pytest.raises(CacheError, match="what was kept before stays"):
+        Cache(tmp_path / "cache").store("stage", "0123", b"content")

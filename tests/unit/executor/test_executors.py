@@ -102,7 +102,7 @@ def test_a_crash_takes_one_task_only(executor) -> None:
 def test_a_task_that_hangs_is_stopped(make_executor) -> None:
     with make_executor(5) as executor:
         found = collect(executor, time.sleep, [(600,), (0,), (0,), (0,)])
-    assert found.pop(0) == (None, "it took longer than 5 seconds")
+    assert found.pop(0) == (None, "it took longer than 5 seconds; a larger time_limit may help")
     assert all(reason is None for _, reason in found.values())
 
 
@@ -228,3 +228,9 @@ def test_no_process_is_left_behind(make_executor) -> None:
     for pid in pids:
         with pytest.raises(ProcessLookupError):
             os.kill(pid, 0)
+
+
+@pytest.mark.skipif(platform.system() != "Linux", reason="a disk that is always full")
+def test_a_worker_whose_disk_is_full_ends_the_run_with_a_sentence(executor) -> None:
+    with pytest.raises(WorkerError, match="cannot go on: No space left on device"):
+        collect(executor, exec, [("open('/dev/full', 'wb', 0).write(b'0')",)])
