@@ -8,8 +8,12 @@ import altair as alt
 def class_bars() -> alt.LayerChart:
     """One bar a class with its value in three decimals, and a rule where random labels would end.
 
-    The page sets the data ``classes``, rows of ``row`` (0 on top), ``hit`` in [0, 1] or null, and ``present``
-    (false where the class is hidden). Its parameter ``chance`` is the value of random labels, -1 without one.
+    Where a class is too small for its NH to reach 1, a tick stands at what it can reach, and its colour is by the share
+    of that.
+
+    The page sets the data ``classes``, rows of ``row`` (0 on top), ``hit`` in [0, 1] or null, ``highest`` (the most it
+    can be, or null), and ``present`` (false where the class is hidden). Its parameter ``chance`` is the value of random
+    labels, -1 without one.
     The names of the classes stand beside the bars as buttons of the page.
     """
     rows = alt.Y("row:O", axis=None, scale=alt.Scale(paddingInner=0.42, paddingOuter=0.21))
@@ -20,9 +24,16 @@ def class_bars() -> alt.LayerChart:
         .encode(
             x=_unit("hit:Q"),
             y=rows,
-            color=alt.Color("hit:Q", legend=None, scale=alt.Scale(domain=[0, 1], range="ramp")),
+            color=alt.Color("share:Q", legend=None, scale=alt.Scale(domain=[0, 1], range="ramp")),
             opacity=presence,
         )
+        .transform_calculate(share="datum.highest > 0 ? datum.hit / datum.highest : 0")
+    )
+    ends = (
+        alt.Chart()
+        .transform_filter("isValid(datum.highest) && datum.highest < 0.9999")
+        .mark_tick(thickness=1.5, color=alt.ExprRef("ink"))
+        .encode(x=_unit("highest:Q"), y=rows, opacity=presence)
     )
     values = (
         alt.Chart()
@@ -34,7 +45,9 @@ def class_bars() -> alt.LayerChart:
             opacity=presence,
         )
         .transform_calculate(
-            anchor="isValid(datum.hit) ? datum.hit : 0",
+            # Beside the tick where the bar ends at or just before it.
+            ended="datum.highest < 0.9999 && datum.highest - datum.hit < 0.32",
+            anchor="!isValid(datum.hit) ? 0 : datum.ended ? datum.highest : datum.hit",
             label="isValid(datum.hit) ? format(datum.hit, '.3f') : '–'",
         )
     )
@@ -47,7 +60,7 @@ def class_bars() -> alt.LayerChart:
     )
     parameters = {"chance": -1, "ink": "#222222"}
     return (
-        alt.layer(bars, chance, values, data=alt.NamedData("classes"))
+        alt.layer(bars, ends, chance, values, data=alt.NamedData("classes"))
         .add_params(*(alt.param(name=name, value=value) for name, value in parameters.items()))
         .properties(
             width=200,

@@ -9,7 +9,7 @@ The charts hold no data. The page hands every map the same rows, one a shape, un
 ``x``, ``y``
     One coordinate a projection.
 ``hit``
-    Neighbourhood hit in each projection; null where it has none.
+    Neighbourhood hit in each projection, as a share of what it can be in a class of this size; null where it has none.
 ``picture``
     Address of the thumbnail.
 
@@ -51,7 +51,7 @@ def class_map(class_count: int) -> alt.Chart:
 
 
 def hit_map() -> alt.Chart:
-    """Every shape as a dot from red (no neighbour of its class) to yellow (all neighbours of its class)."""
+    """Every shape as a dot from red (no neighbour of its class) to yellow (all, or as many as its class has others)."""
     color = alt.condition(
         "datum.shown_hit >= 0",
         alt.Color("shown_hit:Q", legend=None, scale=alt.Scale(domain=[0, 1], range="ramp")),

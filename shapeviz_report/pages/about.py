@@ -89,6 +89,7 @@ def _projections(report: Report) -> list[dict[str, object]]:
             "nh_s": quality.nh_s,
             "null_mean": quality.null_mean,
             "null_std": quality.null_std,
+            "highest": quality.range.highest,
         }
         for method, (projection, quality) in report.projections.items()
     ]

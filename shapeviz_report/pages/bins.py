@@ -18,6 +18,7 @@ from shapeviz_report.pages.base import (
     coordinate_steps,
     rounded,
 )
+from shapeviz_report.quality import hit_range
 from shapeviz_report.render import CLAY, MARKED, ramp_codes
 from shapeviz_report.types import BinSearch, BinStep, FloatArray, HeldOutBins, MinimalSet, Report
 
@@ -102,6 +103,7 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> dict[str,
     automatic = found.automatic
     number = {name: index for index, name in enumerate(class_names(report))}
     projection, hits = next(iter(report.projections.values()))
+    limits = hit_range([report.labels[row] for row in automatic.rows], automatic.k)
     rivals = find_rivals(projection.xy, report.labels, hits.k)
     return {
         "minimal": [
@@ -109,6 +111,7 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> dict[str,
                 "group": number[separated.label],
                 "other": number[rivals[separated.label]],
                 "sets": [_set(chosen, place) for chosen in separated.sets],
+                "highest": limits.highest_of_class[separated.label],
             }
             for separated in found.minimal
         ],
@@ -184,6 +187,7 @@ def _headline(report: Report, found: BinSearch) -> dict[str, object]:
         "bins": len(automatic.bins),
         "of": len(report.features.columns),
         "nh_s": automatic.nh_s,
+        "highest": hit_range([report.labels[row] for row in automatic.rows], automatic.k).highest,
         "other_seeds": float(automatic.nh_s_other_seeds.mean()),
         "all_features": _all_features(report, found),
         "chance": found.chance,

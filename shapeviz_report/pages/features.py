@@ -18,7 +18,7 @@ from shapeviz_report.pages.base import (
     rounded,
 )
 from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
-from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, Report, SeedSpread
+from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, HitRange, Report, SeedSpread
 
 #: NH is stored in thousandths, as it is shown; with ten neighbours, all but ties are exact.
 HIT_STEPS = 1000
@@ -100,6 +100,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[str
         "hitOfClass": [rounded(values, SCORE_DECIMALS) for values in search.subsets.nh_c[rows]],
         "boxes": _boxes(search.subsets.nh_c),
         "chance": _chance(report, search),
+        "highest": _range(report, search).highest,
         "chanceBest": float(np.median(search.null_best)) if len(search.null_best) else None,
         "greedy": [
             {
@@ -175,6 +176,11 @@ def _boxes(nh_c: FloatArray) -> list[dict[str, float | None]]:
     return [dict(zip(names, rounded(column, SCORE_DECIMALS))) for column in parts.T]
 
 
+def _range(report: Report, search: FeatureSearch) -> HitRange:
+    """What NH can be on its maps."""
+    return quality.hit_range([report.labels[row] for row in search.rows], search.k)
+
+
 def _chance(report: Report, search: FeatureSearch) -> float | None:
     """What random labels reach on a map: on average the same on all."""
     labels = [report.labels[row] for row in search.rows]
@@ -197,6 +203,7 @@ def _context(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[st
         "shape_count": search.shape_count,
         "labelled": labelled,
         "neighbours": search.k,
+        "highest": _range(report, search).highest,
         "greedy": [greedy.s for greedy in search.greedy],
         "effects": _effects(search),
         "spread": _spread(search.spread, search.features) if search.spread else None,

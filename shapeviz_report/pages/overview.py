@@ -38,6 +38,11 @@ class OverviewPage:
             context={
                 "methods": [{"key": method["key"], "title": method["title"]} for method in methods],
                 "classes": len(classes),
+                "bounded": any(
+                    highest < 1
+                    for _, quality in report.projections.values()
+                    for highest in quality.range.highest_of_class.values()
+                ),
                 "subsets": _subsets(report),
             },
             chunks={

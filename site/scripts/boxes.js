@@ -2,6 +2,7 @@
 
 import { drawChart } from "./chart.js";
 import { element, swatch } from "./dom.js";
+import { hitRange } from "./hit-range.js";
 
 export class Boxes {
   constructor(model, subsets, state, marks) {
@@ -49,7 +50,9 @@ export class Boxes {
   render() {
     const { subsets } = this;
     const hits = subsets.data.hitOfClass[this.state.get("chosen")];
-    const rows = this.order.map((column, row) => ({ row, hit: hits[column], present: true, ...subsets.data.boxes[column] }));
+    const { highestOfClass } = hitRange(subsets.data.rows === null ? this.model.groups : subsets.data.rows.map((row) => this.model.groups[row]), subsets.data.neighbours);
+    const most = (column) => highestOfClass.get(subsets.data.classes[column]) ?? null;
+    const rows = this.order.map((column, row) => ({ row, ...subsets.data.boxes[column], hit: hits[column], highest: most(column), present: true }));
     const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
     for (const [id, vega] of this.vegas ?? []) {
       vega.width(document.getElementById(id).clientWidth).height(height);

@@ -1,6 +1,7 @@
 // The card at the pointer: picture, name, class, and who the neighbours are.
 
 import { element, picture, swatch } from "./dom.js";
+import { highestOf, ofAtMost } from "./hit-range.js";
 import { figure, shortened } from "./words.js";
 
 const MOST_CLASSES = 4;
@@ -37,7 +38,7 @@ export class Card {
         {},
         element("p", { class: "name", dir: "auto" }, shortened(model.names[index], 48)),
         model.labelled && classLine(model, group),
-        map.hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(map.hit[index]))),
+        map.hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(map.hit[index])), ofAtMost(highestOf(model, map, index))),
         neighbours.length > 0 && model.labelled && element(
           "p",
           { class: "census" },

@@ -2,6 +2,7 @@
 
 import { drawChart } from "./chart.js";
 import { element, swatch } from "./dom.js";
+import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "./hit-range.js";
 import { count, figure } from "./words.js";
 
 export class ClassList {
@@ -48,13 +49,16 @@ export class ClassList {
   #button(group) {
     const { model } = this;
     const name = model.className(group);
+    const method = model.methods[this.state.get("method")];
+    const hit = group < 0 ? null : method.hitOfClass[group];
+    const most = hit === null ? "" : ofAtMost(rangeOf(model, method).highestOfClass.get(group));
     const point = (value) => () => this.state.set({ pointedGroup: value });
     return element(
       "button",
       {
         type: "button",
         "data-group": group,
-        title: `${name}\nClick hides or shows it. Double-click, or click with Alt, shows it alone.`,
+        title: `${name}${most && `\nNH ${figure(hit)}${most}, as many as the class has others`}\nClick hides or shows it. Double-click, or click with Alt, shows it alone.`,
         onclick: (event) => (event.altKey ? this.#solo(group) : this.#toggle(group)),
         ondblclick: () => this.#solo(group),
         onpointerenter: point(group),
@@ -85,8 +89,10 @@ export class ClassList {
     for (const [group, button] of this.buttons) button.setAttribute("aria-pressed", String(!hidden.has(group)));
     this.all.hidden = hidden.size === 0;
     if (!this.vega) return;
-    const { hitOfClass, chance } = this.model.methods[this.state.get("method")];
-    const rows = this.order.map((group, row) => ({ row, hit: group < 0 ? null : hitOfClass[group], present: !hidden.has(group) }));
+    const method = this.model.methods[this.state.get("method")];
+    const { hitOfClass, chance } = method;
+    const { highestOfClass } = rangeOf(this.model, method);
+    const rows = this.order.map((group, row) => ({ row, hit: group < 0 ? null : hitOfClass[group], highest: highestOfClass.get(group) ?? null, present: !hidden.has(group) }));
     const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
     this.vega.width(this.node.clientWidth).height(height);
     this.vega.signal("chance", chance ?? -1).signal("ink", this.model.marks.ink);
@@ -97,9 +103,19 @@ export class ClassList {
     if (this.buttons) this.#mark();
   }
 
+  /** What the best map would reach. */
+  #best(method) {
+    const { highest } = rangeOf(this.model, method);
+    if (!isBelowOne(highest)) return "1 is a map whose classes never mix.";
+    const share = shareOfRange(method.hitOfAll, method.chance, highest);
+    const stands = share === null ? "" : ` This one is ${(share * 100).toFixed(0)} % of the way there from chance.`;
+    return `Some classes are too small to fill ${count(method.neighbours, "place")}: a map whose classes never mix has ${figure(highest)}.${stands}`;
+  }
+
   #quality() {
     const { model } = this;
-    const { title, features, base, hitOfAll, chance, chanceSpread, neighbours } = model.methods[this.state.get("method")];
+    const method = model.methods[this.state.get("method")];
+    const { title, features, base, hitOfAll, chance, chanceSpread, neighbours } = method;
     if (model.count === 1) {
       return [element("p", {}, "One shape: there is nothing to compare it with yet.")];
     }
@@ -114,7 +130,7 @@ export class ClassList {
       { class: "headline" },
       element("span", { class: "symbol" }, "NH", element("sub", {}, "s")),
       element("output", { class: "value" }, figure(hitOfAll)),
-      element("span", { class: "beside" }, element("b", {}, figure(chance)), chanceSpread !== null && ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random"),
+      element("span", { class: "beside" }, element("b", {}, figure(chance)), chanceSpread !== null && ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random", isBelowOne(rangeOf(model, method).highest) && [element("br"), element("b", {}, figure(rangeOf(model, method).highest)), " at most"]),
     );
     if (model.classes.length === 1) {
       return [headline, element("p", {}, "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.")];
@@ -127,7 +143,7 @@ export class ClassList {
         `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its ${model.data.standIn ? "cluster" : "class"} on average. `,
         model.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
-          : "1 is a map whose classes never mix.",
+          : this.#best(method),
         base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone."],
       ),
     ];

@@ -3,6 +3,7 @@
 import { classLine } from "./card.js";
 import { chunk } from "./chunks.js";
 import { element, picture } from "./dom.js";
+import { highestOf, ofAtMost } from "./hit-range.js";
 import { pageAddress } from "./place.js";
 import { count, figure, grouped } from "./words.js";
 
@@ -81,7 +82,7 @@ export class Detail {
     const hit = method.hit[index];
     return [
       element("h3", {}, `${count(near.length, "nearest neighbour")} on the ${method.title} map`),
-      hit !== null && element("p", {}, "NH ", element("b", {}, figure(hit)), ": the share of them in its own class."),
+      hit !== null && element("p", {}, "NH ", element("b", {}, figure(hit)), `${ofAtMost(highestOf(model, method, index))}: the share of them in its own class.`),
       element(
         "div",
         { class: "neighbours" },

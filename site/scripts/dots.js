@@ -2,6 +2,7 @@
 // They look as the chart draws them, so that nobody sees the one take over from the other.
 
 import { element } from "./dom.js";
+import { reachOf } from "./hit-range.js";
 import { CHOSEN, FAINT, NORMAL } from "./scene.js";
 
 const OPACITY = { [FAINT]: 0.14, [NORMAL]: 0.92, [CHOSEN]: 0.92 };
@@ -76,7 +77,7 @@ export class Dots {
     const none = () => [plain, marks.unlabelled];
     const kinds = {
       class: [(index) => model.groups[index], (group) => (group < 0 ? none() : [symbols[group], marks.classes[group]])],
-      hit: [(index) => model.methods[scene.target].hit[index], (hit) => (hit === null ? none() : [plain, shade(marks.hit, hit)])],
+      hit: [(index) => reachOf(model, model.methods[scene.target], index), (reach) => (reach === null ? none() : [plain, shade(marks.hit, reach)])],
       thumbnail: [() => 0, none],
     };
     const [kindOf, look] = kinds[view.name];

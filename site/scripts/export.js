@@ -1,12 +1,14 @@
 // The selection as a file, the same from every page; and what other exports share.
 
+import { highestOf } from "./hit-range.js";
+
 export function saveCsv(model, chosen) {
-  const header = ["id", "name", "class", ...model.data.methods.map(({ key }) => `nh:${key}`)];
+  const header = ["id", "name", "class", ...model.data.methods.flatMap(({ key }) => [`nh:${key}`, `nh_max:${key}`])];
   const rows = chosen.map((index) => [
     model.ids[index],
     model.names[index],
     model.groups[index] < 0 ? "" : model.className(model.groups[index]),
-    ...model.data.methods.map(({ hit }) => hit[index] ?? ""),
+    ...model.data.methods.flatMap((method) => [method.hit[index] ?? "", highestOf(model, method, index) ?? ""]),
   ]);
   saveText("selection.csv", "text/csv", csvText([header, ...rows]));
 }
@@ -17,6 +19,7 @@ export function saveJson(model, chosen) {
     name: model.names[index],
     class: model.groups[index] < 0 ? null : model.className(model.groups[index]),
     nh: Object.fromEntries(model.data.methods.map(({ key, hit }) => [key, hit[index]])),
+    nh_max: Object.fromEntries(model.data.methods.map((method) => [method.key, highestOf(model, method, index)])),
   }));
   saveText("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
 }

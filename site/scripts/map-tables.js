@@ -1,6 +1,7 @@
 // The maps of the Overview as tables.
 
 import { dataLink, element } from "./dom.js";
+import { highestOf, rangeOf } from "./hit-range.js";
 import { table } from "./tables.js";
 import { count, figure } from "./words.js";
 
@@ -18,8 +19,8 @@ export function mapTables(model, state) {
   const tables = [
     model.labelled && table(
       "Neighbourhood hit by class",
-      ["Class", "Shapes", "NH"],
-      groups.map((group) => [model.className(group), String(model.sizes.get(group)), figure(method.hitOfClass[group])]),
+      ["Class", "Shapes", "NH", "NH at most"],
+      groups.map((group) => [model.className(group), String(model.sizes.get(group)), figure(method.hitOfClass[group]), figure(rangeOf(model, method).highestOfClass.get(group))]),
     ),
     shapesTable(selection.size > 0 ? "Selected shapes" : "Shapes", model, method, shown),
     shown.length > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(shown.length, "shape")}. All are in `, dataLink("data/shapes.csv"), "."),
@@ -31,11 +32,12 @@ export function mapTables(model, state) {
 export function shapesTable(title, model, method, indices) {
   return table(
     title,
-    ["Shape", "Class", "NH", "x", "y"],
+    ["Shape", "Class", "NH", "NH at most", "x", "y"],
     indices.slice(0, MOST_ROWS).map((index) => [
       model.ids[index],
       model.className(model.groups[index]),
       figure(method.hit[index]),
+      figure(highestOf(model, method, index)),
       figure(method.x[index]),
       figure(method.y[index]),
     ]),

@@ -1,5 +1,6 @@
 // The shapes, classes and projections of the database, as the views ask for them.
 
+import { reachOf } from "./hit-range.js";
 import { resource } from "./place.js";
 
 export class Model {
@@ -107,7 +108,7 @@ export class Model {
       group: this.groups[index],
       x: this.methods.map((method) => method.x[index]),
       y: this.methods.map((method) => method.y[index]),
-      hit: this.methods.map((method) => method.hit[index]),
+      hit: this.methods.map((method) => reachOf(this, method, index)),
       picture: this.picture(index),
     }));
   }

@@ -2,6 +2,7 @@
 
 import { drawChart } from "./chart.js";
 import { element, svg } from "./dom.js";
+import { isBelowOne, ofAtMost } from "./hit-range.js";
 import { count, figure } from "./words.js";
 
 const BARS = 150;
@@ -101,10 +102,10 @@ export class Ranking {
   }
 
   #level() {
-    const { chance, chanceBest } = this.subsets.data;
+    const { chance, chanceBest, highest } = this.subsets.data;
     const rule = (value, kind) => value !== null && svg("line", { class: kind, x1: 0, x2: this.width, y1: this.#y(value), y2: this.#y(value) });
     if (!this.subsets.labelled) return;
-    this.levels.replaceChildren(...[rule(0.25, "grid"), rule(0.5, "grid"), rule(0.75, "grid"), rule(1, "grid"), rule(chance, "rule"), rule(chanceBest, "rule strong")].filter(Boolean));
+    this.levels.replaceChildren(...[rule(0.25, "grid"), rule(0.5, "grid"), rule(0.75, "grid"), rule(1, "grid"), rule(chance, "rule"), rule(chanceBest, "rule strong"), isBelowOne(highest) && rule(highest, "rule most")].filter(Boolean));
   }
 
   #x(place) {
@@ -159,7 +160,7 @@ export class Ranking {
     const { subsets } = this;
     const scored = () => [
       element("span", {}, "rank ", element("b", {}, String(place + 1)), ` of ${subsets.count}`),
-      element("span", {}, "NH", element("sub", {}, "s"), " ", element("b", {}, figure(subsets.data.hit[place]))),
+      element("span", {}, "NH", element("sub", {}, "s"), " ", element("b", {}, figure(subsets.data.hit[place])), ofAtMost(subsets.data.highest)),
     ];
     this.reading.replaceChildren(
       element("span", { class: "which" }, pointed === null ? "Chosen" : "Pointed at"),

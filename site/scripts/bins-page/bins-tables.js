@@ -15,8 +15,8 @@ export function binsTables(model, bins, selection, state, card) {
   return {
     title: "Bins in figures",
     tables: [
-      selection.minimal.length > 0 && table("Each class from the rest", ["Class", "Bins", "NH of the class on their map", "in their space"], selection.minimal.flatMap(({ group, sets }) =>
-        sets.map((found) => [model.className(group), names(found.bins), figure(found.nh), figure(found.nhSpace)]),
+      selection.minimal.length > 0 && table("Each class from the rest", ["Class", "Bins", "NH of the class on their map", "in their space", "at most"], selection.minimal.flatMap(({ group, sets, highest }) =>
+        sets.map((found) => [model.className(group), names(found.bins), figure(found.nh), figure(found.nhSpace), figure(highest)]),
       )),
       selection.path.length > 0 && table("All classes from each other, step by step", ["Step", "Bins", "Added", "Removed", "NH of the map", "in their space"], selection.path.map((step, place) => [
         String(place + 1), step.bins.length, names(step.added), names(step.removed), figure(step.nh), figure(step.nhSpace),

@@ -1,12 +1,13 @@
 // Each class from the rest (paper, Fig. 6): a small map of few bins, the class in its colour, all others grey.
 
 import { element, swatch } from "../dom.js";
+import { isBelowOne, ofAtMost } from "../hit-range.js";
 import { styleColor } from "../theme.js";
 import { count, figure } from "../words.js";
 import { mapOf, Plot } from "./plot.js";
 
-/** NH_c, in the space of the bins and on their map, at which a class counts as separated. */
-export const SEPARATED = 0.9;
+/** The share of what NH_c can be, in the space of the bins and on their map, at which a class counts as separated. */
+const SEPARATED = 0.9;
 
 export class ClassCards {
   constructor(model, selection, state, chips, { open }) {
@@ -30,11 +31,11 @@ export class ClassCards {
 
   render() {
     this.plots = [];
-    const cards = this.selection.minimal.map((separated) => ({ group: separated.group, found: chooseSet(separated.sets, this.state.get("size")) }));
-    this.list.replaceChildren(...cards.map(({ group, found }) => element("li", { class: "class-card" }, this.#card(group, found))));
+    const cards = this.selection.minimal.map((separated) => ({ group: separated.group, found: chooseSet(separated, this.state.get("size")), separated }));
+    this.list.replaceChildren(...cards.map(({ group, found, separated }) => element("li", { class: "class-card" }, this.#card(group, found, separated))));
   }
 
-  #card(group, found) {
+  #card(group, found, { highest }) {
     const { model, selection } = this;
     const name = model.className(group);
     const plot = new Plot(model, {
@@ -53,7 +54,7 @@ export class ClassCards {
         "div",
         { class: "card-head" },
         element("h3", {}, swatch(model.symbol(group), model.color(group)), element("bdi", {}, name)),
-        element("p", { class: "nh", title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins` }, element("span", { class: "unseen" }, "NH "), element("b", {}, figure(found.nh))),
+        element("p", { class: "nh", title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the class has others`}` }, element("span", { class: "unseen" }, "NH "), element("b", {}, figure(found.nh)), isBelowOne(highest) && element("span", { class: "quiet" }, ` / ${figure(highest)}`)),
       ),
       element("a", { class: "open-map", href: this.open(found.bins), title: "Open these bins in the Workbench" }, plot.node),
       element("div", { class: "bin-chips" }, found.bins.map((column) => this.chips.chip(column, { group }))),
@@ -62,8 +63,8 @@ export class ClassCards {
 }
 
 /** The set of a size, or the largest below it; or the smallest that separates, else the best. */
-export function chooseSet(sets, size) {
+export function chooseSet({ sets, highest }, size) {
   if (size !== "fewest") return sets[Math.min(Number(size), sets.length) - 1];
   const worth = ({ nh, nhSpace }) => Math.min(nh, nhSpace);
-  return sets.find((found) => worth(found) >= SEPARATED) ?? sets.reduce((best, found) => (worth(found) > worth(best) ? found : best));
+  return sets.find((found) => worth(found) >= SEPARATED * highest - 1e-9) ?? sets.reduce((best, found) => (worth(found) > worth(best) ? found : best));
 }

@@ -1,6 +1,7 @@
 // How the gallery is arranged: grouped, sorted, and how large its pictures are.
 
 import { element } from "../dom.js";
+import { isBelowOne, rangeOf } from "../hit-range.js";
 import { count } from "../words.js";
 
 export class Controls {
@@ -42,7 +43,7 @@ export class Controls {
 
   #onHit() {
     const { neighbours } = this.model.methods[0];
-    return `NH, the neighbourhood hit: the share of a shape’s ${count(neighbours, "nearest neighbour")} on the map that are of its own class. Near 0 it lies among others.`;
+    return `NH, the neighbourhood hit: the share of a shape’s ${count(neighbours, "nearest neighbour")} on the map that are of its own class. Near 0 it lies among others.${isBelowOne(rangeOf(this.model, this.model.methods[0]).highest) ? " A shape whose class has fewer others than that cannot reach 1: its card says how much it can." : ""}`;
   }
 
   /** The order in words; a click turns it round. */

@@ -73,9 +73,9 @@ async function main() {
 
 /** The bin to look at first, and its class: one that separates a class alone, if any does, the best of these. */
 function firstBin({ minimal }) {
-  const found = minimal.map(({ group, sets }) => ({ group, ...chooseSet(sets, "fewest") }));
+  const found = minimal.map((separated) => ({ group: separated.group, highest: separated.highest, ...chooseSet(separated, "fewest") }));
   if (found.length === 0) return { bin: 0, group: null };
-  const best = found.reduce((a, b) => (b.bins.length - a.bins.length || a.nh - b.nh) < 0 ? b : a);
+  const best = found.reduce((a, b) => (b.bins.length - a.bins.length || a.nh / (a.highest || 1) - b.nh / (b.highest || 1)) < 0 ? b : a);
   return { bin: best.bins[0], group: best.group };
 }
 

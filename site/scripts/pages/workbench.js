@@ -86,7 +86,7 @@ async function main() {
   // A picture in the tray marks its shape on both maps.
   new Tray(model, state, { open });
   carrySelection(model, state);
-  const panels = WHICH.map((which) => new MapPanel(which, state, bins, {
+  const panels = WHICH.map((which) => new MapPanel(which, model, state, bins, {
     other: which === "refined" ? "originalMap" : null,
     again: () => desk.ask([which]),
     stop: () => desk.stop(which),

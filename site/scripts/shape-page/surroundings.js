@@ -2,6 +2,7 @@
 
 import { Plot } from "../bins-page/plot.js";
 import { element } from "../dom.js";
+import { highestOf, ofAtMost } from "../hit-range.js";
 import { pageAddress } from "../place.js";
 import { styleColor } from "../theme.js";
 import { count, figure } from "../words.js";
@@ -72,8 +73,9 @@ export class Surroundings {
   }
 
   /** Who its neighbours are, and its neighbourhood hit. */
-  #tell(shape, near, { title, hit, hitOfClass }) {
+  #tell(shape, near, method) {
     const { model } = this;
+    const { title, hit, hitOfClass } = method;
     const words = [`Near on the ${title} map means alike in features. `];
     if (!model.labelled) return [...words, `These ${count(near.length, "shape")} are nearest.`];
     const census = model.census(near);
@@ -85,7 +87,7 @@ export class Surroundings {
     ]);
     words.push(`Its ${count(near.length, "nearest neighbour")}: `, ...listed, census.length > MOST_CLASSES ? ", and others. " : ". ");
     if (hit[shape] === null) return words;
-    return [...words, `Neighbourhood hit (NH), the share that is of its ${kind(model)}: `, element("b", {}, figure(hit[shape])), `; its ${kind(model)} on average ${figure(hitOfClass[own])}.`];
+    return [...words, `Neighbourhood hit (NH), the share that is of its ${kind(model)}: `, element("b", {}, figure(hit[shape])), `${ofAtMost(highestOf(model, method, shape))}; its ${kind(model)} on average ${figure(hitOfClass[own])}.`];
   }
 
   #mark(index) {

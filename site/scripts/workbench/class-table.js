@@ -1,6 +1,7 @@
 // The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
 
 import { element, swatch } from "../dom.js";
+import { ofAtMost, rangeOf } from "../hit-range.js";
 import { figure } from "../words.js";
 import { difference } from "./figures.js";
 
@@ -40,6 +41,8 @@ export class ClassTable {
     const { model, state } = this;
     const name = model.className(group);
     const hit = state.get("originalMap")?.hitOfClass[group] ?? null;
+    const original = state.get("originalMap");
+    const most = hit === null ? "" : ofAtMost(rangeOf(model, original).highestOfClass.get(group));
     const refined = state.get("refinedMap")?.hitOfClass[group] ?? null;
     const use = element(
       "button",
@@ -62,7 +65,7 @@ export class ClassTable {
       element("th", { scope: "row" }, element("div", { class: "of-class" }, use, only, element("span", { class: "size" }, String(model.sizes.get(group) ?? 0)))),
       element("td", { class: "tick" }, ticks.get("from")),
       element("td", { class: "tick against" }, ticks.get("against")),
-      element("td", { class: "number" }, group < 0 ? "" : figure(hit)),
+      element("td", { class: "number", title: most === "" ? null : `NH ${figure(hit)}${most}, as many as the class has others` }, group < 0 ? "" : figure(hit)),
       element("td", { class: "number change" }, hit !== null && refined !== null && change(refined - hit)),
     );
     return { node, use, only, ticks };

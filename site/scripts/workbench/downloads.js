@@ -2,6 +2,7 @@
 
 import { element } from "../dom.js";
 import { csvText, saveText } from "../export.js";
+import { highestOf, rangeOf } from "../hit-range.js";
 import { ranked } from "../bin-list.js";
 import { count, figure } from "../words.js";
 
@@ -58,12 +59,12 @@ function binsText(bins, { chosen, scores, words, refinedMap, address }) {
 
 function mapsCsv(model, original, refined) {
   const maps = [["original", original], ["refined", refined]].filter(([, map]) => map !== null);
-  const header = ["id", "class", ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`])];
+  const header = ["id", "class", ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`, `${name}:nh_max`])];
   const number = (value) => (value === null || Number.isNaN(value) ? "" : value);
   const rows = model.ids.map((id, index) => [
     id,
     model.groups[index] < 0 ? "" : model.className(model.groups[index]),
-    ...maps.flatMap(([, map]) => [number(map.x[index]), number(map.y[index]), number(map.hit[index])]),
+    ...maps.flatMap(([, map]) => [number(map.x[index]), number(map.y[index]), number(map.hit[index]), number(map.hit[index] === null ? null : highestOf(model, map, index))]),
   ]);
   return csvText([header, ...rows]);
 }
@@ -77,7 +78,9 @@ function allJson(model, bins, { chosen, scores, words, originalMap, refinedMap }
   const number = (value) => (value === null || Number.isNaN(value) ? null : value);
   const map = (one) => one && {
     nh_s: one.hitOfAll,
+    nh_max: rangeOf(model, one).highest,
     nh_c: Object.fromEntries(model.classes.map((name, group) => [name, one.hitOfClass[group]]).filter(([, hit]) => hit !== null)),
+    nh_c_max: Object.fromEntries([...rangeOf(model, one).highestOfClass].map(([group, highest]) => [model.classes[group], highest])),
     shapes: model.ids.map((id, index) => ({ id, x: number(one.x[index]), y: number(one.y[index]), nh: number(one.hit[index]) })).filter(({ x }) => x !== null),
   };
   const names = [...chosen].sort((a, b) => a - b).map((column) => bins.names[column]);

@@ -1,6 +1,7 @@
 // What stands around a map: what it is made from, what it reaches, and how its work stands.
 
 import { element } from "../dom.js";
+import { isBelowOne, rangeOf } from "../hit-range.js";
 import { count, figure } from "../words.js";
 import { difference, symbol } from "./figures.js";
 import { StatusLine } from "./status-line.js";
@@ -10,8 +11,9 @@ export class MapPanel {
    * `other` names the state's map that this one is compared with, or is null; `again` restarts work that was stopped,
    * `empty` says what to show, as elements, where there is no map and none is being made.
    */
-  constructor(which, state, bins, { other, again, stop, empty }) {
+  constructor(which, model, state, bins, { other, again, stop, empty }) {
     this.which = which;
+    this.model = model;
     this.state = state;
     this.bins = bins;
     this.other = other;
@@ -31,6 +33,7 @@ export class MapPanel {
     const map = this.state.get(`${this.which}Map`);
     const status = this.state.get(`${this.which}Status`);
     const before = this.other && this.state.get(this.other);
+    const most = map && rangeOf(this.model, map).highest;
     this.status.show(status);
     this.madeFrom.textContent = this.which === "original" ? featureWords(this.state.get("features"), this.bins.features) : chosenWords(this.state.get("bins"));
     this.#showEmpty(map);
@@ -41,6 +44,7 @@ export class MapPanel {
       element("output", { class: "value" }, figure(map.hitOfAll)),
       ...(before && before.hitOfAll !== null ? [element("span", { class: `change ${map.hitOfAll < before.hitOfAll ? "worse" : "better"}` }, difference(map.hitOfAll - before.hitOfAll))] : []),
       ...(map.chance !== null ? [element("span", { class: "chance", title: "What labels dealt at random reach on average" }, `random ${figure(map.chance)}`)] : []),
+      ...(isBelowOne(most) ? [element("span", { class: "chance", title: "A map whose classes never mix: some of the classes are too small to fill all places around a shape" }, `at most ${figure(most)}`)] : []),
     ]));
   }
 
