@@ -45,7 +45,7 @@ from shapeviz_report.render import check_renderer
 from shapeviz_report.retrieval import query_classes, rate_chance
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, make_space, planned_runs, search_features
-from shapeviz_report.search.bins import encode, make_bin_space, shuffle_labels
+from shapeviz_report.search.bins import affordable_deals, encode, make_bin_space, shuffle_labels
 from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import (
@@ -782,17 +782,25 @@ def _search_bins(
     everything = squared_distances(scaled[space.rows])
     shared = {"k": config.neighbours, "seed": config.seed}
     questions: list[tuple[str, Sequence[str | None], dict[str, Any]]] = [("select", labels, shared)]
-    folds = deal_folds(codes, config.seed, groups[space.rows])
-    for fold in folds:
-        questions.append(("hold out", labels, shared | {"fold": fold, "everything": everything}))
+    held = {"k": config.neighbours, "everything": everything}
+    for deal in range(affordable_deals(len(codes))):
+        seed = config.seed + deal
+        for fold in deal_folds(codes, seed, groups[space.rows]):
+            questions.append(("hold out", labels, held | {"seed": seed, "fold": fold, "deal": deal + 1}))
+    own = len(questions)
     # Each fold meets labels of its own, which tells more of chance than one labeling for all.
-    for number in range(min(SHUFFLES, len(folds))):
+    for number in range(SHUFFLES):
         shuffled = shuffle_labels(space, labels, config.seed + number)
-        fold = deal_folds(encode(space, shuffled)[1], config.seed, groups[space.rows])[number]
+        folds = deal_folds(encode(space, shuffled)[1], config.seed, groups[space.rows])
+        fold = folds[number % len(folds)]
         questions.append(("hold out", shuffled, shared | {"fold": fold, "everything": everything}))
     honest = len(questions)
     for label in (label for label, size in zip(classes, sizes) if size > 1):
         questions.append(("separate", labels, shared | {"label": label}))
+    random = len(questions)
+    of_size = {int(size): label for label, size in zip(classes, sizes) if size > 1}
+    for label in of_size.values():
+        questions.append(("separate", shuffle_labels(space, labels, config.seed), shared | {"label": label}))
 
     content = sha256(space.columns.tobytes() + everything.tobytes()).hexdigest()
     answers: dict[int, bytes] = {}
@@ -815,10 +823,14 @@ def _search_bins(
     held_out = [stages.read_held_out(answers[i]) for i in range(1, honest)]
     return BinSearch(
         automatic=stages.read_selection(answers[0]),
-        held_out=tuple(held_out[: len(folds)]),
-        shuffled=tuple(held_out[len(folds) :]),
+        held_out=tuple(held_out[: own - 1]),
+        shuffled=tuple(held_out[own - 1 :]),
         chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
-        minimal=tuple(stages.read_minimal(answers[i]) for i in range(honest, len(questions))),
+        minimal=tuple(stages.read_minimal(answers[i]) for i in range(honest, random)),
+        minimal_by_chance={
+            size: stages.read_minimal(answers[i]) for i, size in enumerate(of_size, start=random)
+        },
+        sizes=dict(zip(classes, sizes.tolist())),
     )
 
 

@@ -72,6 +72,13 @@ RECALL_LEVELS = tuple(level / 20 for level in range(1, 21))
 """Shares of the class that are found, at which precision is stated."""
 
 
+def highest_e_measures(queries: IntArray, others: int) -> FloatArray:
+    """The E-measure of a perfect order for classes of so many shapes among ``others`` + 1: below 1 for all that do not
+    just fill the page."""
+    page, relevant = min(PAGE, others), np.asarray(queries) - 1
+    return 2 * np.minimum(relevant, page) / (page + relevant)
+
+
 def query_classes(labels: Sequence[str | None]) -> tuple[tuple[str, ...], IntArray]:
     """The classes whose shapes can be queries, and the class of each shape.
 

@@ -221,6 +221,12 @@ def with_bin_search(report: Report) -> Report:
             for label, size in zip(classes, sizes)
             if size > 1
         ),
+        minimal_by_chance={
+            int(size): find_minimal_bins(space, shuffled, label, largest=2)
+            for label, size in zip(classes, sizes)
+            if size > 1
+        },
+        sizes=dict(zip(classes, sizes.tolist())),
     )
     return replace(report, bins=found)
 

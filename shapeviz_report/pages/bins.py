@@ -20,6 +20,7 @@ from shapeviz_report.pages.base import (
 )
 from shapeviz_report.quality import hit_range
 from shapeviz_report.render import CLAY, MARKED, ramp_codes
+from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.types import BinSearch, BinStep, FloatArray, HeldOutBins, MinimalSet, Report
 
 #: Decimals of NH.
@@ -112,6 +113,13 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> dict[str,
                 "other": number[rivals[separated.label]],
                 "sets": [_set(chosen, place) for chosen in separated.sets],
                 "highest": limits.highest_of_class[separated.label],
+                "byChance": [
+                    {
+                        "nh": round(chosen.nh_c, SCORE_DECIMALS),
+                        "nhSpace": round(chosen.nh_c_space, SCORE_DECIMALS),
+                    }
+                    for chosen in found.by_chance(separated).sets
+                ],
             }
             for separated in found.minimal
         ],
@@ -151,7 +159,7 @@ def _fold(fold: HeldOutBins, place: dict[str, int]) -> dict[str, object]:
     return {
         "bins": [place[name] for name in fold.bins],
         "shapes": fold.shapes,
-        "seen": round(fold.nh_s_seen, SCORE_DECIMALS),
+        "deal": fold.deal,
         "nhSpace": round(fold.nh_space, SCORE_DECIMALS),
         "nh": round(fold.nh_s, SCORE_DECIMALS),
         "nhAll": round(fold.nh_s_all, SCORE_DECIMALS),
@@ -195,15 +203,18 @@ def _headline(report: Report, found: BinSearch) -> dict[str, object]:
         "shape_count": automatic.shape_count,
         "neighbours": automatic.k,
         "folds": len(found.held_out),
+        "deals": len({fold.deal for fold in found.held_out}),
         "held_out": _means(found.held_out),
+        "gain": measure_gain(found.held_out),
+        "recognition_gain": measure_gain(found.held_out, "knn_accuracy", "knn_accuracy_all"),
         "shuffled": _means(found.shuffled),
+        "shuffled_seen": mean_over_folds(found.shuffled, "nh_s_seen"),
         "separated": len(found.minimal),
     }
 
 
 def _means(folds: Sequence[HeldOutBins]) -> dict[str, float]:
     return {
-        "seen": mean_over_folds(folds, "nh_s_seen"),
         "nh_s": mean_over_folds(folds, "nh_s"),
         "all": mean_over_folds(folds, "nh_s_all"),
         "recognised": mean_over_folds(folds, "knn_accuracy"),

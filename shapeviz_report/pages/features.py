@@ -3,6 +3,8 @@ well they find similar shapes."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +20,7 @@ from shapeviz_report.pages.base import (
     rounded,
 )
 from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
+from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, HitRange, Report, SeedSpread
 
 #: NH is stored in thousandths, as it is shown; with ten neighbours, all but ties are exact.
@@ -253,11 +256,20 @@ def _spread(spread: tuple[SeedSpread, ...], features: tuple[str, ...]) -> dict[s
 
 
 def _held_out(folds: tuple[HeldOutFold, ...]) -> dict[str, object]:
-    """The folds, and their means with each shape counted once."""
+    """The deals, and their means with each shape counted once a deal."""
+    deals = []
+    for number in sorted({fold.deal for fold in folds}):
+        own = [fold for fold in folds if fold.deal == number]
+        picked = Counter(fold.features for fold in own).most_common()
+        deals.append(
+            {"number": number, "seed": own[0].seed, "folds": len(own), "picked": picked, **_means(own)}
+        )
+    return {"deals": deals, **_means(folds), "gain": measure_gain(folds)}
+
+
+def _means(folds: Sequence[HeldOutFold]) -> dict[str, float]:
     shapes = [fold.shapes for fold in folds]
     return {
-        "folds": folds,
-        "seen": float(np.average([fold.nh_s_seen for fold in folds], weights=shapes)),
         "nh_s": float(np.average([fold.nh_s for fold in folds], weights=shapes)),
         "all": float(np.average([fold.nh_s_all for fold in folds], weights=shapes)),
     }

@@ -115,6 +115,7 @@ def _subsets(report: Report) -> dict[str, object] | None:
         "method": search.method,
         "features": list(search.features),
         "bins": None if bins is None else len(bins),
+        "bestByChance": None if best is None else float(np.median(search.null_best)),
         "best": None
         if best is None
         else [name for name, has in zip(search.features, best, strict=True) if has],

@@ -6,7 +6,7 @@ import numpy as np
 
 from shapeviz_report import charts
 from shapeviz_report.pages.base import class_names, feature_marks
-from shapeviz_report.retrieval import MEASURES, RECALL_LEVELS, best_subset
+from shapeviz_report.retrieval import MEASURES, RECALL_LEVELS, best_subset, highest_e_measures
 from shapeviz_report.types import FloatArray, Rating, Report, Retrieval
 
 #: Ratings are stored in thousandths, as they are shown.
@@ -34,6 +34,11 @@ def retrieval_context(report: Report, retrieval: Retrieval) -> dict[str, object]
         "best_average": retrieval.over_shapes(retrieval.subsets[best].scores)[-1],
         "bins": None if retrieval.bins is None else len(retrieval.bins),
         "bins_are_the_site_s": bins is not None,
+        "highest_e_measure": float(
+            np.average(
+                highest_e_measures(retrieval.queries, len(retrieval.rows) - 1), weights=retrieval.queries
+            )
+        ),
         "measures": MEASURES,
     }
 

@@ -9,9 +9,12 @@ import numpy.typing as npt
 from scipy.sparse import csr_matrix
 
 from shapeviz_report.quality import neighbourhood_hits
-from shapeviz_report.types import FloatArray, SeedSpread
+from shapeviz_report.types import FloatArray, Gain, HeldOutBins, HeldOutFold, SeedSpread
 
 Codes = npt.NDArray[np.intp]
+
+DEALS = 10
+"""How often shapes are dealt into folds, where that makes no map."""
 
 FOLDS = 5
 """Parts of the shapes that are held out in turn."""
@@ -93,6 +96,34 @@ def deal_folds(codes: Codes, seed: int, groups: npt.NDArray[np.integer] | None =
     fold[dealt] = np.arange(len(dealt)) % FOLDS
     fold[labelled] = fold[labelled[first]][of]
     return tuple(labelled[fold[labelled] == i] for i in range(min(FOLDS, len(dealt))))
+
+
+def measure_gain(
+    folds: Sequence[HeldOutFold | HeldOutBins], value: str = "nh_s", without: str = "nh_s_all"
+) -> Gain:
+    """What choosing gains on held-out shapes, and how far another deal may lie from that.
+
+    Deals differ by chance in how they part the shapes, and in the seed of their maps; the folds of a deal also in their
+    shapes, of which other shapes of the kind would make others.
+
+    Parameters
+    ----------
+    folds : of one deal or more; at least one
+    value, without : str
+        The fields that hold what a fold's shapes reach with the choice and without it.
+    """
+    deals = np.array([fold.deal for fold in folds])
+    shapes = np.array([fold.shapes for fold in folds])
+    gains = np.array([getattr(fold, value) - getattr(fold, without) for fold in folds])
+    by_deal = np.array(
+        [np.average(gains[deals == deal], weights=shapes[deals == deal]) for deal in np.unique(deals)]
+    )
+    spreads = []
+    if len(folds) > 1:
+        spreads.append(gains.std(ddof=1) / np.sqrt(len(folds) / len(by_deal)))
+    if len(by_deal) > 1:
+        spreads.append(by_deal.std(ddof=1))
+    return Gain(float(by_deal.mean()), float(max(spreads)) if spreads else None, len(by_deal))
 
 
 def seen_scores(weights: csr_matrix, codes: Codes, held_out: Codes) -> FloatArray:

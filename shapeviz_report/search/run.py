@@ -12,6 +12,7 @@ from shapeviz_report.order import classes_of
 from shapeviz_report.projections import turn_towards
 from shapeviz_report.quality import NEIGHBOURS, highest_hits, neighbour_weights, neighbourhood_hits
 from shapeviz_report.search.certainty import (
+    DEALS,
     best_by_chance,
     compare_spreads,
     deal_folds,
@@ -123,7 +124,7 @@ class _Search:
         self.scored = self.k >= 1 and bool(self.classes)
         self.highest = highest_hits(self.codes, max(self.k, 1))
         self.maps: dict[int, np.ndarray] = {}
-        self.weights: dict[int, csr_matrix] = {}
+        self.weights: dict[tuple[int, int], csr_matrix] = {}
         self.hits: dict[tuple[int, int], np.ndarray] = {}
         self.seconds: dict[tuple[int, int], float] = {}
 
@@ -140,13 +141,13 @@ class _Search:
         greedy, table, spread, held_out, effects = (), (), (), (), ()
         null_best = np.empty(0)
         if self.scored:
+            held_out = self.hold_out_all(rounds) if refusal is None else self.hold_out_climbing()
             greedy, table = self.fill_table(rounds, refusal is None)
             finalists = sorted(self.maps, key=lambda subset: (-self.score(self.seed, subset), subset))[
                 :FINALISTS
             ]
             spread = self.measure_spread(finalists)
-            held_out = self.hold_out(refusal is None)
-            null_best = best_by_chance(self.stack(sorted(self.maps)), self.codes, self.seed)
+            null_best = best_by_chance(self.stack(sorted(self.maps), self.seed), self.codes, self.seed)
             effects = self.weigh_features(refusal is None)
         return FeatureSearch(
             method=self.method,
@@ -185,17 +186,16 @@ class _Search:
             if self.scored:
                 weights = neighbour_weights(xy.astype(np.float64), self.k)
                 hits[self.labelled] = neighbourhood_hits(weights, self.codes)[self.labelled]
-                if seed == self.seed:
-                    self.weights[subset] = weights
+                self.weights[seed, subset] = weights
             self.hits[seed, subset] = hits
 
     def score(self, seed: int, subset: int) -> float:
         """NH_s of an evaluated subset."""
         return float(self.hits[seed, subset][self.labelled].mean())
 
-    def stack(self, subsets: Sequence[int]) -> csr_matrix:
-        """The neighbours on the first seed's maps, one map below the other."""
-        return vstack([self.weights[s] for s in subsets], format="csr")
+    def stack(self, subsets: Sequence[int], seed: int) -> csr_matrix:
+        """The neighbours on one seed's maps, one map below the other."""
+        return vstack([self.weights[seed, s] for s in subsets], format="csr")
 
     def climb(self, seed: int, s: int) -> Trace:
         """Algorithm 1 on one seed's maps."""
@@ -256,30 +256,56 @@ class _Search:
             hits.append([self.hits[seed, subset][self.labelled] for subset in subsets])
         return compare_spreads([self.space.names(s) for s in subsets], np.array(hits).swapaxes(0, 1))
 
-    def hold_out(self, exhaustive: bool) -> tuple[HeldOutFold, ...]:
-        """Choose by the labels of some shapes, score on the others."""
-        everything = self.space.everything
-        if exhaustive:
-            subsets = sorted(self.maps)
-            weights = self.stack(subsets)
+    def hold_out_all(self, rounds: int) -> tuple[HeldOutFold, ...]:
+        """Choose of all subsets by the labels of some shapes, score on the others; the deals share the rounds' maps."""
         folds = []
-        for fold in deal_folds(self.codes, self.seed, self.groups):
-            if exhaustive:
-                scores = seen_scores(weights, self.codes, fold)
-                chosen, seen = subsets[int(scores.argmax())], float(scores.max())
-            else:
-                chosen, seen = self.climb_seeing(fold).path[-1]
-            hits = [float(self.hits[self.seed, s][fold].mean()) for s in (chosen, everything)]
-            nh_max = float(self.highest[fold].mean())
-            folds.append(HeldOutFold(self.space.names(chosen), len(fold), seen, hits[0], hits[1], nh_max))
-        return tuple(folds)
+        for round_ in range(rounds):
+            seed = self.seed + round_
+            subsets = range(1, self.space.everything + 1)
+            self.need(seed, subsets)
+            weights = self.stack(subsets, seed)
+            for deal in range(round_, DEALS, rounds):
+                for fold in deal_folds(self.codes, self.seed + deal, self.groups):
+                    scores = seen_scores(weights, self.codes, fold)
+                    best = int(scores.argmax())
+                    folds.append(self.fold(deal + 1, seed, subsets[best], float(scores[best]), fold))
+            if round_ > 0:
+                self.forget_neighbours(seed)
+        return tuple(sorted(folds, key=lambda fold: fold.deal))
+
+    def hold_out_climbing(self) -> tuple[HeldOutFold, ...]:
+        """The same by Algorithm 1, once: every deal would ask for maps of its own."""
+        return tuple(
+            self.fold(1, self.seed, *self.climb_seeing(fold).path[-1], fold)
+            for fold in deal_folds(self.codes, self.seed, self.groups)
+        )
+
+    def fold(self, deal: int, seed: int, chosen: int, seen: float, shapes: np.ndarray) -> HeldOutFold:
+        """What the subset that was chosen without some shapes reaches on these."""
+        own, everything = (
+            float(self.hits[seed, subset][shapes].mean()) for subset in (chosen, self.space.everything)
+        )
+        return HeldOutFold(
+            deal=deal,
+            seed=seed,
+            features=self.space.names(chosen),
+            shapes=len(shapes),
+            nh_s_seen=seen,
+            nh_s=own,
+            nh_s_all=everything,
+            nh_max=float(self.highest[shapes].mean()),
+        )
+
+    def forget_neighbours(self, seed: int) -> None:
+        """Those of the first seed are asked for again, those of others are not, and weigh as much."""
+        self.weights = {key: weights for key, weights in self.weights.items() if key[0] != seed}
 
     def climb_seeing(self, held_out: np.ndarray) -> Trace:
         """Algorithm 1 with s = 1, without the labels of some shapes."""
 
         def scores_of(subsets: Sequence[int]) -> FloatArray:
             self.need(self.seed, subsets)
-            return seen_scores(self.stack(subsets), self.codes, held_out)
+            return seen_scores(self.stack(subsets, self.seed), self.codes, held_out)
 
         return climb(len(self.space.features), 1, scores_of)
 

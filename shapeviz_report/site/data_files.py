@@ -17,6 +17,7 @@ import numpy as np
 
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.quality import hit_range, share_of_range
+from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.site.retrieval_data import (
     retrieval_class_rows,
     retrieval_rows,
@@ -27,6 +28,7 @@ from shapeviz_report.types import (
     BinSelection,
     Clusters,
     FeatureSearch,
+    Gain,
     HeldOutBins,
     HitRange,
     Report,
@@ -237,6 +239,8 @@ def _search(report: Report, search: FeatureSearch) -> dict[str, object]:
         ],
         "held_out": [
             {
+                "deal": fold.deal,
+                "seed": fold.seed,
                 "features": list(fold.features),
                 "shapes": fold.shapes,
                 "nh_s_seen": fold.nh_s_seen,
@@ -246,6 +250,7 @@ def _search(report: Report, search: FeatureSearch) -> dict[str, object]:
             }
             for fold in search.held_out
         ],
+        "held_out_gain": _gain(measure_gain(search.held_out)) if search.held_out else None,
         "null_best": search.null_best.tolist(),
         "effects": {
             effect.feature: {
@@ -362,7 +367,11 @@ def _bins(report: Report, found: BinSearch) -> dict[str, object]:
                 }
                 for step in automatic.path
             ],
-            "held_out": _folds(found.held_out),
+            "held_out": _folds(found.held_out)
+            | {
+                "gain": _gain(measure_gain(found.held_out)),
+                "knn_gain": _gain(measure_gain(found.held_out, "knn_accuracy", "knn_accuracy_all")),
+            },
             "permuted": _folds(found.shuffled) | {"chance": found.chance},
         },
         "minimal": {
@@ -377,6 +386,13 @@ def _bins(report: Report, found: BinSearch) -> dict[str, object]:
             ]
             for separated in found.minimal
         },
+        "minimal_by_chance": {
+            str(size): [
+                {"bins": list(chosen.bins), "nh_c": chosen.nh_c, "nh_c_space": chosen.nh_c_space}
+                for chosen in random.sets
+            ]
+            for size, random in found.minimal_by_chance.items()
+        },
     }
 
 
@@ -389,10 +405,19 @@ def _folds(folds: Sequence[HeldOutBins]) -> dict[str, object]:
             name: float(np.average([getattr(fold, name) for fold in folds], weights=shapes)) for name in names
         },
         "folds": [
-            {"bins": list(fold.bins), "shapes": fold.shapes, **{name: getattr(fold, name) for name in names}}
+            {
+                "deal": fold.deal,
+                "bins": list(fold.bins),
+                "shapes": fold.shapes,
+                **{name: getattr(fold, name) for name in names},
+            }
             for fold in folds
         ],
     }
+
+
+def _gain(gain: Gain) -> dict[str, object]:
+    return {"mean": gain.mean, "spread": gain.spread, "deals": gain.deals, "sure": gain.is_sure}
 
 
 def _bin_list(selection: BinSelection) -> str:

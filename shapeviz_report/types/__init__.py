@@ -27,6 +27,7 @@ from shapeviz_report.types.retrieval import Rating, Retrieval
 from shapeviz_report.types.search import (
     FeatureEffect,
     FeatureSearch,
+    Gain,
     GreedySearch,
     GreedyStep,
     HeldOutFold,
@@ -51,6 +52,7 @@ __all__ = [
     "FeatureSearch",
     "FeatureTable",
     "FloatArray",
+    "Gain",
     "GreedySearch",
     "GreedyStep",
     "HeldOutBins",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -103,6 +104,8 @@ class HeldOutBins:
 
     Attributes
     ----------
+    deal : int
+        From 1: each deals the shapes into folds anew.
     bins : tuple of str
         What the other shapes select.
     shapes : int
@@ -110,15 +113,17 @@ class HeldOutBins:
     nh_s_seen : float
         NH_s of the map of the other shapes, at which the selection stopped.
     nh_space, nh_s : float
-        Mean NH of the held-out shapes among all, in the space of the bins and on their map.
+        Mean NH of the held-out shapes among all, in the space of the bins and on their map; the latter over a few seeds
+        of the map.
     nh_s_all : float
-        The same on the map of all features.
+        The same on maps of all features.
     nh_max : float
         What no map exceeds for these shapes.
     knn_accuracy, knn_accuracy_all : float
         Share of the held-out shapes that their k nearest others recognise, by the bins and by all features.
     """
 
+    deal: int
     bins: tuple[str, ...]
     shapes: int
     nh_s_seen: float
@@ -189,6 +194,10 @@ class BinSearch:
         NH_s that labels without meaning reach on average.
     minimal : tuple of MinimalBins
         Of every class of at least two shapes, by name.
+    minimal_by_chance : mapping of int to MinimalBins
+        The same for random shapes, by their number: that of every class.
+    sizes : mapping of str to int
+        The number of shapes of each class that took part.
     """
 
     automatic: BinSelection
@@ -196,6 +205,12 @@ class BinSearch:
     shuffled: tuple[HeldOutBins, ...]
     chance: float
     minimal: tuple[MinimalBins, ...]
+    minimal_by_chance: Mapping[int, MinimalBins]
+    sizes: Mapping[str, int]
+
+    def by_chance(self, separated: MinimalBins) -> MinimalBins:
+        """What the same search finds for as many random shapes as a class has."""
+        return self.minimal_by_chance[self.sizes[separated.label]]
 
 
 @dataclass(frozen=True)

@@ -137,11 +137,39 @@ class SeedSpread:
 
 
 @dataclass(frozen=True)
+class Gain:
+    """What choosing by labels gains on shapes whose labels had no part in it, against not choosing.
+
+    Attributes
+    ----------
+    mean : float
+        NH_s of held-out shapes on the chosen map less that on the map of all features, each shape counted once a deal.
+    spread : float or None
+        The standard deviation that this figure has if a database is dealt into folds only once: the larger of that
+        over deals, and of that over folds divided by the root of their number in a deal. None for a single fold.
+    deals : int
+    """
+
+    mean: float
+    spread: float | None
+    deals: int
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether the mean lies farther from 0 than its spread."""
+        return self.spread is not None and abs(self.mean) > self.spread
+
+
+@dataclass(frozen=True)
 class HeldOutFold:
     """Choosing a subset without the labels of some shapes, then scoring it on these.
 
     Attributes
     ----------
+    deal : int
+        From 1: each deals the shapes into folds anew.
+    seed : int
+        Of the maps.
     features : tuple of str
         The subset that the labels of the other shapes choose.
     shapes : int
@@ -156,6 +184,8 @@ class HeldOutFold:
         What NH_s of these shapes cannot exceed on any map.
     """
 
+    deal: int
+    seed: int
     features: tuple[str, ...]
     shapes: int
     nh_s_seen: float

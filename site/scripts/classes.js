@@ -103,6 +103,13 @@ export class ClassList {
     if (this.buttons) this.#mark();
   }
 
+  /** That the labels chose a subset, and what the best one reaches by chance. */
+  #chosen(features) {
+    const { best, bestByChance } = this.model.data.subsets ?? {};
+    if (!best || best.join() !== features.join()) return "";
+    return ` The labels chose them, the best of all subsets; with labels dealt at random the best typically reaches ${figure(bestByChance)}.`;
+  }
+
   /** What the best map would reach. */
   #best(method) {
     const { highest } = rangeOf(this.model, method);
@@ -144,7 +151,7 @@ export class ClassList {
         model.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
           : this.#best(method),
-        base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone."],
+        base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone.", this.#chosen(features)],
       ),
     ];
   }

@@ -5,12 +5,13 @@ over processes.
 """
 
 from shapeviz_report.search.bins.automatic import select_bins
-from shapeviz_report.search.bins.honest import hold_out, shuffle_labels
+from shapeviz_report.search.bins.honest import affordable_deals, hold_out, shuffle_labels
 from shapeviz_report.search.bins.minimal import find_minimal_bins
 from shapeviz_report.search.bins.space import BinSpace, encode, make_bin_space
 
 __all__ = [
     "BinSpace",
+    "affordable_deals",
     "encode",
     "find_minimal_bins",
     "hold_out",

@@ -12,6 +12,19 @@ from shapeviz_report.search.bins.automatic import LIMIT, select_bins
 from shapeviz_report.search.bins.space import BinSpace, Codes, encode, hits_of, hits_on, lay_out
 from shapeviz_report.types import FloatArray, HeldOutBins
 
+MAP_SEEDS = 5
+"""Maps over which NH of held-out shapes is averaged. Against a selection they cost nothing."""
+
+MOST_DEALS = 10
+FULLY_DEALT = 240
+"""A deal of as many shapes into folds costs 60 CPU seconds, and a build affords one; of fewer shapes, more."""
+
+
+def affordable_deals(shape_count: int) -> int:
+    """How often to deal shapes into folds and hold these out: the fewer there are, the more chance is in one deal, and
+    the less it costs (time grows with the square of their number)."""
+    return int(np.clip((FULLY_DEALT / max(shape_count, 1)) ** 2, 1, MOST_DEALS))
+
 
 def hold_out(
     space: BinSpace,
@@ -22,6 +35,7 @@ def hold_out(
     k: int = NEIGHBOURS,
     limit: int = LIMIT,
     seed: int = 0,
+    deal: int = 1,
 ) -> HeldOutBins:
     """Select bins without some shapes, then see how well these are separated and recognised.
 
@@ -40,6 +54,8 @@ def hold_out(
         Squared distances of the space's shapes by all features: what is to be surpassed.
     k, limit, seed
         As in :func:`~shapeviz_report.search.bins.automatic.select_bins`.
+    deal : int
+        Which deal the fold is of.
     """
     _, codes = encode(space, labels)
     seen = np.setdiff1d(np.arange(len(codes)), fold)
@@ -47,13 +63,15 @@ def hold_out(
     bins = [space.names.index(name) for name in selection.bins]
     squared = space.squared(bins)
     k = min(k, len(codes) - 1)
+    seeds = range(seed, seed + MAP_SEEDS)
     return HeldOutBins(
+        deal=deal,
         bins=selection.bins,
         shapes=len(fold),
         nh_s_seen=selection.nh_s,
         nh_space=float(hits_of(squared, fold, codes, k).mean()),
-        nh_s=float(hits_on(lay_out(squared, seed), codes, k)[fold].mean()),
-        nh_s_all=float(hits_on(lay_out(everything, seed), codes, k)[fold].mean()),
+        nh_s=float(np.mean([hits_on(lay_out(squared, s), codes, k)[fold].mean() for s in seeds])),
+        nh_s_all=float(np.mean([hits_on(lay_out(everything, s), codes, k)[fold].mean() for s in seeds])),
         nh_max=float(highest_hits(codes, k)[fold].mean()),
         knn_accuracy=recognise(squared, codes, fold, k),
         knn_accuracy_all=recognise(everything, codes, fold, k),

@@ -35,7 +35,8 @@ export class ClassCards {
     this.list.replaceChildren(...cards.map(({ group, found, separated }) => element("li", { class: "class-card" }, this.#card(group, found, separated))));
   }
 
-  #card(group, found, { highest }) {
+  #card(group, found, { highest, byChance }) {
+    const random = byChance[found.bins.length - 1];
     const { model, selection } = this;
     const name = model.className(group);
     const plot = new Plot(model, {
@@ -57,6 +58,7 @@ export class ClassCards {
         element("p", { class: "nh", title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the class has others`}` }, element("span", { class: "unseen" }, "NH "), element("b", {}, figure(found.nh)), isBelowOne(highest) && element("span", { class: "quiet" }, ` / ${figure(highest)}`)),
       ),
       element("a", { class: "open-map", href: this.open(found.bins), title: "Open these bins in the Workbench" }, plot.node),
+      random && element("p", { class: "quiet by-chance", title: `What the same search reaches with ${count(found.bins.length, "bin")} for as many shapes dealt at random; ${figure(random.nhSpace)} in the space of the bins` }, `random shapes ${figure(random.nh)}`),
       element("div", { class: "bin-chips" }, found.bins.map((column) => this.chips.chip(column, { group }))),
     ];
   }

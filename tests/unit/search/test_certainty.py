@@ -7,7 +7,14 @@ import pytest
 from scipy.sparse import vstack
 
 from shapeviz_report.quality import neighbour_weights, score
-from shapeviz_report.search.certainty import best_by_chance, compare_spreads, deal_folds, seen_scores
+from shapeviz_report.search.certainty import (
+    best_by_chance,
+    compare_spreads,
+    deal_folds,
+    measure_gain,
+    seen_scores,
+)
+from shapeviz_report.types import HeldOutFold
 
 
 def test_equal_subsets_are_not_told_apart_and_worse_ones_are() -> None:
@@ -66,3 +73,44 @@ def test_the_best_by_chance_exceeds_the_mean_by_chance() -> None:
     assert best_by_chance(vstack([weights[:60]], format="csr"), codes, 0).mean() == pytest.approx(
         single.null_mean, abs=0.01
     )
+
+
+def folds_of(*deals: list[tuple[int, float]]) -> list[HeldOutFold]:
+    """Folds of some shapes with a gain, by deal."""
+    return [
+        HeldOutFold(number, 0, ("F",), shapes, 0.9, 0.5 + gain, 0.5, 1.0)
+        for number, folds in enumerate(deals, start=1)
+        for shapes, gain in folds
+    ]
+
+
+def test_a_gain_by_hand() -> None:
+    gain = measure_gain(folds_of([(30, 0.1), (10, 0.3)], [(20, 0.0), (20, 0.1)]))
+    # Deals of 0.15 and 0.05; each shape counts once a deal.
+    assert gain.mean == pytest.approx(0.1)
+    assert gain.deals == 2
+    by_fold = np.std([0.1, 0.3, 0.0, 0.1], ddof=1) / np.sqrt(2)
+    assert gain.spread == pytest.approx(max(by_fold, np.std([0.15, 0.05], ddof=1)))
+    assert gain.is_sure == (gain.mean > gain.spread)
+
+
+def test_a_gain_within_its_spread_is_none() -> None:
+    assert not measure_gain(folds_of([(10, 0.2), (10, -0.1)])).is_sure
+    assert measure_gain(folds_of([(10, 0.2), (10, 0.21)])).is_sure
+    assert measure_gain(folds_of([(10, -0.2), (10, -0.21)])).is_sure
+    # Folds of a deal that agree say nothing of deals that do not.
+    assert not measure_gain(folds_of([(10, 0.1)] * 5, [(10, -0.09)] * 5)).is_sure
+    alone = measure_gain(folds_of([(3, 0.2)]))
+    assert alone.spread is None
+    assert not alone.is_sure
+
+
+def test_the_spread_covers_what_another_deal_gives() -> None:
+    """Gains that chance makes: a single deal lies within two spreads of the mean of others nearly always."""
+    random = np.random.default_rng(0)
+    covered = 0
+    for _ in range(200):
+        noise = random.normal(0.02, 0.05, (20, 5)) + random.normal(0, 0.01, (20, 1))
+        first = measure_gain(folds_of(*[[(20, g) for g in row] for row in noise[:10]]))
+        covered += abs(noise[10].mean() - first.mean) < 2 * first.spread
+    assert covered > 180

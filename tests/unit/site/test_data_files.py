@@ -167,7 +167,14 @@ class TestSearch:
         assert [run["s"] for run in search["greedy_all"]] == [run.s for run in report.search.greedy]
         assert len(search["table"]) == len(report.search.table)
         assert search["effects"]["Gc"]["alone"] == report.search.effects[0].alone
-        assert sum(fold["shapes"] for fold in search["held_out"]) == 18
+        # Ten deals, by the maps of both rounds in turn.
+        assert sum(fold["shapes"] for fold in search["held_out"]) == 180
+        assert {(fold["deal"], fold["seed"]) for fold in search["held_out"]} == {
+            (d + 1, d % 2) for d in range(10)
+        }
+        gains = [(f["nh_s"] - f["nh_s_all"]) * f["shapes"] for f in search["held_out"]]
+        assert search["held_out_gain"]["mean"] == pytest.approx(sum(gains) / 180)
+        assert search["held_out_gain"]["deals"] == 10
         assert search["spread"][0]["behind"] == 0
 
     def test_tables_hold_every_subset_step_and_round(self, report, folder):

@@ -10,7 +10,7 @@ import pytest
 from shapeviz_report.features import PRESETS, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.search.bins import encode, hold_out, shuffle_labels
-from shapeviz_report.search.bins.honest import recognise
+from shapeviz_report.search.bins.honest import MAP_SEEDS, affordable_deals, recognise
 from shapeviz_report.search.bins.space import hits_on, lay_out
 from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.types import HeldOutBins
@@ -36,8 +36,9 @@ def test_what_is_real_holds_on_held_out_shapes(planted, everything) -> None:
     assert np.mean([fold.knn_accuracy for fold in folds]) > 0.95
     assert np.mean([fold.nh_space for fold in folds]) > 0.9
     assert np.mean([fold.nh_s for fold in folds]) > 0.9
-    # All shapes in turn are scored on the one map of all features.
-    alone = hits_on(lay_out(everything, 0), encode(planted.space, planted.labels)[1], 10).mean()
+    # All shapes in turn are scored on the same maps of all features.
+    codes = encode(planted.space, planted.labels)[1]
+    alone = np.mean([hits_on(lay_out(everything, seed), codes, 10).mean() for seed in range(MAP_SEEDS)])
     assert np.average(
         [fold.nh_s_all for fold in folds], weights=[fold.shapes for fold in folds]
     ) == pytest.approx(alone)
@@ -84,3 +85,8 @@ def test_shuffled_labels_keep_the_classes_and_forget_the_shapes(planted) -> None
     swapped = [None, *reversed(planted.labels[1:])]
     assert Counter(swapped) == Counter(labels)
     assert shuffle_labels(planted.space, swapped, 3) == shuffled
+
+
+def test_few_shapes_are_dealt_more_often() -> None:
+    deals = [affordable_deals(count) for count in (0, 4, 60, 112, 168, 280, 500)]
+    assert deals == [10, 10, 10, 4, 2, 1, 1]
