@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import permutations, product
+
 import numpy as np
 import pytest
 import trimesh
@@ -52,6 +54,23 @@ def test_neighbours_against_a_tree(name) -> None:
     assert (np.diff(np.sort(surface.neighbours, axis=1)) > 0).all()
     if name != "doubled":
         assert (np.sort(surface.neighbours, axis=1) == np.sort(indices[:, 1:], axis=1)).all()
+
+
+def test_neighbours_of_flat_and_regular_surfaces_in_every_orientation() -> None:
+    cube = np.stack(np.meshgrid(*[np.arange(6.0)] * 3), axis=-1).reshape(-1, 3)
+    for vertices in (
+        sheet(12).vertices,
+        cube,
+        cube[(cube == 0).any(axis=1)],
+        cube[(cube[:, 1:] == 0).all(axis=1)],
+    ):
+        size = min(30, len(vertices) - 1)
+        nearest = np.sort(np.linalg.norm(vertices[:, None] - vertices, axis=2), axis=1)[:, 1 : size + 1]
+        for axes, signs in product(permutations(range(3)), product((1.0, -1.0), repeat=3)):
+            turned = Mesh(vertices[:, axes] * signs, np.array([[0, 1, 2]], np.int32))
+            surface = Surface(turned)
+            assert np.sort(surface.neighbour_distances, axis=1) == pytest.approx(nearest, abs=1e-12)
+            assert (np.diff(np.sort(surface.neighbours, axis=1)) > 0).all()
 
 
 def test_centres_are_spread_evenly() -> None:

@@ -122,6 +122,21 @@ def test_deviation_sees_a_lost_limb() -> None:
     assert deviation(both, both) < 1e-9
 
 
+@pytest.mark.parametrize("axes", [(0, 1, 2), (2, 0, 1), (1, 2, 0)])
+def test_deviation_to_faces_without_area_is_that_to_their_lines_and_points(axes) -> None:
+    plain = sheet(5)
+    along = np.array([[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [0.25, 0.0, 0.5]])
+    count = len(plain.vertices)
+    # A line half above the sheet, its corners in every order, and a point at its end.
+    lines = np.array([[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [0, 0, 0]], np.int32) + count
+    both = Mesh(np.concatenate([plain.vertices, along])[:, axes], np.concatenate([plain.faces, lines]))
+    plain = Mesh(plain.vertices[:, axes], plain.faces)
+    assert deviation(both, plain) * diagonal(both) == pytest.approx(0.5)
+    assert deviation(plain, both) * diagonal(plain) == pytest.approx(0.5)
+    line = Mesh(along[:, axes], lines - count)
+    assert deviation(line, line) == pytest.approx(0, abs=1e-12)
+
+
 def test_flat_sheet_is_prepared(tmp_path) -> None:
     path = tmp_path / "sheet.off"
     trimesh.Trimesh(sheet(3).vertices, sheet(3).faces).export(path)
