@@ -64,7 +64,11 @@ def _chains(report: Report, field: Mapping[str, object]) -> list[Chain] | None:
         return None
     kind, _, name = str(field["key"]).partition(":")
     parents = report.database.parents.get(name, {}) if kind == "label" else {}
-    chains = _above(names, parents) if parents else _split(names)
+    if field["notes"] is not None:
+        # Clusters are named after a shape: what stands in its name are its folders, no classes above the cluster.
+        chains: list[Chain] = [(name,) for name in names]
+    else:
+        chains = _above(names, parents) if parents else _split(names)
     return [None if number < 0 else chains[number] for number in of]
 
 

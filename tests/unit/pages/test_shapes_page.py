@@ -208,6 +208,18 @@ class TestTrees:
         report = with_columns(make_report(["a"], 4), {"pair": ["his/hers", "black/white"] * 2})
         assert "column:pair" not in trees(report)
 
+    def test_folders_in_the_names_of_clusters_make_no_tree(self) -> None:
+        # a shape that shares its file name with another is called after its folder as well, and a cluster after it
+        clusters = Clusters(
+            tuple(Cluster(f"like a/{name}", row, 2, ()) for row, name in ((0, "x"), (2, "y"))),
+            np.array([0, 0, 1, 1]),
+            0.5,
+            0.9,
+            stand_in=False,
+        )
+        report = replace(make_report(["a", "b"], 2), clusters=clusters)
+        assert "cluster" not in trees(report)
+
     def test_folders_are_one_where_they_say_more_than_the_classes(self) -> None:
         report = make_report(["a", "b"], 4)
         deep = [f"all/{kind}/{part}/{row}" for kind in "xy" for part in "pq" for row in "12"]
