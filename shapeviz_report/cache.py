@@ -1,23 +1,19 @@
 """Results that need not be computed again, in files named by what they depend on.
 
 An entry's name is a hash of everything that went into it: the content of the mesh, the options, the source
-code of the stage, the versions of the libraries behind it. So entries never go stale; they are only no longer
-asked for. An entry is written under another name first and renamed, so a reader never meets half of one. It begins
-with a checksum over its stage, its key and its content: what a disk, a copy or a person has changed is thrown away
-and computed anew.
+code that the stage reaches and the versions of the libraries behind it (``versions.py``). So entries never go stale;
+they are only no longer asked for. An entry is written under another name first and renamed, so a reader never meets
+half of one. It begins with a checksum over its stage, its key and its content: what a disk, a copy or a person has
+changed is thrown away and computed anew.
 """
 
 from __future__ import annotations
 
 import hashlib
-import importlib
 import logging
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable
-from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from shapeviz_report.errors import CacheError
@@ -40,31 +36,6 @@ def default_root() -> Path:
 def make_key(*parts: object) -> str:
     """A name for what depends on ``parts``, whose ``repr`` must tell them apart."""
     return hashlib.sha256("\0".join(map(repr, parts)).encode()).hexdigest()[:40]
-
-
-@cache
-def code_version(packages: Iterable[str], libraries: Iterable[str]) -> str:
-    """A name for the source code of some of our packages and the versions of the libraries they rest on.
-
-    Parameters
-    ----------
-    packages : tuple of str
-        Names of modules or packages; of a package all its modules count.
-    libraries : tuple of str
-        Names of distributions.
-    """
-    digest = hashlib.sha256()
-    for package in packages:
-        source = Path(str(importlib.import_module(package).__file__))
-        files = sorted(source.parent.rglob("*.py")) if source.name == "__init__.py" else [source]
-        for file in files:
-            digest.update(f"{file.name}\0".encode() + file.read_bytes() + b"\0")
-    for library in libraries:
-        try:
-            digest.update(f"{library} {version(library)}\0".encode())
-        except PackageNotFoundError:
-            digest.update(f"{library}\0".encode())
-    return digest.hexdigest()[:16]
 
 
 class Cache:

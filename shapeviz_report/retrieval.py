@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 import numpy.typing as npt
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.order import classes_of
 from shapeviz_report.quality import TIE
 from shapeviz_report.types import FloatArray, IntArray, Rating, Retrieval
@@ -159,7 +159,7 @@ def best_subset(retrieval: Retrieval) -> int:
     return min(range(len(means)), key=lambda row: (-means[row], sizes[row]))
 
 
-@numba.njit(cache=True)
+@kernel()
 def _rate(
     squared: FloatArray,
     codes: IntArray,

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
 from shapeviz_report import demo
-from shapeviz_report.cache import code_version, make_key
+from shapeviz_report.cache import make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.copies import Outline, compare, outline
 from shapeviz_report.errors import MeshError
@@ -53,6 +53,7 @@ from shapeviz_report.types import (
     ShapeFacts,
     UpAxis,
 )
+from shapeviz_report.versions import function_version
 
 
 def examine_shape(files: Mapping[str, bytes]) -> bytes:
@@ -323,21 +324,15 @@ class Stage:
         Of the cache.
     function : callable
         Returns bytes.
-    packages : tuple of str
-        The part of this package whose source decides the result.
-    libraries : tuple of str
-        The distributions whose versions do.
     """
 
     folder: str
     function: Callable[..., bytes]
-    packages: tuple[str, ...]
-    libraries: tuple[str, ...]
 
     @property
     def version(self) -> str:
         """A name for the code behind the results."""
-        return code_version(tuple(f"shapeviz_report.{name}" for name in self.packages), self.libraries)
+        return function_version(self.function)
 
     def key(self, *inputs: object) -> str:
         """A name for the result of some inputs, whose ``repr`` must tell them apart."""
@@ -349,52 +344,26 @@ def identify(path: Path, files: Mapping[str, bytes]) -> str:
     return f"{path.suffix.lower()} {content_hash(files)}"
 
 
-_READERS = ("numpy", "scipy", "trimesh", "manifold3d", "lxml")
-
-EXAMINE = Stage("examined", examine_shape, ("mesh", "types.mesh", "copies"), _READERS)
-COMPARE = Stage("compared", compare_shapes, ("mesh", "types", "copies"), _READERS)
-PREPARE = Stage("prepared", prepare_shape, ("mesh", "types.mesh"), ("mmgpy", *_READERS))
-SAMPLE = Stage("sampled", sample_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
-DESCRIBE = Stage(
-    "described",
-    describe_shape,
-    ("descriptors", "features", "models"),
-    ("numba", "numpy", "scipy", "fast-simplification"),
-)
-MEASURE = Stage("measured", measure_shape, ("descriptors", "features"), ("numba", "numpy", "scipy"))
-_PAINTERS = ("pillow", "pyrender-maintained", "PyOpenGL", "numpy", "scipy", "numba")
-RENDER = Stage("rendered", render_shape, ("render",), _PAINTERS)
-PAINT = Stage("painted", paint_shape, ("render", "descriptors", "features"), _PAINTERS)
-_PROJECTORS = ("numba", "numpy", "scipy", "scikit-learn", "umap-learn", "pynndescent")
-PROJECT = Stage("projected", project_features, ("projections",), _PROJECTORS)
-CLUSTER = Stage("clustered", cluster_features, ("clusters",), ("networkx", "numpy", "scipy", "scikit-learn"))
-SEARCH = Stage("searched", map_features, ("search.space", "projections"), _PROJECTORS)
-SELECT = Stage("selected", search_bins, ("search.bins", "projections", "quality", "types.bins"), _PROJECTORS)
-RETRIEVE = Stage("retrieved", retrieve, ("retrieval", "quality"), ("numba", "numpy"))
-SCORE = Stage("scored", score_bins, ("scorers",), ("numba", "numpy", "scipy", "scikit-learn"))
-GENERATE = Stage("demo", generate_shape, ("demo",), ("manifold3d", "numpy", "scipy"))
+EXAMINE = Stage("examined", examine_shape)
+COMPARE = Stage("compared", compare_shapes)
+PREPARE = Stage("prepared", prepare_shape)
+SAMPLE = Stage("sampled", sample_shape)
+DESCRIBE = Stage("described", describe_shape)
+MEASURE = Stage("measured", measure_shape)
+RENDER = Stage("rendered", render_shape)
+PAINT = Stage("painted", paint_shape)
+PROJECT = Stage("projected", project_features)
+CLUSTER = Stage("clustered", cluster_features)
+SEARCH = Stage("searched", map_features)
+SELECT = Stage("selected", search_bins)
+RETRIEVE = Stage("retrieved", retrieve)
+SCORE = Stage("scored", score_bins)
+GENERATE = Stage("demo", generate_shape)
 
 
 def fingerprint() -> str:
     """A name for all code that can decide a result, equal on machines that give the same ones."""
-    stages = (
-        EXAMINE,
-        COMPARE,
-        PREPARE,
-        SAMPLE,
-        DESCRIBE,
-        RENDER,
-        PAINT,
-        CLUSTER,
-        PROJECT,
-        SEARCH,
-        SCORE,
-        SELECT,
-        RETRIEVE,
-        GENERATE,
-    )
-    libraries = {library for stage in stages for library in stage.libraries}
-    return code_version(("shapeviz_report",), tuple(sorted(libraries)))
+    return make_key(*(kept.version for kept in globals().values() if isinstance(kept, Stage)))
 
 
 def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:

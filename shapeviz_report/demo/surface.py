@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 from scipy.ndimage import label, map_coordinates
 from scipy.sparse import coo_array
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.demo.solids import (
     ATTACH,
     BLADE,
@@ -53,7 +53,7 @@ _ADDED = 0.25  # depth given to voxels that the topology asked for, in grid spac
 _TETRAHEDRON = np.array([[1, -1, -1], [-1, -1, 1], [-1, 1, -1], [1, 1, 1]], dtype=np.float64)
 
 
-@njit(cache=True)
+@kernel()
 def _outline_distance(x, y, outline):
     """Signed distance to a closed polygon (n, 2), negative inside: nearest edge, sign by crossings."""
     nearest = np.inf
@@ -72,7 +72,7 @@ def _outline_distance(x, y, outline):
     return -np.sqrt(nearest) if inside else np.sqrt(nearest)
 
 
-@njit(cache=True)
+@kernel()
 def _round_cone(radial, z, length, start, end):
     """Signed distance to a round cone about the z axis, and its gradient (radial, z)."""
     slope = (start - end) / length if length > 0.0 else 0.0
@@ -90,7 +90,7 @@ def _round_cone(radial, z, length, start, end):
     return norm - radius, radial / norm, z / norm
 
 
-@njit(cache=True)
+@kernel()
 def _primitive_distance(px, py, pz, rows, i, outlines):
     """Signed distance to the primitive in row ``i``."""
     row = rows[i]
@@ -130,7 +130,7 @@ def _primitive_distance(px, py, pz, rows, i, outlines):
     return np.sqrt(ox * ox + oy * oy + oz * oz) + min(max(x, y, z), 0.0) - d
 
 
-@njit(cache=True)
+@kernel()
 def _smooth_minimum(a, b, radius):
     """Cubic polynomial minimum: as ``min`` where the two differ by more than ``radius``."""
     overlap = max(radius - abs(a - b), 0.0)
@@ -139,7 +139,7 @@ def _smooth_minimum(a, b, radius):
     return min(a, b) - overlap * overlap * overlap / (6.0 * radius * radius)
 
 
-@njit(cache=True)
+@kernel()
 def _distances(points, rows, outlines, reach):
     """Run a program at every point (n, 3).
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.errors import MeshError
 from shapeviz_report.types import FloatArray, IntArray, Mesh
 
@@ -199,7 +199,7 @@ def _manifold_pairs(faces: IntArray) -> tuple[IntArray, int]:
     return np.stack([order[twos], order[twos + 1]], axis=1).astype(np.int32), int((counts > 2).sum())
 
 
-@numba.njit(cache=True)
+@kernel()
 def _orient(faces, pairs):  # pragma: no cover - compiled
     """Give neighbours a common winding by a breadth-first walk over manifold edges.
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numba.core.dispatcher import Dispatcher
 
+from shapeviz_report.compilation import kept_for
 from shapeviz_report.projections.base import Method
 from shapeviz_report.types import FloatArray
 
@@ -53,10 +54,11 @@ def _fit(values: FloatArray, seed: int, **options: Any) -> FloatArray:
 
 def _keep_compiled_code(*modules: ModuleType) -> None:
     """Let numba store what it compiles of these modules: 15 seconds less in every process after the first."""
-    for module in modules:
-        for function in vars(module).values():
-            if isinstance(function, Dispatcher) and not function.signatures:
-                function.enable_caching()
+    with kept_for("umap"):
+        for module in modules:
+            for function in vars(module).values():
+                if isinstance(function, Dispatcher) and not function.signatures:
+                    function.enable_caching()
 
 
 UMAP_METHOD = Method(

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 import numpy.typing as npt
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.types import FloatArray, IntArray, Mesh
 
 CREASE_ANGLE = np.radians(40.0)
@@ -76,7 +76,7 @@ def split_at_creases(mesh: Mesh, crease_angle: float = CREASE_ANGLE) -> ShadedSu
     return ShadedSurface(source, mesh.vertices[source], normals, shaded_faces)
 
 
-@numba.njit(cache=True)
+@kernel()
 def _shade_corners(
     faces: IntArray,
     face_normals: FloatArray,

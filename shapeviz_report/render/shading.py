@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
 import numpy.typing as npt
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.render.camera import Camera
 
 CLAY = (0.56, 0.505, 0.44)  # linear reflectance
@@ -83,13 +83,13 @@ def _spiral(radius: float) -> npt.NDArray[np.int64]:
     return np.ascontiguousarray(offsets.swapaxes(0, 1))
 
 
-@numba.njit(cache=True)
+@kernel()
 def _position(column: int, row: int, z: float, focal_length: float, centre_x: float, centre_y: float):
     """The point seen in the middle of a pixel at distance ``z``, in camera axes."""
     return (column + 0.5 - centre_x) * z / focal_length, (centre_y - row - 0.5) * z / focal_length, -z
 
 
-@numba.njit(cache=True)
+@kernel()
 def _openness(depth, spiral, row, column, point, normal, focal_length, centre_x, centre_y):
     """Ambient light that reaches a point, from the depths around it, in [0, 1].
 
@@ -120,7 +120,7 @@ def _openness(depth, spiral, row, column, point, normal, focal_length, centre_x,
     return max(0.0, 1.0 - _OCCLUSION_STRENGTH * occlusion * reach / _OCCLUSION_SAMPLES)
 
 
-@numba.njit(cache=True)
+@kernel()
 def _light_pixels(depth, normals, albedo, spiral, focal_length, centre_x, centre_y):
     height, width = depth.shape
     picture = np.zeros((height, width, 4), np.float32)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import io
 
-import numba
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.render.camera import frame
 from shapeviz_report.render.normals import split_at_creases
 from shapeviz_report.render.rasteriser import rasterise
@@ -72,7 +72,7 @@ def encode_webp(picture: npt.NDArray[np.float32]) -> bytes:
     return file.getvalue()
 
 
-@numba.njit(cache=True)
+@kernel()
 def _reduce(picture: npt.NDArray[np.float32], weights: npt.NDArray[np.float32]) -> npt.NDArray[np.uint8]:
     """Halve a picture and encode it in sRGB; every colour counts as much as it covers."""
     height, width = picture.shape[0] // 2, picture.shape[1] // 2
@@ -96,7 +96,7 @@ def _reduce(picture: npt.NDArray[np.float32], weights: npt.NDArray[np.float32]) 
     return pixels
 
 
-@numba.njit(cache=True)
+@kernel()
 def _encode_srgb(linear: float) -> int:
     """IEC 61966-2-1, in steps of 1/255."""
     encoded = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1.0 / 2.4) - 0.055

@@ -25,10 +25,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numba
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError, cKDTree
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.types import FloatArray, Mesh, UpAxis
 
 UP_AXES = {"x": np.array([1.0, 0.0, 0.0]), "y": np.array([0.0, 1.0, 0.0]), "z": np.array([0.0, 0.0, 1.0])}
@@ -242,7 +242,7 @@ def _visible_share(points: FloatArray) -> float:
     return _count_visible(points, left, low, extent / (_VISIBILITY_CELLS - 1)) / len(points)
 
 
-@numba.njit(cache=True)
+@kernel()
 def _count_visible(points: FloatArray, left: float, low: float, cell: float) -> int:
     """Count the points that no other hides, by a depth buffer with cells as wide as the points are apart."""
     visible = 0

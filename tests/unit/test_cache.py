@@ -7,7 +7,7 @@ import textwrap
 
 import pytest
 
-from shapeviz_report.cache import Cache, code_version, default_root, make_key, write_atomically
+from shapeviz_report.cache import Cache, default_root, make_key, write_atomically
 from shapeviz_report.errors import CacheError
 
 
@@ -26,22 +26,6 @@ def test_keys_tell_parts_apart() -> None:
     }
     assert len(keys) == 6
     assert make_key("a", 0.01) == make_key("a", 0.01)
-
-
-def test_code_version_follows_source_and_libraries(tmp_path, monkeypatch) -> None:
-    monkeypatch.syspath_prepend(tmp_path)
-    package = tmp_path / "some_stage"
-    package.mkdir()
-    (package / "__init__.py").write_text("")
-    (package / "part.py").write_text("x = 1\n")
-    first = code_version(("some_stage",), ("numpy",))
-    code_version.cache_clear()
-    assert code_version(("some_stage",), ("numpy",)) == first
-    assert code_version(("some_stage",), ("scipy",)) != first
-    (package / "part.py").write_text("x = 2\n")
-    code_version.cache_clear()
-    assert code_version(("some_stage",), ("numpy",)) != first
-    code_version.cache_clear()
 
 
 def test_a_writer_killed_half_way_leaves_the_old_content(tmp_path) -> None:

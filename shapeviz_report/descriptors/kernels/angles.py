@@ -1,10 +1,11 @@
 """Corner angles: angle sums and angle-weighted normals of vertices."""
 
 import numpy as np
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 
-@njit(cache=True)
+@kernel()
 def gather_angles(vertices, faces):  # pragma: no cover - compiled
     """Per vertex: the sum of its corner angles (n,), and its unit normal (n, 3).
 
@@ -43,7 +44,7 @@ def gather_angles(vertices, faces):  # pragma: no cover - compiled
     return sums, normals
 
 
-@njit
+@kernel()
 def _spread(vertices, origin, left, right):  # pragma: no cover - compiled
     """Cross product (three numbers) and dot product of the ways from ``origin`` to two vertices."""
     lx = vertices[left, 0] - vertices[origin, 0]

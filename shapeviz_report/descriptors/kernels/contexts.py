@@ -1,13 +1,14 @@
 """Local frames and the counts of shape contexts."""
 
 import numpy as np
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 BESIDE = np.float32(1e-5)
 """What is less than this in front of a plane counts as behind it, lest rounding decide on flat surfaces."""
 
 
-@njit(cache=True)
+@kernel()
 def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover - compiled
     """A local frame a vertex: two tangents (n, 3) each; the third axis is the normal.
 
@@ -56,7 +57,7 @@ def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover -
     return first, second
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: no cover - compiled
     """Share of the points ``seen`` in each octant and distance shell around each vertex.
 

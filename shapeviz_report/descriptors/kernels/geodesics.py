@@ -1,10 +1,11 @@
 """Shortest paths over a surface."""
 
 import numpy as np
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 
-@njit
+@kernel()
 def _place(vertices, near, far, tip):  # pragma: no cover - compiled
     """Where a triangle's tip lies in its plane: how far along the side from near to far, and how far beside it."""
     along = square = across = 0.0
@@ -19,7 +20,7 @@ def _place(vertices, near, far, tip):  # pragma: no cover - compiled
     return along, np.sqrt(max(0.0, across - along * along)), length
 
 
-@njit
+@kernel()
 def _cross(px, py, qx, qy, ax, ay, bx, by):  # pragma: no cover - compiled
     """Whether two segments in the plane, from p to q and from a to b, meet."""
     wx, wy, sx, sy = qx - px, qy - py, bx - ax, by - ay
@@ -28,7 +29,7 @@ def _cross(px, py, qx, qy, ax, ay, bx, by):  # pragma: no cover - compiled
     return apart <= 0.0 and beyond <= 0.0
 
 
-@njit(cache=True)
+@kernel()
 def draw_lines(vertices, faces, twins):  # pragma: no cover - compiled
     """Straight lines across one edge or two, where two or three faces in a row are laid flat.
 
@@ -93,7 +94,7 @@ def draw_lines(vertices, faces, twins):  # pragma: no cover - compiled
     return ends[:count], lengths[:count]
 
 
-@njit(cache=True)
+@kernel()
 def pack_rows(ends, lengths, count):  # pragma: no cover - compiled
     """Lines between ``count`` vertices in compressed rows: offsets, neighbours and lengths, each line both ways."""
     offsets = np.zeros(count + 2, np.int32)
@@ -110,7 +111,7 @@ def pack_rows(ends, lengths, count):  # pragma: no cover - compiled
     return offsets[:-1], neighbours, packed
 
 
-@njit(cache=True)
+@kernel()
 def add_source(
     offsets, neighbours, lengths, source, distances, owners, queue, waiting
 ):  # pragma: no cover - compiled
@@ -155,7 +156,7 @@ def add_source(
                     size += 1
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def measure_all(offsets, neighbours, lengths, orders, distances):  # pragma: no cover - compiled
     """Carry distances from many sources at once on along the lines of a graph, until no line shortens any.
 

@@ -1,10 +1,11 @@
 """Nearest neighbours by a grid of cells."""
 
 import numpy as np
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def find_nearest(points, cells, starts, width, order, wanted):  # pragma: no cover - compiled
     """The ``wanted`` points nearest to each, itself excluded.
 

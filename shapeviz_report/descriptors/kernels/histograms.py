@@ -1,9 +1,9 @@
 """Histograms of values at vertices."""
 
-from numba import njit
+from shapeviz_report.compilation import kernel
 
 
-@njit(cache=True)
+@kernel()
 def add_up(values, limits, weights, totals):  # pragma: no cover - compiled
     """Add the weight of every vertex to its bin of each dimension of ``totals``, (d, b + 1) float64.
 

@@ -6,7 +6,8 @@ bin next to it.
 """
 
 import numpy as np
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 WIDTH = 16
 """Pairs are treated in rows of a multiple of this many, which fill vector registers."""
@@ -23,7 +24,7 @@ ELEVENTH = np.tan(np.pi * np.arange(1, 11, 2) / 11).astype(np.float32)
 """Tangents of the limits between elevenths of the circle: 16.4, 49.1, 81.8, 114.5 and 147.3 degrees."""
 
 
-@njit(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def _relate(dx, dy, dz, mx, my, mz, nx, ny, nz):  # pragma: no cover - compiled
     """What the angles of a pair are made of, from d between its points and their normals m and n.
 
@@ -51,7 +52,7 @@ def _relate(dx, dy, dz, mx, my, mz, nx, ny, nz):  # pragma: no cover - compiled
     )
 
 
-@njit(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def _fifth(value, whole):  # pragma: no cover - compiled
     """Which fifth of [-whole, whole] a value lies in, 0 to 4."""
     outer, inner = np.float32(0.6) * whole, np.float32(0.2) * whole
@@ -63,7 +64,7 @@ def _fifth(value, whole):  # pragma: no cover - compiled
     )
 
 
-@njit(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def _cell(along_m, along_n, agreement, volume, sine):  # pragma: no cover - compiled
     """The cell of PFH for one direction of a pair: ``25 * alpha + 5 * phi + theta``, fifths of each."""
     y, x = along_n - along_m * agreement, agreement * sine
@@ -74,7 +75,7 @@ def _cell(along_m, along_n, agreement, volume, sine):  # pragma: no cover - comp
     return np.int32(25) * alpha + np.int32(5) * phi + theta
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """Share of the ordered pairs of each neighbourhood in 5 x 5 x 5 cells of (alpha, phi, theta).
 
@@ -132,7 +133,7 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     return result
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     """Share of the pairs (vertex, neighbour) in 11 bins each of alpha, phi and theta: (n, 33) float32."""
     count, size = neighbours.shape
@@ -172,7 +173,7 @@ def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
     return result
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract", "nsz", "arcp"})
+@kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
 def average_spfh(spfh, neighbours, distances, floor):  # pragma: no cover - compiled
     """Eq. 6: each SPFH plus the mean of its neighbours', weighted by one over their distance.
 

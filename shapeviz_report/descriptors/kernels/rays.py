@@ -1,7 +1,8 @@
 """The first face a ray meets, by a tree of bounding boxes."""
 
 import numpy as np
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 DEPTH = 64
 """Deeper than any tree gets: its boxes are numbered by 32 bits."""
@@ -19,14 +20,14 @@ GRAZING = 1e-10
 """A ray at a smaller angle to a face (in radians) lies in its plane and does not meet it."""
 
 
-@njit(error_model="numpy")
+@kernel(error_model="numpy")
 def _cross(near, far, origin, inverse):  # pragma: no cover - compiled
     """Where along one axis a ray enters a box and leaves it; ``near`` is the side that it meets first."""
     margin = MARGIN if inverse > 0.0 else -MARGIN
     return (near - margin - origin) * inverse, (far + margin - origin) * inverse
 
 
-@njit(error_model="numpy")
+@kernel(error_model="numpy")
 def _enter(boxes, node, ox, oy, oz, ix, iy, iz):  # pragma: no cover - compiled
     """Where on a ray from o, with the inverse direction i, a box begins; infinite where it is not met."""
     near_x, near_y, near_z = 0 if ix > 0.0 else 3, 1 if iy > 0.0 else 4, 2 if iz > 0.0 else 5
@@ -38,7 +39,7 @@ def _enter(boxes, node, ox, oy, oz, ix, iy, iz):  # pragma: no cover - compiled
     return enter if enter <= leave else np.inf
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def cast_inward(
     vertices, normals, rays, faces, corners, boxes, leaf, tolerance
 ):  # pragma: no cover - compiled

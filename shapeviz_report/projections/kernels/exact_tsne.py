@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 Float32Array = npt.NDArray[np.float32]
 
@@ -19,7 +20,7 @@ _SHORT_SEARCH = 1e-5
 """The entropy of a row is found to this precision (nats)."""
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@kernel(error_model="numpy", fastmath=True)
 def affinities(squared: Float32Array, perplexity: float, neighbours: int) -> Float32Array:
     """The symmetric probabilities of neighbours in the features' space.
 
@@ -98,7 +99,7 @@ def affinities(squared: Float32Array, perplexity: float, neighbours: int) -> Flo
     return shares
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@kernel(error_model="numpy", fastmath=True)
 def descend(
     shares: Float32Array, start: Float32Array, early_factor: np.float32, rate: np.float32
 ) -> Float32Array:
@@ -171,13 +172,13 @@ def descend(
     return np.stack((x, y), axis=1)
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@kernel(error_model="numpy", fastmath=True)
 def _extent(x: Float32Array, y: Float32Array) -> np.float32:
     """The larger root mean square of two coordinates."""
     return np.float32(np.sqrt(max((x * x).mean(), (y * y).mean())))
 
 
-@njit(cache=True, error_model="numpy", fastmath=True)
+@kernel(error_model="numpy", fastmath=True)
 def _move(position, speed, gain, pull, push, exaggeration, scale, momentum, rate) -> None:
     """One step of all points along one axis, in place."""
     for i in range(len(position)):

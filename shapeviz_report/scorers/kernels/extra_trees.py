@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.scorers.kernels import random
 
 Float32Array = npt.NDArray[np.float32]
@@ -17,7 +17,7 @@ _NO_NAN = {"nnan", "nsz"}
 """What the compiler may assume so that extremes become vector instructions; no sum is reordered."""
 
 
-@njit(cache=True, error_model="numpy", fastmath=_NO_NAN)
+@kernel(error_model="numpy", fastmath=_NO_NAN)
 def importances(
     columns: Float32Array, positive: npt.NDArray[np.int32], trees: int, candidates: int, seed: int
 ) -> npt.NDArray[np.float64]:

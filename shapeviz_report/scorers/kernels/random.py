@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 _MASK = np.uint64(0xFFFFFFFF)
 _STEP = np.uint64(0x9E3779B9)
 
 
-@njit(cache=True)
+@kernel()
 def start(seed: int) -> npt.NDArray[np.uint64]:
     """The state (1,) of a generator, which :func:`uniform` moves on; as ``site/scripts/engine/random.js`` has it."""
     state = np.empty(1, np.uint64)
@@ -18,7 +19,7 @@ def start(seed: int) -> npt.NDArray[np.uint64]:
     return state
 
 
-@njit(cache=True)
+@kernel()
 def uniform(state: npt.NDArray[np.uint64]) -> float:
     """The next number, evenly from [0, 1)."""
     state[0] = (state[0] + _STEP) & _MASK

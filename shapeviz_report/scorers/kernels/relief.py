@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 Float32Array = npt.NDArray[np.float32]
 _REORDERED = {"nnan", "nsz", "reassoc", "contract"}
 """What the compiler may assume so that sums become vector instructions; the last digits follow from it."""
 
 
-@njit(cache=True, error_model="numpy", fastmath=_REORDERED)
+@kernel(error_model="numpy", fastmath=_REORDERED)
 def distances(weighted: Float32Array) -> Float32Array:
     """Sums over the columns of absolute differences between all rows of ``weighted`` (n, d); (n, n), symmetric."""
     count, width = weighted.shape
@@ -28,7 +29,7 @@ def distances(weighted: Float32Array) -> Float32Array:
     return found
 
 
-@njit(cache=True, error_model="numpy", fastmath=_REORDERED)
+@kernel(error_model="numpy", fastmath=_REORDERED)
 def differences(values: Float32Array, shares: Float32Array) -> Float32Array:
     """Sums over all pairs of rows of their absolute differences in each column, each pair with its share.
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
 
+from shapeviz_report.compilation import kernel
 from shapeviz_report.scorers.kernels import random
 
 FloatArray = npt.NDArray[np.float64]
@@ -22,7 +22,7 @@ _MOST_SWEEPS = 1000
 """Rounds over the coefficients in one Newton step."""
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def selections(
     columns: FloatArray,
     hits: int,
@@ -84,14 +84,14 @@ def selections(
     return total
 
 
-@njit(cache=True)
+@kernel()
 def _shuffle(order: npt.NDArray[np.int64], state: npt.NDArray[np.uint64]) -> None:
     for place in range(len(order)):
         pick = place + int(random.uniform(state) * (len(order) - place))
         order[place], order[pick] = order[pick], order[place]
 
 
-@njit(cache=True, error_model="numpy", fastmath=_SUMS)
+@kernel(error_model="numpy", fastmath=_SUMS)
 def follow_path(
     columns: FloatArray, hits: int, penalties: FloatArray, strengths: FloatArray, tolerance: float
 ) -> tuple[FloatArray, FloatArray]:
@@ -217,7 +217,7 @@ def follow_path(
     return found, intercepts
 
 
-@njit(cache=True)
+@kernel()
 def _join(
     gradient: FloatArray,
     limits: FloatArray,
@@ -234,7 +234,7 @@ def _join(
     return size
 
 
-@njit(cache=True, error_model="numpy", fastmath=_SUMS, inline="always")
+@kernel(error_model="numpy", fastmath=_SUMS, inline="always")
 def _product(one: FloatArray, other: FloatArray) -> float:
     total = 0.0
     for row in range(len(other)):

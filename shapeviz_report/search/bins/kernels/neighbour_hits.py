@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from numba import njit
+
+from shapeviz_report.compilation import kernel
 
 FloatArray = npt.NDArray[np.float64]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel(error_model="numpy")
 def hits_with_each(
     squared: FloatArray,
     others: npt.NDArray[np.int32],

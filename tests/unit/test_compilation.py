@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from numba import config
+
+from shapeviz_report.compilation import kept_for
+
+
+def run(package: Path, cache: Path) -> str:
+    script = "from loops.outer import outer; print(outer(1.0), sum(outer.stats.cache_hits.values()))"
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join([str(package.parent), *sys.path]),
+        "NUMBA_CACHE_DIR": str(cache),
+    }
+    return subprocess.run(
+        [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
+    ).stdout.strip()
+
+
+def test_machine_code_follows_a_change_in_a_called_module(tmp_path) -> None:
+    package, cache = tmp_path / "loops", tmp_path / "cache"
+    package.mkdir()
+    decorated = "from shapeviz_report.compilation import kernel\n{}\n@kernel(error_model='numpy')\n"
+    (package / "__init__.py").write_text("")
+    (package / "inner.py").write_text(decorated.format("") + "def inner(x): return x + 1\n")
+    (package / "outer.py").write_text(
+        decorated.format("from loops.inner import inner") + "def outer(x): return inner(x)\n"
+    )
+    stamp = (package / "outer.py").stat()
+    assert run(package, cache) == "2.0 0"
+    assert run(package, cache) == "2.0 1", "compiled code is kept"
+    (package / "inner.py").write_text(decorated.format("") + "def inner(x): return x + 7\n")
+    assert (package / "outer.py").stat() == stamp
+    assert run(package, cache) == "8.0 0"
+    assert run(package, cache) == "8.0 1"
+
+
+def test_settings_of_numba_are_left_as_they_are() -> None:
+    before = config.CACHE_DIR
+    with kept_for("umap", "pynndescent"):
+        assert before != config.CACHE_DIR
+    assert before == config.CACHE_DIR
