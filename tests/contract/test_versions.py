@@ -133,10 +133,11 @@ def test_what_runs_is_reached() -> None:
             ran[name] = sorted(found)
             return result
 
-        files = {"ball.ply": trimesh.creation.icosphere(2).export(file_type="ply")}
+        files = {"ball.ply": trimesh.creation.icosphere(1).export(file_type="ply")}
         call("EXAMINE", files)
+        call("COMPARE", files, {"same.ply": files["ball.ply"]})
         prepared = call("PREPARE", files, 0.05)
-        view = stages.read_picture(call("RENDER", prepared, 64, None, ))[1]
+        view = stages.read_picture(call("RENDER", prepared, 64, None))[1]
         edges = fixed_edges()
         call("SAMPLE", prepared, 20)
         call("DESCRIBE", prepared, view, edges, True)
