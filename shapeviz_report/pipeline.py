@@ -24,6 +24,7 @@ from shapeviz_report.config import SEARCHES, Config
 from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.copies import Outline, join_copies, pair_outlines
 from shapeviz_report.database import read_database
+from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import (
@@ -303,6 +304,17 @@ def build_report(
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
             for name, projection in projections.items()
         }
+        distances = {"everything": space.squared.sum(axis=0, dtype=np.float64)}
+        if by_bins is not None:
+            distances["bins"] = squared_distances(by_bins[space.rows])
+        without_copies = rate_without_copies(
+            groups,
+            labels,
+            {name: projection.xy for name, projection in projections.items()},
+            config.neighbours,
+            space.rows,
+            distances,
+        )
     report = Report(
         database=database,
         shapes=shapes,
@@ -328,6 +340,7 @@ def build_report(
         clusters=clusters,
         publication=publication,
         copies=copies,
+        without_copies=without_copies,
     )
     with clock.stage("write"):
         write_site(report, destination, single_file=config.single_file)

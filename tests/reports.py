@@ -17,6 +17,7 @@ from shapeviz_report import quality
 from shapeviz_report.bins import features_of, scale_bins
 from shapeviz_report.clusters import describe_clusters, part
 from shapeviz_report.contrasts import choose_contrasts
+from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.order import classes_of
@@ -37,12 +38,14 @@ from shapeviz_report.types import (
     Accent,
     BinScores,
     BinSearch,
+    Copy,
     Database,
     Failure,
     FeatureBlock,
     FeatureTable,
     Licence,
     Logo,
+    Match,
     Mesh,
     Painting,
     Projection,
@@ -51,6 +54,7 @@ from shapeviz_report.types import (
     Retrieval,
     ShapeEntry,
     ShapeFacts,
+    group_copies,
 )
 
 NASTY_LABELS = (
@@ -258,6 +262,25 @@ def with_retrieval(report: Report) -> Report:
             bins=bins,
             by_bins=by_bins,
             chance=rate_chance(codes),
+        ),
+    )
+
+
+def with_copies(report: Report, pairs: Sequence[tuple[int, int]]) -> Report:
+    """The report with some shapes, by row, as copies of others, and its figures without them."""
+    ids = [shape.id for shape in report.shapes]
+    copies = tuple(Copy(ids[a], ids[b], Match("identical geometry", mirrored=True)) for a, b in pairs)
+    space = make_space(report.features, scale(report.features, PRESETS["default"]), report.labels)
+    return replace(
+        report,
+        copies=copies,
+        without_copies=rate_without_copies(
+            group_copies(copies, ids),
+            report.labels,
+            {method: projection.xy for method, (projection, _) in report.projections.items()},
+            quality.NEIGHBOURS,
+            space.rows,
+            {"everything": space.squared.sum(axis=0, dtype=np.float64)},
         ),
     )
 

@@ -15,7 +15,7 @@ from shapeviz_report.pages.base import (
     clusters_chunk,
     rounded,
 )
-from shapeviz_report.types import Projection, Quality, Report
+from shapeviz_report.types import Projection, Quality, Report, WithoutCopies
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
@@ -32,7 +32,8 @@ class OverviewPage:
     def content(self, report: Report) -> PageContent:
         classes = class_names(report)
         methods = [
-            _method(projection, quality, classes) for projection, quality in report.projections.values()
+            _method(projection, quality, classes, report.without_copies)
+            for projection, quality in report.projections.values()
         ]
         return PageContent(
             context={
@@ -82,7 +83,9 @@ def _shapes(report: Report, classes: tuple[str, ...]) -> dict[str, object]:
     }
 
 
-def _method(projection: Projection, quality: Quality, classes: tuple[str, ...]) -> dict[str, object]:
+def _method(
+    projection: Projection, quality: Quality, classes: tuple[str, ...], without_copies: WithoutCopies | None
+) -> dict[str, object]:
     """One projection with its quality; missing values are None."""
     return {
         "key": projection.method,
@@ -97,6 +100,9 @@ def _method(projection: Projection, quality: Quality, classes: tuple[str, ...]) 
             np.array([quality.nh_c.get(name, np.nan) for name in classes], dtype=float), COORDINATE_DECIMALS
         ),
         "hitOfAll": quality.nh_s,
+        "withoutCopies": None
+        if without_copies is None
+        else {"copies": without_copies.copies, "hitOfAll": without_copies.nh_s[projection.method]},
         "chance": quality.null_mean,
         "chanceSpread": quality.null_std,
     }

@@ -40,7 +40,17 @@ def retrieval_context(report: Report, retrieval: Retrieval) -> dict[str, object]
             )
         ),
         "measures": MEASURES,
+        "without_copies": _without_copies(report),
     }
+
+
+def _without_copies(report: Report) -> dict[str, object] | None:
+    """What all features reach where the copies are left out; None without copies, or without a class of two then."""
+    found = report.without_copies
+    if found is None or not found.retrieval:
+        return None
+    nearest, *_, average = found.retrieval["everything"]
+    return {"copies": found.copies, "nearest": nearest, "average": average}
 
 
 def retrieval_chunk(report: Report, retrieval: Retrieval) -> dict[str, object]:

@@ -19,6 +19,7 @@ from shapeviz_report.pages.base import class_names
 from shapeviz_report.quality import hit_range, share_of_range
 from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.site.retrieval_data import (
+    named_scores,
     retrieval_class_rows,
     retrieval_rows,
     retrieval_summary,
@@ -32,6 +33,7 @@ from shapeviz_report.types import (
     HeldOutBins,
     HitRange,
     Report,
+    WithoutCopies,
 )
 
 #: Tells a folder that this package wrote from one that it must not replace.
@@ -127,6 +129,7 @@ def summary(report: Report, version: str) -> dict[str, object]:
             for method, (projection, quality) in report.projections.items()
         },
         "copies": [[copy.first, copy.second, copy.match.words] for copy in report.copies],
+        "without_copies": None if report.without_copies is None else _without_copies(report.without_copies),
         "clusters": None if report.clusters is None else _clusters(report, report.clusters),
         "search": None if report.search is None else _search(report, report.search),
         "bins": None if report.bins is None else _bins(report, report.bins),
@@ -135,6 +138,14 @@ def summary(report: Report, version: str) -> dict[str, object]:
         "cpu_seconds": dict(report.cpu_seconds),
         "parameters": dict(report.parameters),
         "versions": dict(report.versions),
+    }
+
+
+def _without_copies(found: WithoutCopies) -> dict[str, object]:
+    return {
+        "copies": found.copies,
+        "projections": {method: {"nh_s": _finite(nh_s)} for method, nh_s in found.nh_s.items()},
+        "retrieval": {name: named_scores(scores) for name, scores in found.retrieval.items()},
     }
 
 

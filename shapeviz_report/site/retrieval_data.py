@@ -13,8 +13,8 @@ def retrieval_summary(retrieval: Retrieval) -> dict[str, object]:
 
     def rated(rating: Rating) -> dict[str, object]:
         return {
-            **_named(retrieval.over_shapes(rating.scores)),
-            "class_mean": _named(rating.scores.mean(axis=0)),
+            **named_scores(retrieval.over_shapes(rating.scores)),
+            "class_mean": named_scores(rating.scores.mean(axis=0)),
             "precision": retrieval.over_shapes(rating.precision).tolist(),
         }
 
@@ -75,7 +75,8 @@ def _rated(retrieval: Retrieval) -> list[tuple[list[str], Rating]]:
     return [*rated, ([*nothing, "random order"], retrieval.chance)]
 
 
-def _named(values: FloatArray) -> dict[str, float]:
+def named_scores(values: FloatArray) -> dict[str, float]:
+    """The scores (6,) by the names of the measures."""
     return {measure.name: float(value) for measure, value in zip(MEASURES, values, strict=True)}
 
 

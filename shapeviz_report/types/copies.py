@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from shapeviz_report.types.arrays import IntArray
+from shapeviz_report.types.arrays import FloatArray, IntArray
 
 IDENTICAL_FILE = "identical file"
 IDENTICAL_GEOMETRY = "identical geometry"
@@ -67,6 +67,26 @@ class Copy:
     first: str
     second: str
     match: Match
+
+
+@dataclass(frozen=True)
+class WithoutCopies:
+    """Figures of a database in which the first of each group of copies stands for all of it.
+
+    Attributes
+    ----------
+    copies : int
+        Shapes that are left out; at least one.
+    nh_s : mapping of str to (float or None)
+        Of the same maps, by method, with neighbours among the shapes that are left.
+    retrieval : mapping of str to (6,) float64 array
+        :data:`shapeviz_report.retrieval.MEASURES` on average over shapes: by ``everything``, and by ``bins`` where some
+        were rated. Empty where no class has two shapes left.
+    """
+
+    copies: int
+    nh_s: Mapping[str, float | None]
+    retrieval: Mapping[str, FloatArray]
 
 
 def group_copies(copies: Sequence[Copy], ids: Sequence[str]) -> IntArray:

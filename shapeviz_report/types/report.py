@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from shapeviz_report.types.arrays import FloatArray
 from shapeviz_report.types.bins import BinScores, BinSearch, Painting
 from shapeviz_report.types.clusters import Clusters
-from shapeviz_report.types.copies import Copy
+from shapeviz_report.types.copies import Copy, WithoutCopies
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureTable
 from shapeviz_report.types.maps import Projection, Quality
@@ -63,6 +63,8 @@ class Report:
         What the owner says of the database.
     copies : tuple of Copy
         Pairs of shapes that are the same shape again, in the order of the shapes.
+    without_copies : WithoutCopies or None
+        None where there are no copies.
     """
 
     database: Database
@@ -88,3 +90,4 @@ class Report:
     clusters: Clusters | None = None
     publication: Publication = Publication()
     copies: tuple[Copy, ...] = ()
+    without_copies: WithoutCopies | None = None

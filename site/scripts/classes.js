@@ -122,7 +122,7 @@ export class ClassList {
   #quality() {
     const { model } = this;
     const method = model.methods[this.state.get("method")];
-    const { title, features, base, hitOfAll, chance, chanceSpread, neighbours } = method;
+    const { title, features, base, hitOfAll, withoutCopies, chance, chanceSpread, neighbours } = method;
     if (model.count === 1) {
       return [element("p", {}, "One shape: there is nothing to compare it with yet.")];
     }
@@ -151,6 +151,7 @@ export class ClassList {
         model.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
           : this.#best(method),
+        withoutCopies && ` It is ${figure(withoutCopies.hitOfAll)} without ${count(withoutCopies.copies, "copy", "copies")} of other shapes.`,
         base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone.", this.#chosen(features)],
       ),
     ];

@@ -1,0 +1,60 @@
+"""The figures of a database in which every shape counts once, however many copies of it there are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from shapeviz_report.quality import score
+from shapeviz_report.retrieval import query_classes, rate
+from shapeviz_report.types import FloatArray, IntArray, WithoutCopies, representatives
+
+
+def rate_without_copies(
+    groups: IntArray,
+    labels: Sequence[str | None],
+    maps: Mapping[str, FloatArray],
+    k: int,
+    rows: IntArray,
+    distances: Mapping[str, FloatArray],
+) -> WithoutCopies | None:
+    """Rate the same maps and the same distances among the first shape of each group of copies.
+
+    Parameters
+    ----------
+    groups : (n,) int array
+        As :func:`~shapeviz_report.types.group_copies` gives them.
+    labels : n labels
+        None for a shape without one.
+    maps : mapping of str to (n, 2) float64 array
+        By method.
+    k : int
+        Neighbours that the neighbourhood hit counts.
+    rows : (m,) int array
+        The shapes that retrieval took, as rising rows.
+    distances : mapping of str to (m, m) float array
+        Squared distances of these, by what is compared.
+
+    Returns
+    -------
+    WithoutCopies or None
+        None where no shape has a copy.
+    """
+    kept = representatives(groups)
+    if len(kept) == len(groups):
+        return None
+    own = [labels[row] for row in kept]
+    queried = representatives(groups[rows])
+    classes, codes = query_classes([labels[row] for row in rows[queried]])
+    retrieval = {}
+    if classes:
+        weights = np.bincount(codes[codes >= 0])
+        for name, squared in distances.items():
+            scores = rate(squared[np.ix_(queried, queried)], codes).scores
+            retrieval[name] = np.average(scores, axis=0, weights=weights)
+    return WithoutCopies(
+        copies=len(groups) - len(kept),
+        nh_s={method: score(xy[kept], own, k=k).nh_s for method, xy in maps.items()},
+        retrieval=retrieval,
+    )

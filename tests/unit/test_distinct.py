@@ -1,0 +1,85 @@
+"""Figures without copies are those of a database that never had them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from reports import make_report, with_copies, with_retrieval
+
+from shapeviz_report.distinct import rate_without_copies
+from shapeviz_report.pages.features import FeaturesPage
+from shapeviz_report.pages.overview import OverviewPage
+from shapeviz_report.quality import score
+from shapeviz_report.retrieval import MEASURES, query_classes, rate
+from shapeviz_report.site.data_files import summary
+from shapeviz_report.types import Report
+
+LABELS = ["ant", "bird", "ant", "bird", "ant", "bird"]
+POINTS = np.array([[0, 0], [1, 0], [2, 0.3], [3.1, 0], [4.5, 0], [6, 1]], float)
+
+
+def distances(points: np.ndarray) -> np.ndarray:
+    return ((points[:, None] - points[None]) ** 2).sum(axis=2)
+
+
+def test_planted_copies_change_the_figures_and_leave_none_behind() -> None:
+    copied = [0, 5, 0]
+    points, labels = np.concatenate([POINTS, POINTS[copied]]), LABELS + [LABELS[row] for row in copied]
+    groups = np.array([0, 1, 2, 3, 4, 5, 0, 5, 0])
+    found = rate_without_copies(
+        groups, labels, {"pca": points}, 2, np.arange(9), {"everything": distances(points)}
+    )
+    assert found is not None
+    assert found.copies == 3
+    assert found.nh_s["pca"] == score(POINTS, LABELS, k=2).nh_s != score(points, labels, k=2).nh_s
+    _, codes = query_classes(LABELS)
+    alone = rate(distances(POINTS), codes).scores.mean(axis=0)
+    np.testing.assert_allclose(found.retrieval["everything"], alone)
+
+
+def test_a_sample_is_freed_of_its_own_copies() -> None:
+    rows = np.array([1, 2, 3, 4, 5])
+    groups = np.array([0, 1, 0, 2, 3, 1])
+    found = rate_without_copies(groups, LABELS, {}, 2, rows, {"everything": distances(POINTS[rows])})
+    assert found is not None
+    kept = np.array([1, 2, 3, 4])
+    _, codes = query_classes([LABELS[row] for row in kept])
+    np.testing.assert_allclose(
+        found.retrieval["everything"], rate(distances(POINTS[kept]), codes).scores.mean(axis=0)
+    )
+
+
+def test_nothing_is_said_without_copies_and_none_of_retrieval_without_a_class_of_two() -> None:
+    squared = {"everything": distances(POINTS)}
+    assert rate_without_copies(np.arange(6), LABELS, {"pca": POINTS}, 2, np.arange(6), squared) is None
+    pairs = rate_without_copies(
+        np.array([0, 1, 0, 1, 0, 1]), LABELS, {"pca": POINTS}, 2, np.arange(6), squared
+    )
+    assert pairs is not None
+    assert pairs.retrieval == {}
+    assert pairs.nh_s["pca"] == 0
+
+
+@pytest.fixture
+def report() -> Report:
+    return with_copies(with_retrieval(make_report(["ant", "bird"], 8)), [(0, 1), (8, 9)])
+
+
+def test_the_data_and_the_pages_give_both_figures(report: Report) -> None:
+    data = summary(report, "1")["without_copies"]
+    assert report.without_copies is not None
+    assert data["copies"] == 2
+    assert data["projections"]["tsne"] == {"nh_s": report.without_copies.nh_s["tsne"]}
+    assert set(data["retrieval"]["everything"]) == {measure.name for measure in MEASURES}
+    methods = OverviewPage().content(report).chunks["overview"]["methods"]
+    assert methods[0]["withoutCopies"] == {"copies": 2, "hitOfAll": report.without_copies.nh_s["tsne"]}
+    said = FeaturesPage().content(report).context["retrieval"]["without_copies"]
+    assert said["copies"] == 2
+    assert said["nearest"] == report.without_copies.retrieval["everything"][0]
+
+
+def test_nothing_is_said_where_there_are_no_copies() -> None:
+    report = with_retrieval(make_report(["ant", "bird"], 8))
+    assert summary(report, "1")["without_copies"] is None
+    assert OverviewPage().content(report).chunks["overview"]["methods"][0]["withoutCopies"] is None
+    assert FeaturesPage().content(report).context["retrieval"]["without_copies"] is None
