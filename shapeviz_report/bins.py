@@ -14,9 +14,11 @@ from pathlib import Path
 
 import numpy as np
 
+from shapeviz_report.cells import read_cell
 from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import Preset, compared_values
+from shapeviz_report.files import read_regular
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 
 _DESCRIPTORS = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
@@ -46,7 +48,7 @@ def read_bins(path: Path, blocks: Sequence[FeatureBlock]) -> tuple[str, ...]:
     """
     columns = {column: place for place, column in enumerate(c for block in blocks for c in block.columns)}
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_regular(path).decode("utf-8-sig")
         names = _READERS.get(path.suffix.lower(), _read_text)(text)
     except (OSError, ValueError, csv.Error) as error:
         raise ConfigError(f"the file of bins {path} cannot be read: {error}") from error
@@ -69,7 +71,7 @@ def _read_csv(text: str) -> list[str]:
     rows = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     if "bin" not in (rows.fieldnames or ()):
         raise ValueError("it has no column named 'bin'")
-    return [row["bin"] or "" for row in rows if row.get("chosen", "1") == "1"]
+    return [read_cell(row["bin"] or "") for row in rows if row.get("chosen", "1") == "1"]
 
 
 def _read_json(text: str) -> list[str]:

@@ -19,6 +19,7 @@ from tqdm import tqdm
 from shapeviz_report import __version__
 from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
 from shapeviz_report.errors import ShapevizError
+from shapeviz_report.imports import import_numba
 from shapeviz_report.order import classes_of
 from shapeviz_report.types import Database, Failure, Report
 
@@ -66,6 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     handler.setFormatter(_LogFormatter("%(levelname)s: %(message)s"))
     logging.basicConfig(level=logging.WARNING, handlers=[handler])
     signal.signal(signal.SIGTERM, _terminate)
+    import_numba()
     try:
         return int(options.command(options))
     except ShapevizError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -13,6 +14,7 @@ import numpy.typing as npt
 from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
 from shapeviz_report.descriptors.kernels.histograms import add_up
 from shapeviz_report.errors import ConfigError
+from shapeviz_report.files import read_regular
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, Mesh
 
 BINS = 10
@@ -249,7 +251,7 @@ def load_external(path: Path, shape_count: int) -> FloatArray:
         The file is not a .npy array of that many rows of finite numbers.
     """
     try:
-        values = np.load(path, allow_pickle=False)
+        values = np.load(io.BytesIO(read_regular(path)), allow_pickle=False)
     except (OSError, ValueError) as error:
         raise ConfigError(f"the feature file {path} cannot be read: {error}") from error
     if not isinstance(values, np.ndarray) or values.ndim not in (1, 2) or values.dtype.kind not in "fiub":

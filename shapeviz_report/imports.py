@@ -26,6 +26,19 @@ def trusted_path() -> list[str]:
     return kept if own in kept else [*kept, own]
 
 
+def import_numba() -> None:
+    """Import numba without the ``.numba_config.yaml`` of the current folder, which it obeys when it is imported and
+    whenever it compiles, and which can name a folder of machine code to run.
+    """
+    here, own = os.getcwd(), os.path.dirname(os.path.abspath(__file__))
+    os.chdir(own)
+    try:
+        from numba.core import config
+    finally:
+        os.chdir(here)
+    config._config_fname = os.path.join(own, config._config_fname)
+
+
 def is_program() -> bool:
     """Whether this process is the command, and not somebody's script that uses the package."""
     if sys.argv[:1] == ["-m"]:

@@ -20,6 +20,7 @@ import numpy as np
 from shapeviz_report import __version__, stages
 from shapeviz_report.bins import read_bins
 from shapeviz_report.cache import Cache
+from shapeviz_report.cells import read_cell
 from shapeviz_report.errors import ConfigError, MeshError, SiteError
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import BLOCKS, PRESETS, Preset
@@ -214,7 +215,8 @@ def _open_site(folder: Path) -> _Site:
         )
     try:
         with (data / "shapes.csv").open(encoding="utf-8", newline="") as file:
-            shapes = list(csv.DictReader(file, strict=True))
+            header, *rows = ([read_cell(cell) for cell in row] for row in csv.reader(file, strict=True))
+        shapes = [dict(zip(header, row, strict=True)) for row in rows]
         with np.load(data / "features.npz", allow_pickle=False) as archive:
             values, edges = archive["values"], archive["edges"]
             columns, ids = archive["columns"].tolist(), tuple(archive["shape_ids"].tolist())

@@ -28,6 +28,7 @@ from shapeviz_report.database.folder import MeshFile, scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, suffix_of
 from shapeviz_report.database.text import clean, decode
 from shapeviz_report.errors import DatabaseError
+from shapeviz_report.files import read_regular
 from shapeviz_report.order import natural
 from shapeviz_report.types import Database, Failure, ShapeEntry
 
@@ -193,7 +194,7 @@ def _split_of(file: Path) -> tuple[str, str]:
 def _read_cla(file: Path, warnings: list[str]) -> tuple[Category, ...]:
     """Parse one file. Raises ``DatabaseError`` with the line where it is wrong."""
     try:
-        text, _ = decode(file.read_bytes())
+        text, _ = decode(read_regular(file))
     except OSError as error:
         raise DatabaseError(f"The classification {file} cannot be read: {error.strerror}.") from error
     tokens = [(token, line) for line, content in enumerate(text.splitlines(), 1) for token in content.split()]

@@ -20,6 +20,7 @@ from shapeviz_report.database.folder import scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, is_read, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
 from shapeviz_report.errors import DatabaseError
+from shapeviz_report.files import read_regular
 from shapeviz_report.types import Database, Failure, ShapeEntry
 
 FILE_COLUMN = "file"
@@ -260,7 +261,7 @@ def _candidates(folder: Path) -> list[Path]:
 
 def _read_text(table: Path) -> tuple[str, bool]:
     try:
-        return decode(table.read_bytes())
+        return decode(read_regular(table))
     except OSError as error:
         raise DatabaseError(f"The table {table} cannot be read: {error.strerror}.") from error
 

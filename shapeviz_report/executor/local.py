@@ -168,6 +168,8 @@ class _Worker:
                     [sys.executable, "-P", "-m", "shapeviz_report.executor.worker", str(theirs.fileno())],
                     pass_fds=[theirs.fileno()],
                     env=environment,
+                    # numba obeys a file of the current folder, and no task needs one of it
+                    cwd=os.path.dirname(os.path.abspath(__file__)),
                     stdin=subprocess.PIPE,
                     stdout=subprocess.DEVNULL,
                 )

@@ -8,6 +8,7 @@ from urllib.parse import urlsplit
 
 from shapeviz_report.config import Config
 from shapeviz_report.errors import ConfigError
+from shapeviz_report.files import read_regular
 from shapeviz_report.publication.accent import fit_accent
 from shapeviz_report.publication.licence import LICENCE_COLUMNS, find_licence
 from shapeviz_report.publication.logo import read_logo
@@ -70,7 +71,7 @@ def _one_line(text: str | None) -> str | None:
 
 def _read_introduction(path: Path) -> str:
     try:
-        content = path.read_bytes()
+        content = read_regular(path)
     except OSError as error:
         raise ConfigError(f"the introduction {path} cannot be read: {error.strerror}") from error
     if len(content) > MOST_INTRODUCTION:

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
+from shapeviz_report.cells import write_cell
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.quality import hit_range, share_of_range
 from shapeviz_report.search.certainty import measure_gain
@@ -504,7 +505,7 @@ def _relative_file(report: Report, path: Path) -> str:
 
 def _csv(rows: list[list[str]]) -> bytes:
     text = io.StringIO(newline="")
-    csv.writer(text, lineterminator="\n").writerows(rows)
+    csv.writer(text, lineterminator="\n").writerows([write_cell(text) for text in row] for row in rows)
     # A file name that is no valid text holds lone surrogates, which have no place in UTF-8.
     return text.getvalue().encode("utf-8", "backslashreplace")
 

@@ -29,8 +29,13 @@ export function csvText(rows) {
   return `${rows.map((row) => row.map(quoted).join(",")).join("\n")}\n`;
 }
 
+const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+const FORMULA = /^'*[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]/;
+
+/** A cell; text that a spreadsheet program would take for a formula has an apostrophe before it, as cells.py writes it. */
 function quoted(value) {
-  const text = String(value);
+  const plain = String(value);
+  const text = typeof value === "string" && FORMULA.test(plain) && !NUMBER.test(plain) ? `'${plain}` : plain;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 

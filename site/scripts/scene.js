@@ -94,7 +94,7 @@ export class Scene {
     this.target = target;
     const from = this.bounds;
     const to = this.model.bounds[target];
-    const camera = this.state.get(this.cameraName);
+    const camera = this.state.get(this.cameraName) && this.camera();
     this.#voyage?.abort();
     this.#voyage = new AbortController();
     animate(DURATION, this.#voyage.signal, (linear) => {
@@ -141,19 +141,22 @@ export class Scene {
   }
 
   camera() {
-    return this.state.get(this.cameraName) ?? { x: this.bounds.x, y: this.bounds.y, zoom: 1 };
+    const camera = this.state.get(this.cameraName);
+    return camera === null ? { x: this.bounds.x, y: this.bounds.y, zoom: 1 } : this.#bounded(camera);
   }
 
   /** Look at another part of the plane; kept so that some of the map always stays in view. */
   look(camera) {
+    const bounded = this.#bounded(camera);
+    this.state.set({ [this.cameraName]: bounded.zoom <= 1.001 ? null : bounded });
+  }
+
+  /** The address may hold any numbers. */
+  #bounded(camera) {
     const zoom = Math.min(Math.max(camera.zoom, 1), LARGEST_ZOOM);
-    if (zoom <= 1.001) {
-      this.state.set({ [this.cameraName]: null });
-      return;
-    }
     const within = (value, centre, size) => Math.min(Math.max(value, centre - size / 2), centre + size / 2);
     const { x, y, width, height } = this.bounds;
-    this.state.set({ [this.cameraName]: { x: within(camera.x, x, width), y: within(camera.y, y, height), zoom } });
+    return { x: within(camera.x, x, width), y: within(camera.y, y, height), zoom };
   }
 }
 

@@ -54,3 +54,18 @@ def test_no_module_of_the_current_folder_runs(tmp_path, way) -> None:
     ran = tmp_path / "it-ran"
     assert not ran.exists(), ran.read_text()
     assert done.returncode == 0, done.stderr
+
+
+def test_numba_is_not_configured_by_the_current_folder(tmp_path) -> None:
+    (tmp_path / ".numba_config.yaml").write_text(f"cache_dir: {tmp_path / 'stolen'}\n")
+    trimesh.creation.box().export(tmp_path / "0.off")
+    program = (
+        "from shapeviz_report.cli import main\nmain(['check', '.', '--list'])\n"
+        "from shapeviz_report.executor import LocalExecutor\n"
+        "read = \"(__import__('numba'), __import__('numba.core.config').core.config.reload_config(), "
+        "__import__('numba.core.config').core.config.CACHE_DIR)[-1]\"\n"
+        "with LocalExecutor(1, 60, 2**32) as workers:\n"
+        "    print([eval(read), *(o.value or o.reason for o in workers.run(eval, [(read,)]))])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True)
+    assert done.stdout == "0\n['', None]\n", done.stderr
