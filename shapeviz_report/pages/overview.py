@@ -15,7 +15,7 @@ from shapeviz_report.pages.base import (
     clusters_chunk,
     rounded,
 )
-from shapeviz_report.types import Projection, Quality, Report, WithoutCopies
+from shapeviz_report.types import Projection, Quality, Report, WithoutCopies, copies_of
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
@@ -149,6 +149,7 @@ def _marks(class_count: int) -> dict[str, object]:
 
 def _details(report: Report) -> dict[str, object]:
     """What is known of every shape beyond its place: loaded when a reader opens one, or searches."""
+    row = {shape.id: index for index, shape in enumerate(report.shapes)}
     return {
         "labelings": list(report.database.labelings),
         "shapes": [
@@ -156,6 +157,7 @@ def _details(report: Report) -> dict[str, object]:
                 "labels": [shape.labels.get(labeling) for labeling in report.database.labelings],
                 # Pairs, because a column may have any name, "__proto__" included.
                 "metadata": [[key, value] for key, value in shape.metadata.items()],
+                "copies": [[row[other], match.words] for other, match in copies_of(report.copies, shape.id)],
                 "repairs": [[repair, count] for repair, count in facts.repairs.items()],
                 "faces": facts.faces,
                 "vertices": facts.vertices,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import coo_matrix
@@ -67,6 +67,17 @@ class Copy:
     first: str
     second: str
     match: Match
+
+
+def copies_of(copies: Sequence[Copy], shape: str) -> list[tuple[str, Match]]:
+    """The other shape of each pair that a shape, by id, is in, and how that one lies on it."""
+    found = []
+    for copy in copies:
+        if shape == copy.first:
+            found.append((copy.second, copy.match))
+        elif shape == copy.second:
+            found.append((copy.first, replace(copy.match, scale=1 / copy.match.scale)))
+    return found
 
 
 @dataclass(frozen=True)

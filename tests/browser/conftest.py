@@ -20,6 +20,7 @@ from reports import (
     with_bins,
     with_clusters,
     with_columns,
+    with_copies,
     with_external,
     with_models,
     with_paintings,
@@ -110,6 +111,7 @@ SITES = {
             "inventory": [f"K-{row:04}" for row in range(144)],
         },
     ),
+    "copied": lambda: with_copies(make_report(["ant", "bird"], 8), [(0, 3), (8, 9)]),
     "large": lambda: make_report([f"class {number}" for number in range(8)], 250, methods=("tsne", "pca")),
 }
 

@@ -100,6 +100,16 @@ class TestFirstLook:
         assert 0 < box["y"] < 900
 
 
+class TestCopies:
+    def test_the_filter_of_copies_leaves_them(self, open_page):
+        page = open_page("copied", "shapes.html")
+        value(page, "Copies", "has copies").locator("input").check()
+        assert shown(page) == 4
+        addressed(page, "is.copies=has+copies")
+        assert names(open_page("copied", "shapes.html#is.copies=has+copies")) == names(page)
+        assert set(names(page)) == {"ant 0", "ant 3", "bird 0", "bird 1"}
+
+
 class TestManyShapes:
     def test_only_what_is_in_sight_is_in_the_page(self, open_page):
         page = open_page("large", "shapes.html")

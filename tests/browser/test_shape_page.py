@@ -408,6 +408,16 @@ def test_a_shape_is_selected_and_stays_so(shape):
     assert address(page)["select"] == ["class000/0001", "class001/0003"]
 
 
+def test_copies_are_told_with_what_says_so_and_lead_to_each_other(shape, reports):
+    page = shape("copied", "#id=class000/0003")
+    told = page.locator("#facts section", has=page.locator("h2", has_text="The same shape as"))
+    assert told.locator("dt").all_inner_texts() == ["ant 0"]
+    assert told.locator("dd").all_inner_texts() == [reports("copied").copies[0].match.words]
+    told.locator("a").click()
+    eventually(page, lambda: title(page) == "ant 0")
+    eventually(page, lambda: told.locator("dt").all_inner_texts() == ["ant 3"])
+
+
 def test_everything_stands_in_tables(shape):
     page = shape()
     page.click("#open-tables")

@@ -12,7 +12,7 @@ from shapeviz_report import demo
 from shapeviz_report.copies import Outline, compare, join_copies, outline, pair_outlines
 from shapeviz_report.mesh import clean, parse_mesh
 from shapeviz_report.search.certainty import deal_folds
-from shapeviz_report.types import Copy, Match, Mesh, group_copies, representatives
+from shapeviz_report.types import Copy, Match, Mesh, copies_of, group_copies, representatives
 
 TURN = Rotation.from_rotvec([0.3, -1.1, 0.7]).as_matrix()
 
@@ -115,6 +115,17 @@ def test_groups_follow_chains_of_copies() -> None:
     assert groups.tolist() == [0, 1, 1, 2, 1]
     assert representatives(groups).tolist() == [0, 1, 3]
     assert group_copies([Copy("a", "gone", Match("identical file"))], ids).tolist() == [0, 1, 2, 3, 4]
+
+
+def test_each_of_a_pair_names_the_other_as_it_lies_on_it() -> None:
+    found = [Copy("a", "b", Match("identical geometry", scale=4.0, mirrored=True))]
+    assert [(other, match.words) for other, match in copies_of(found, "a")] == [
+        ("b", "identical geometry, mirrored, scaled by 4")
+    ]
+    assert [(other, match.words) for other, match in copies_of(found, "b")] == [
+        ("a", "identical geometry, mirrored, scaled by 0.25")
+    ]
+    assert copies_of(found, "c") == []
 
 
 def test_no_fold_parts_copies() -> None:

@@ -41,7 +41,7 @@ async function main() {
     goToShape(model, state, shape);
   };
   const portrait = new Portrait(model, state, { models: page.dataset.models !== undefined });
-  const facts = new Facts(model, state);
+  const facts = new Facts(model, state, { links });
   const views = [
     new Heading(model, state, { links, go, site: page.dataset.site }),
     portrait,

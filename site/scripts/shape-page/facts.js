@@ -10,8 +10,8 @@ const RIGHTS = ["license", "licence", "rights", "author", "creator", "attributio
 const DIGITS = 4;
 
 export class Facts {
-  constructor(model, state) {
-    Object.assign(this, { model, state });
+  constructor(model, state, { links }) {
+    Object.assign(this, { model, state, links });
     this.node = document.getElementById("facts");
     this.groups = [];
     state.listen((changed) => {
@@ -25,11 +25,22 @@ export class Facts {
     const [{ labelings, shapes }, clusters] = await Promise.all([chunk("details"), chunk("clusters")]);
     if (this.state.get("shape") !== shape) return;
     this.groups = factGroups(this.model, shape, labelings, shapes[shape], clusters);
-    this.node.replaceChildren(...this.groups.map(({ title, rows, note }) => section(title, rows, note)));
+    this.node.replaceChildren(...this.groups.map((group) => this.#section(group)));
+  }
+
+  #section({ title, rows, note, shapes }) {
+    const named = (name, place) => (shapes ? this.links.link(shapes[place], { title: this.model.ids[shapes[place]] }, name) : name);
+    return element(
+      "section",
+      {},
+      element("h2", {}, title),
+      element("dl", {}, rows.map(([name, value], place) => [element("dt", { dir: "auto" }, named(name, place)), element("dd", { dir: "auto" }, linked(value))])),
+      note && element("p", { class: "key" }, note),
+    );
   }
 }
 
-/** All facts of a shape: `{ title, rows: [[name, value]], note }` a group, whose it is first. */
+/** All facts of a shape: `{ title, rows: [[name, value]], note, shapes }` a group, whose it is first; where rows are of other shapes, `shapes` says which. */
 function factGroups(model, shape, labelings, known, clusters) {
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
@@ -40,6 +51,7 @@ function factGroups(model, shape, labelings, known, clusters) {
   const [wide, high, deep] = known.extents.map(measured);
   return [
     { title: "Licence and source", rows: rights },
+    { title: "The same shape as", rows: known.copies.map(([other, evidence]) => [model.names[other], evidence]), shapes: known.copies.map(([other]) => other) },
     { title: labels.length > 1 ? "Labels" : "", rows: labels.length > 1 ? labels : [] },
     { title: "From the database", rows: others },
     {
@@ -64,16 +76,6 @@ function factGroups(model, shape, labelings, known, clusters) {
     },
     { title: "Repairs", rows: known.repairs.map(([repair, number]) => [repair, grouped(number)]) },
   ].filter(({ rows }) => rows.length > 0);
-}
-
-function section(title, rows, note) {
-  return element(
-    "section",
-    {},
-    element("h2", {}, title),
-    element("dl", {}, rows.map(([name, value]) => [element("dt", { dir: "auto" }, name), element("dd", { dir: "auto" }, linked(value))])),
-    note && element("p", { class: "key" }, note),
-  );
 }
 
 /** A value that is a web address, whole, as a link to it. */
