@@ -5,15 +5,19 @@ from __future__ import annotations
 import csv
 import io
 import os
+from dataclasses import replace
 
 import pytest
+from reports import make_report
 
+from shapeviz_report import __version__
 from shapeviz_report.bins import read_bins
 from shapeviz_report.cells import read_cell, write_cell
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError
 from shapeviz_report.features import load_external
-from shapeviz_report.site.data_files import _csv
+from shapeviz_report.querying import _open_site
+from shapeviz_report.site.data_files import _csv, data_files
 from shapeviz_report.types import FeatureBlock
 
 FORMULAS = [
@@ -59,3 +63,17 @@ def test_a_pipe_is_refused_wherever_a_file_is_read(tmp_path) -> None:
     for name in ("table.csv", "all.cla"):
         with pytest.raises(DatabaseError):
             read_database(tmp_path / name)
+
+
+def test_a_query_reads_names_as_they_were(tmp_path, monkeypatch) -> None:
+    report = make_report(["=kind", "+other"], 3)
+    ids = tuple(f"={shape.id}" for shape in report.shapes)
+    shapes = tuple(replace(shape, id=name) for shape, name in zip(report.shapes, ids, strict=True))
+    report = replace(report, shapes=shapes, features=replace(report.features, shape_ids=ids))
+    (tmp_path / "data").mkdir()
+    for name, content in data_files(report, __version__).items():
+        (tmp_path / "data" / name).write_bytes(content)
+    monkeypatch.setattr("shapeviz_report.querying.BLOCKS", report.features.blocks)
+    site = _open_site(tmp_path)
+    assert [shape["id"] for shape in site.shapes] == list(ids)
+    assert {shape["class"] for shape in site.shapes} == {"=kind", "+other"}

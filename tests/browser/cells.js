@@ -1,0 +1,5 @@
+// What a page saves as CSV, on `window.csvText`.
+
+import { csvText } from "../../site/scripts/export.js";
+
+window.csvText = csvText;
