@@ -68,10 +68,11 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
         rows = [["id", "x", "y"], *([shape.id, _number(x), _number(y)] for shape, (x, y) in points)]
         files[f"projection-{method}.csv"] = _csv(rows)
     if report.search is not None:
-        files["subsets.csv"] = _csv(_subset_rows(report.search))
+        limits = hit_range([report.labels[row] for row in report.search.rows], report.search.k)
+        files["subsets.csv"] = _csv(_subset_rows(report.search, limits))
         if report.search.table:
-            files["greedy.csv"] = _csv(_greedy_rows(report.search))
-            files["table2.csv"] = _csv(_table_rows(report.search))
+            files["greedy.csv"] = _csv(_greedy_rows(report.search, limits))
+            files["table2.csv"] = _csv(_table_rows(report.search, limits))
     if report.scores is not None:
         files["scores.npz"] = _archive(
             scores=report.scores.values,
@@ -292,6 +293,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
     labelings = report.database.labelings
     columns = list(dict.fromkeys(column for shape in report.shapes for column in shape.metadata))
     methods = list(report.projections)
+    highest = next(quality.range for _, quality in report.projections.values()).highest_of_class
     rows = [
         [
             "id",
@@ -302,6 +304,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
             *(f"label:{labeling}" for labeling in labelings),
             *(f"metadata:{column}" for column in columns),
             *(f"nh:{method}" for method in methods),
+            "nh_max",
             *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
             *("area", "volume", "extent_x", "extent_y", "extent_z"),
             *("repairs", "sha256"),
@@ -324,6 +327,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
                 *(shape.labels.get(labeling, "") for labeling in labelings),
                 *(shape.metadata.get(column, "") for column in columns),
                 *(_number(report.projections[method][1].nh[index]) for method in methods),
+                _number(highest.get(label)),
                 *map(
                     str,
                     (facts.faces_read, facts.vertices_read, facts.faces, facts.vertices, facts.components),
@@ -400,7 +404,12 @@ def _bins(report: Report, found: BinSearch) -> dict[str, object]:
         },
         "minimal_by_chance": {
             str(size): [
-                {"bins": list(chosen.bins), "nh_c": chosen.nh_c, "nh_c_space": chosen.nh_c_space}
+                {
+                    "bins": list(chosen.bins),
+                    "nh_c": chosen.nh_c,
+                    "nh_c_space": chosen.nh_c_space,
+                    "nh_max": limits.highest_of_class[random.label],
+                }
                 for chosen in random.sets
             ]
             for size, random in found.minimal_by_chance.items()
@@ -442,12 +451,14 @@ def _members(search: FeatureSearch, row: int) -> list[str]:
     return [name for name, has in zip(search.features, search.subsets.members[row], strict=True) if has]
 
 
-def _subset_rows(search: FeatureSearch) -> list[list[str]]:
+def _subset_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
     subsets = search.subsets
     header = [
         *(f"feature:{name}" for name in search.features),
         "nh_s",
         *(f"nh_c:{name}" for name in search.classes),
+        "nh_max",
+        *(f"nh_c_max:{name}" for name in search.classes),
     ]
     return [
         header,
@@ -456,21 +467,24 @@ def _subset_rows(search: FeatureSearch) -> list[list[str]]:
                 *("1" if has else "0" for has in subsets.members[row]),
                 _number(subsets.nh_s[row]),
                 *map(_number, subsets.nh_c[row]),
+                _number(limits.highest),
+                *(_number(limits.highest_of_class.get(name)) for name in search.classes),
             ]
             for row in _by_score(search)
         ),
     ]
 
 
-def _greedy_rows(search: FeatureSearch) -> list[list[str]]:
+def _greedy_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
     return [
-        ["s", "step", *(f"feature:{name}" for name in search.features), "nh_s"],
+        ["s", "step", *(f"feature:{name}" for name in search.features), "nh_s", "nh_max"],
         *(
             [
                 str(run.s),
                 str(number),
                 *("1" if name in step.features else "0" for name in search.features),
                 _number(step.nh_s),
+                _number(limits.highest),
             ]
             for run in search.greedy
             for number, step in enumerate(run.path, start=1)
@@ -478,9 +492,9 @@ def _greedy_rows(search: FeatureSearch) -> list[list[str]]:
     ]
 
 
-def _table_rows(search: FeatureSearch) -> list[list[str]]:
+def _table_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
     return [
-        ["round", "method", "s", "nh_s", "runs", *(f"feature:{name}" for name in search.features)],
+        ["round", "method", "s", "nh_s", "runs", "nh_max", *(f"feature:{name}" for name in search.features)],
         *(
             [
                 str(row.round),
@@ -488,6 +502,7 @@ def _table_rows(search: FeatureSearch) -> list[list[str]]:
                 "" if row.s is None else str(row.s),
                 _number(row.nh_s),
                 str(row.runs),
+                _number(limits.highest),
                 *("1" if name in row.features else "0" for name in search.features),
             ]
             for row in search.table
@@ -510,9 +525,9 @@ def _csv(rows: list[list[str]]) -> bytes:
     return text.getvalue().encode("utf-8", "backslashreplace")
 
 
-def _number(value: float) -> str:
-    """The shortest text that reads back as the same number; empty for NaN."""
-    return "" if math.isnan(value) else repr(float(value) + 0.0)
+def _number(value: float | None) -> str:
+    """The shortest text that reads back as the same number; empty for NaN and for none."""
+    return "" if value is None or math.isnan(value) else repr(float(value) + 0.0)
 
 
 def _finite(value: float | None) -> float | None:

@@ -14,6 +14,7 @@ from shapeviz_report.retrieval import (
     MEASURES,
     PAGE,
     RECALL_LEVELS,
+    highest_e_measures,
     query_classes,
     rate,
     rate_chance,
@@ -175,3 +176,10 @@ def test_a_subset_is_rated_by_the_sum_of_its_features() -> None:
     ratings = rate_subsets(both, codes, [1, 2, 3])
     for rating, distances in zip(ratings, (both[0], both[1], both[0].astype(float) + both[1])):
         assert np.array_equal(rating.scores, rate(distances, codes).scores)
+
+
+@pytest.mark.parametrize(("relevant", "others"), [(1, 1), (7, 111), (19, 279), (32, 200), (50, 200), (5, 20)])
+def test_the_highest_e_measure_is_that_of_a_perfect_order(relevant, others) -> None:
+    perfect = [True] * relevant + [False] * (others - relevant)
+    expected = measures_of(perfect)[NAMES.index("e_measure")]
+    assert highest_e_measures(np.array([relevant + 1]), others) == pytest.approx([expected])

@@ -1,5 +1,6 @@
 // What the page shows, as tables.
 
+import { highestOf } from "../hit-range.js";
 import { table } from "../tables.js";
 import { figure } from "../words.js";
 import { mean, toldAs } from "./distribution.js";
@@ -39,8 +40,8 @@ function ofGroups(view) {
 function ofOutliers(model, data, outliers) {
   const ranked = outliers.list === null ? [] : outliers.ranked().slice(0, MOST_SHAPES);
   return [
-    table("Shapes by how well they fit their class", ["Shape", "Class", "Fit", "Closest other class", ...model.methods.map(({ title }) => `NH on ${title}`)], ranked.map((index) => [
-      model.names[index], model.className(model.groups[index]), signed(data.fit[index]), model.className(data.rival[index]), ...model.methods.map(({ hit }) => figure(hit[index])),
+    table("Shapes by how well they fit their class", ["Shape", "Class", "Fit", "Closest other class", ...model.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"])], ranked.map((index) => [
+      model.names[index], model.className(model.groups[index]), signed(data.fit[index]), model.className(data.rival[index]), ...model.methods.flatMap((method) => [figure(method.hit[index]), figure(highestOf(model, method, index))]),
     ])),
   ];
 }

@@ -1,6 +1,7 @@
 // Shapes that fit their class least: where they would rather belong, and what sets them apart.
 
 import { element, picture, swatch } from "../dom.js";
+import { highestOf, ofAtMost } from "../hit-range.js";
 import { pageAddress } from "../place.js";
 import { count, figure } from "../words.js";
 import { compareAddress } from "./address.js";
@@ -97,7 +98,7 @@ export class Outliers {
         { class: "whereabouts" },
         element("p", { class: "name" }, element("a", { href: pageAddress("shape.html", { id: model.ids[index] }) }, element("bdi", {}, model.names[index])), " ", name(model, own)),
         element("p", {}, fit < 0 ? ["Closer to ", name(model, rival), " than to its own class."] : ["Of its own class, but next to ", name(model, rival), "."]),
-        element("p", { class: "quiet" }, "Fit ", element("b", { class: "figure" }, signed(fit)), model.methods.map(({ title, hit }) => hit[index] !== null && [", NH on ", title, " ", figure(hit[index])])),
+        element("p", { class: "quiet" }, "Fit ", element("b", { class: "figure" }, signed(fit)), model.methods.map((method) => method.hit[index] !== null && [", NH on ", method.title, " ", figure(method.hit[index]), ofAtMost(highestOf(model, method, index))])),
         element("p", { class: "quiet" }, this.#census(near)),
         element("div", { class: "near" }, near.slice(0, NEAREST).map((other) => element("a", { href: pageAddress("shape.html", { id: model.ids[other] }), title: `${model.names[other]}, ${model.className(model.groups[other])}`, "aria-label": `${model.names[other]}, ${model.className(model.groups[other])}` }, picture(model, other, 56), element("i", {}, swatch(model.symbol(model.groups[other]), model.color(model.groups[other])))))),
         element("p", { class: "ways" }, element("a", { href: compareAddress(model, { kind: "shapes", shapes: new Set([index]) }, { kind: "class", group: own }) }, "Compare with its class"), " ", element("a", { href: compareAddress(model, { kind: "class", group: own }, { kind: "class", group: rival }) }, "Compare the two classes")),

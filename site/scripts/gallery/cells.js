@@ -1,6 +1,7 @@
 // One shape of the gallery, and the head of a group.
 
 import { element, swatch } from "../dom.js";
+import { ofAtMost } from "../hit-range.js";
 import { pageAddress } from "../place.js";
 import { count } from "../words.js";
 import { numberText, valueName } from "./fields.js";
@@ -43,8 +44,8 @@ export class Cells {
   }
 
   #number(row) {
-    const { numbers, hit } = this.sorted;
-    return `${hit ? "NH" : this.sorted.title} ${numberText(numbers[row], this.sorted)}`;
+    const { numbers, hit, highest } = this.sorted;
+    return `${hit ? "NH" : this.sorted.title} ${numberText(numbers[row], this.sorted)}${hit ? ofAtMost(highest(row)) : ""}`;
   }
 
   /** The head of a group; a click on it folds the group. */

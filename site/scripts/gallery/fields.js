@@ -1,5 +1,7 @@
 // What shapes can be grouped, filtered and sorted by: the database's own fields, and the neighbourhood hit on each map.
 
+import { highestOf } from "../hit-range.js";
+
 const HIT_EDGES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
 
 /** What stands for "no value" among the numbers of values. */
@@ -47,7 +49,15 @@ const NOTHING = { unit: "", active: false, names: null, of: null, notes: null, n
 
 function hits(model) {
   if (!model.separable) return [];
-  return model.methods.map(({ key, title, hit }) => ({ ...NOTHING, key: `nh:${key}`, title: `NH on the ${title} map`, numbers: hit, edges: HIT_EDGES, hit: true }));
+  return model.methods.map((method) => ({
+    ...NOTHING,
+    key: `nh:${method.key}`,
+    title: `NH on the ${method.title} map`,
+    numbers: method.hit,
+    edges: HIT_EDGES,
+    hit: true,
+    highest: (row) => highestOf(model, method, row),
+  }));
 }
 
 /** The names from the top of a tree down to each of its nodes. */

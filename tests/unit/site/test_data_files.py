@@ -206,7 +206,7 @@ class TestSearch:
         search = json.loads(files["summary.json"])["search"]
         assert search["greedy"] is None
         assert [subset["nh_s"] for subset in search["exhaustive"]["subsets"]] == [None] * 3
-        assert files["subsets.csv"].decode().splitlines()[0] == "feature:Gc,feature:Sc,nh_s"
+        assert files["subsets.csv"].decode().splitlines()[0] == "feature:Gc,feature:Sc,nh_s,nh_max"
 
     def test_a_search_that_could_not_be_exhaustive_says_so(self):
         report = with_search(make_report(["a", "b"], 4, features=[f"f{number}" for number in range(11)]))
@@ -219,3 +219,34 @@ class TestSearch:
 def test_json_refuses_what_is_not_json():
     with pytest.raises(ValueError, match="not JSON compliant"):
         json_text({"value": float("nan")})
+
+
+def keys_beside(value: object, name: str) -> list[dict[str, object]]:
+    """Every mapping that has a key, at any depth."""
+    if isinstance(value, list):
+        return [found for item in value for found in keys_beside(item, name)]
+    if not isinstance(value, dict):
+        return []
+    own = [value] if name in value else []
+    return own + [found for item in value.values() for found in keys_beside(item, name)]
+
+
+def test_the_maximum_stands_beside_every_hit() -> None:
+    """Six of a class have at most five of ten neighbours in it."""
+    report = with_bin_search(with_search(make_report(("ant", "bird", "cup"), 6)))
+    content = json.loads(data_files(report, "1.2.3")["summary.json"])
+    for name in ("nh_s", "nh_c"):
+        places = keys_beside(content, name)
+        assert len(places) > 10
+        assert all(place["nh_max"] == pytest.approx(0.5) for place in places)
+    of_classes = [place for place in keys_beside(content, "nh_c") if isinstance(place["nh_c"], dict)]
+    assert all(place["nh_c_max"] == {"ant": 0.5, "bird": 0.5, "cup": 0.5} for place in of_classes)
+    tsne = content["projections"]["tsne"]
+    chance = tsne["null"]["mean"]
+    assert tsne["nh_share"] == pytest.approx((tsne["nh_s"] - chance) / (0.5 - chance))
+    by_chance = content["bins"]["minimal_by_chance"]
+    assert list(by_chance) == ["6"]
+    assert [len(found["bins"]) for found in by_chance["6"]] == [1, 2]
+    gain = content["bins"]["automatic"]["held_out"]["gain"]
+    assert gain["deals"] == 1
+    assert gain["spread"] >= 0
