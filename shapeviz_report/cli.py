@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import io
 import logging
 import signal
 import sys
@@ -62,14 +63,24 @@ STAGES = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
-    options = _parser().parse_args(arguments)
-    handler = logging.StreamHandler()
-    handler.setFormatter(_LogFormatter("%(levelname)s: %(message)s"))
-    logging.basicConfig(level=logging.WARNING, handlers=[handler])
-    signal.signal(signal.SIGTERM, _terminate)
-    import_numba()
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` has it
+            signal.signal(number, _terminate)
+    for stream in (sys.stdout, sys.stderr):
+        # names of a database may have letters that a terminal has not
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
     try:
-        return int(options.command(options))
+        options = _parser().parse_args(arguments)
+        handler = logging.StreamHandler()
+        handler.setFormatter(_LogFormatter("%(levelname)s: %(message)s"))
+        logging.basicConfig(level=logging.WARNING, handlers=[handler])
+        import_numba()
+        code = int(options.command(options))
+        if sys.stdout is not None:
+            # here, and not when Python ends, where nobody could say what went wrong
+            sys.stdout.flush()
+        return code
     except ShapevizError as error:
         first, *rest = error.lines
         _say(f"shapeviz-report: {first}", *rest, file=sys.stderr)

@@ -203,7 +203,7 @@ def load_config(database: Path | None, options: Mapping[str, Any], file: Path | 
     """
     values: dict[str, Any] = {}
     if database is not None:
-        folder = database if database.is_dir() else database.parent
+        folder = database if os.path.isdir(database) else database.parent
         values |= _database_options(folder / FILE_NAME)
     if file is not None:
         for key, value in _read_file(file).items():

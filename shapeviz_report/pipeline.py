@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import platform
 import time
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
@@ -25,7 +26,7 @@ from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.copies import Outline, join_copies, pair_outlines
 from shapeviz_report.database import read_database
 from shapeviz_report.distinct import rate_without_copies
-from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
+from shapeviz_report.errors import CacheError, ConfigError, DatabaseError, MeshError, SiteError
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import (
     BINS,
@@ -39,6 +40,7 @@ from shapeviz_report.features import (
 )
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.order import classes_of
+from shapeviz_report.places import holds, tried
 from shapeviz_report.projections import PROJECTIONS, align, squared_distances
 from shapeviz_report.publication import licence_warning, read_publication
 from shapeviz_report.quality import score
@@ -195,16 +197,18 @@ def build_report(
     ShapevizError
         Nothing could be built; an existing site is left as it is.
     """
-    check_destination(destination, single_file=config.single_file)
+    root = (config.cache or default_root()).absolute()
+    _check_places(destination, config, root, database_path)
     check_renderer()
     clock = Clock(progress or QuietProgress())
     with clock.stage("read"):
         publication = read_publication(config)
         database = _read_database(database_path, config, publication)
+        _check_meshes(destination, database)
         external = _load_external(config.external, len(database.shapes))
         blocks = (*BLOCKS, *(block for block, _ in external))
         bins = None if config.bins is None else read_bins(config.bins, blocks)
-    cache = Cache((config.cache or default_root()).absolute())
+    cache = Cache(root)
     failures = list(database.failures)
     preset = PRESETS[config.preset]
 
@@ -349,7 +353,7 @@ def build_report(
 
 def build_demo(destination: Path, config: Config, progress: Progress | None = None) -> Report:
     """Generate the demo database below the cache and build its site; see :func:`build_report`."""
-    check_destination(destination, single_file=config.single_file)
+    _check_places(destination, config, (config.cache or default_root()).absolute(), None)
     check_renderer()
     progress = progress or QuietProgress()
     cache = Cache((config.cache or default_root()).absolute())
@@ -379,6 +383,8 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
 
 def check_database(database_path: Path, config: Config, progress: Progress | None = None) -> CheckResult:
     """Read a database and every mesh of it, without building anything; what is found is kept in the cache."""
+    root = (config.cache or default_root()).absolute()
+    check_cache(root, database_path)
     clock = Clock(progress or QuietProgress())
     with clock.stage("read"):
         database = _read_database(database_path, config, read_publication(config))
@@ -386,7 +392,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         if config.bins is not None:
             read_bins(config.bins, (*BLOCKS, *(block for block, _ in external)))
     failures = list(database.failures)
-    cache = Cache((config.cache or default_root()).absolute())
+    cache = Cache(root)
     with _open_workers(config, config.worker_count) as executor:
         run = _Runner(executor, clock, cache, database, failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
@@ -406,6 +412,54 @@ def _plan_examining(paths: Mapping[str, Path]) -> Callable[[str], _Task]:
         return _Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
 
     return plan
+
+
+def check_cache(root: Path, database: Path | None) -> None:
+    """Refuse a folder of kept results that cannot be written, or whose files a database would read as its own.
+
+    Raises
+    ------
+    CacheError
+    """
+    if database is not None and os.path.isdir(database) and holds(database, root):
+        below = root.resolve().relative_to(database.resolve()).parts
+        if not any(part.startswith(".") for part in below):
+            raise CacheError(
+                f"the cache {root} lies in the database {database}, which would read it: name a folder elsewhere, or a "
+                "hidden one, with --cache"
+            )
+    try:
+        with tried(root):
+            pass
+    except OSError as error:
+        raise CacheError(
+            f"results cannot be kept in {root}: {error.strerror} ({error.filename}). Name another folder with --cache"
+        ) from error
+
+
+def _check_places(destination: Path, config: Config, cache: Path, database: Path | None) -> None:
+    """Refuse, before anything is computed, a place for the site or for results that cannot be written, or where
+    writing would touch what the build reads."""
+    kept = {"the cache": cache}
+    if database is not None:
+        kept["the database"] = database
+    for name in ("introduction", "logo", "bins"):
+        if (path := getattr(config, name)) is not None:
+            kept[f"the file of the option {name}"] = path
+    kept |= {f"the file {path.name} of the option external": path for path in config.external}
+    check_destination(destination, single_file=config.single_file, kept=kept)
+    if holds(cache, destination):
+        raise SiteError(f"{destination} lies in the cache {cache}: choose another place for the site")
+    check_cache(cache, database)
+
+
+def _check_meshes(destination: Path, database: Database) -> None:
+    """Refuse a site that would be written among the meshes it shows, wherever a table found them."""
+    for folder in sorted({shape.path.parent for shape in database.shapes}):
+        if holds(destination, folder):
+            raise SiteError(
+                f"{destination} holds meshes of the database (in {folder}): choose another place for the site"
+            )
 
 
 @contextmanager

@@ -37,5 +37,5 @@ def write_database(root: Path, per_class: int = 5) -> Path:
 def read_site(site: Path) -> dict[str, bytes]:
     """Every file of a site but those that state how long the build took."""
     files = {p.relative_to(site).as_posix(): p.read_bytes() for p in sorted(site.rglob("*")) if p.is_file()}
-    timed = ("about.html", "features.html", "data/summary.json")
+    timed = ("about.html", "features.html", "data/summary.json", "data/files.json")
     return {name: content for name, content in files.items() if name not in timed}

@@ -81,9 +81,10 @@ class DaskExecutor:
         self._expected = (fingerprint, fingerprint(), check)
         try:
             self._client = Client(address, timeout=ANSWER_TIME, set_as_default=False)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, TypeError, MemoryError, ImportError) as error:
+            # Dask says so of schemes that it knows and cannot use here; another service's answer is read as a size
             raise ClusterError(
-                f"The Dask scheduler at {address} does not answer: {error}. Start one with 'dask scheduler', or "
+                f"The Dask scheduler at {address!r} does not answer: {error}. Start one with 'dask scheduler', or "
                 "leave out --scheduler to compute on this machine."
             ) from error
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import gzip
 import json
-import os
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from hashlib import sha256
@@ -24,10 +23,12 @@ from shapeviz_report.pages.base import class_names
 from shapeviz_report.pages.bins import model_name, painting_name
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.site import preview
-from shapeviz_report.site.data_files import GENERATOR, data_files, json_text
+from shapeviz_report.site.data_files import data_files, json_text
+from shapeviz_report.site.destination import check_destination
 from shapeviz_report.site.joiner import join
 from shapeviz_report.site.linked_data import catalogue, dataset, describe
 from shapeviz_report.site.markdown import first_paragraph, render_markdown
+from shapeviz_report.site.record import RECORD, find_own, record_text
 from shapeviz_report.site.resources import site_folder, templates_folder
 from shapeviz_report.site.single_file import (
     Inline,
@@ -39,6 +40,8 @@ from shapeviz_report.site.single_file import (
 )
 from shapeviz_report.site.swap import replaced_folder
 from shapeviz_report.types import Accent, Report
+
+__all__ = ["check_destination", "write_site"]
 
 #: Nothing but the site's own files. ``file:`` stands beside ``'self'`` because a page opened by double-click has no
 #: origin that ``'self'`` could mean. Trusted Types, where a browser knows them, make it impossible that a script
@@ -79,41 +82,6 @@ STYLES = (
 #: Data of more bytes than this is left out of a site in one file; the About page says so.
 MOST_EMBEDDED = 2_000_000
 
-#: Tells a file that this package wrote from one that it must not replace; it stands among its first bytes.
-MARK = f'<meta name="generator" content="{GENERATOR} '.encode()
-MARK_WITHIN = 8192
-
-
-def check_destination(destination: Path, *, single_file: bool = False) -> None:
-    """Refuse a place where a site cannot be written, or would replace something that is not a site of ours.
-
-    Parameters
-    ----------
-    destination : Path
-    single_file : bool
-        Whether the site is to be one file, and not a folder.
-
-    Raises
-    ------
-    SiteError
-        If ``destination`` is a file where a folder is wanted or the other way round, holds something else, or cannot
-        be written.
-    """
-    if single_file:
-        _check_file(destination)
-    elif destination.exists() and not destination.is_dir():
-        raise SiteError(f"{destination} is a file: choose a folder for the site")
-    elif destination.is_dir() and any(destination.iterdir()) and not _is_site(destination):
-        raise SiteError(
-            f"{destination} holds files that are not a site of shapeviz-report, and would be replaced: "
-            "choose another folder, or empty this one"
-        )
-    ancestor = destination.resolve().parent
-    while not ancestor.exists():
-        ancestor = ancestor.parent
-    if not ancestor.is_dir() or not os.access(ancestor, os.W_OK):
-        raise SiteError(f"{destination} cannot be made: {ancestor} is not a folder that you may write to")
-
 
 def write_site(report: Report, destination: Path, *, single_file: bool = False) -> None:
     """Write the site of ``report`` into the folder ``destination``, which changes in one step at the end.
@@ -122,7 +90,8 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
     ----------
     report : Report
     destination : Path
-        A folder that is not there yet, is empty, or holds an earlier site, which is replaced.
+        A folder that is not there yet, is empty, or holds an earlier site. Only files that a site wrote are replaced;
+        whatever else is in it stays.
     single_file : bool
         Write one HTML file instead, without 3D models; ``destination`` is its path.
 
@@ -138,13 +107,16 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
     _check_report(report)
     try:
         if single_file:
-            write_atomically(destination, _whole(report))
+            write_atomically(destination.resolve(), _whole(report))
             return
-        with replaced_folder(destination) as folder:
+        with replaced_folder(destination, find_own) as folder:
+            hashes = {}
             for name, content in _files(report):
                 path = folder / name
                 path.parent.mkdir(exist_ok=True)
                 path.write_bytes(content)
+                hashes[name] = sha256(content).hexdigest()
+            (folder / RECORD).write_bytes(record_text(hashes))
     except OSError as error:
         raise SiteError(f"the site cannot be written to {destination}: {error}") from error
 
@@ -353,25 +325,6 @@ def _handing_over(name: str, kind: str, packed: bytes) -> bytes:
 
 def _is_webp(picture: bytes) -> bool:
     return picture[:4] == b"RIFF" and picture[8:12] == b"WEBP"
-
-
-def _check_file(destination: Path) -> None:
-    if destination.suffix.lower() not in (".html", ".htm"):
-        raise SiteError(f"a site in a single file needs a name that ends in .html, unlike {destination}")
-    if destination.is_dir():
-        raise SiteError(f"{destination} is a folder: name a file for a site in a single file")
-    if destination.exists() and MARK not in destination.read_bytes()[:MARK_WITHIN]:
-        raise SiteError(
-            f"{destination} is not a site of shapeviz-report, and would be replaced: choose another name"
-        )
-
-
-def _is_site(folder: Path) -> bool:
-    try:
-        content = json.loads((folder / "data" / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return False
-    return isinstance(content, dict) and content.get("generator") == GENERATOR
 
 
 def _check_report(report: Report) -> None:

@@ -1,72 +1,160 @@
-"""A folder that appears at once: written beside its place, then exchanged with what is there."""
+"""A folder that appears at once: written beside its place, then exchanged with what is there.
+
+Two hidden siblings may stand beside a folder. One *being written* holds nothing but new files. One *being placed*
+also holds, for an instant, entries that its owner keeps in the folder: these are moved by renaming, never copied,
+before the exchange and, should a writer be killed between two moves, given back by the next one.
+"""
 
 from __future__ import annotations
 
 import ctypes
+import errno
 import fcntl
+import logging
 import os
 import secrets
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Set
 from contextlib import contextmanager, suppress
+from hashlib import sha256
 from pathlib import Path
+
+from shapeviz_report.site.record import FOLDERS, RECORD, SUMMARY, list_entries
+
+logger = logging.getLogger(__name__)
 
 _AT_FDCWD = -100
 _RENAME_EXCHANGE = 2
+_WRITING, _PLACING = "writing", "placing"
+
+FindOwn = Callable[[Path], Set[str]]
+"""Says which entries of a folder may be removed; see :func:`~shapeviz_report.site.record.find_own`."""
 
 
 @contextmanager
-def replaced_folder(destination: Path) -> Iterator[Path]:
+def replaced_folder(destination: Path, find_own: FindOwn) -> Iterator[Path]:
     """A new empty folder that takes the place of ``destination`` when the block ends without an error.
 
     The folder is a hidden sibling, so the exchange stays on one file system. It is locked while its writer
-    lives; a writer that was killed leaves it behind unlocked, and the next one removes it. Where the system can
-    exchange two folders (Linux), there is no instant without one; elsewhere two renames leave a very short one.
+    lives; what a killed writer leaves is mended by the next one. Where the system can exchange two folders
+    (Linux), there is no instant without one; elsewhere two renames leave a very short one.
 
     Parameters
     ----------
     destination : Path
         A folder, or nothing yet. Its parents are made.
+    find_own : callable
+        Which entries of the folder that is there go; all others move into the new one.
 
     Yields
     ------
     Path
         Where to write.
+
+    Raises
+    ------
+    FileExistsError
+        The new folder has an entry where its owner keeps another; all is as before.
+    OSError
     """
     destination = destination.resolve()
     destination.parent.mkdir(parents=True, exist_ok=True)
-    prefix = f".{destination.name}.writing-"
-    _remove_stale(destination.parent, prefix)
-    folder = destination.parent / (prefix + secrets.token_hex(6))
+    mend(destination, find_own)
+    folder = _sibling(destination, _WRITING)
     folder.mkdir()
     lock = os.open(folder, os.O_RDONLY)
+    placing = False
     try:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield folder
-        if not destination.exists():
+        placed = _sibling(destination, _PLACING)
+        folder.rename(placed)
+        folder, placing = placed, True
+        if destination.exists():
+            _carry(destination, folder, find_own(destination))
+            if not _exchange(folder, destination):
+                old = _sibling(destination, _PLACING)
+                destination.rename(old)
+                folder.rename(destination)
+                folder = old
+        else:
             folder.rename(destination)
-        elif not _exchange(folder, destination):
-            old = destination.parent / (prefix + secrets.token_hex(6))
-            destination.rename(old)
-            folder.rename(destination)
-            folder = old
+            placing = False
     finally:
-        os.close(lock)
-        shutil.rmtree(folder, ignore_errors=True)
-
-
-def _remove_stale(parent: Path, prefix: str) -> None:
-    """Remove what killed writers left. A folder whose writer lives is locked and stays."""
-    for folder in parent.iterdir():
-        if not folder.name.startswith(prefix):
-            continue
-        with suppress(OSError):
-            handle = os.open(folder, os.O_RDONLY | os.O_NOFOLLOW)
+        if placing:
             try:
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                shutil.rmtree(folder)
-            finally:
-                os.close(handle)
+                _settle(folder, destination, find_own)
+            except OSError as error:
+                logger.warning("%s stays, until the next build can clear it: %s", folder, error)
+        else:
+            shutil.rmtree(folder, ignore_errors=True)
+        os.close(lock)
+
+
+def _sibling(destination: Path, state: str) -> Path:
+    """A new name for a folder beside ``destination``: no longer than 80 characters, however long that one's is."""
+    return destination.parent / (_prefix(destination, state) + secrets.token_hex(6))
+
+
+def _prefix(destination: Path, state: str) -> str:
+    digest = sha256(os.fsencode(destination.name)).hexdigest()[:8]
+    return f".{destination.name[:24]}-{digest}.{state}-"
+
+
+def mend(destination: Path, find_own: FindOwn) -> None:
+    """Remove what killed writers left beside a folder, and give back what belongs into it. A folder whose writer
+    lives is locked and stays."""
+    for state in (_PLACING, _WRITING):
+        prefix = _prefix(destination, state)
+        for name in sorted(os.listdir(destination.parent)):
+            folder = destination.parent / name
+            if not name.startswith(prefix):
+                continue
+            with suppress(OSError):
+                handle = os.open(folder, os.O_RDONLY | os.O_NOFOLLOW)
+                try:
+                    fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    if state == _WRITING:
+                        shutil.rmtree(folder)
+                    elif destination.exists():
+                        _settle(folder, destination, find_own)
+                    else:
+                        # killed between the two renames of a system that cannot exchange
+                        folder.rename(destination)
+                finally:
+                    os.close(handle)
+
+
+def _carry(source: Path, target: Path, own: Set[str]) -> None:
+    """Move every entry that is not ``own`` from one folder into another: all of them, or as far as an error allows."""
+    moves = [name for name in list_entries(source) if name not in own]
+    for name in moves:
+        if os.path.lexists(target / name):
+            raise FileExistsError(
+                errno.EEXIST, "the site has a file of this name, and so has its folder", name
+            )
+    for name in moves:
+        (target / name).parent.mkdir(exist_ok=True)
+        os.rename(source / name, target / name)
+
+
+def _settle(folder: Path, destination: Path, find_own: FindOwn) -> None:
+    """Give back what is the owner's in a folder that was placed or was to be, and remove the rest of it."""
+    own = find_own(folder)
+    for name in list_entries(folder):
+        if name in own:
+            continue
+        if os.path.lexists(destination / name):
+            logger.warning("%s was kept: %s has another file of this name", folder / name, destination)
+            continue
+        (destination / name).parent.mkdir(exist_ok=True)
+        os.rename(folder / name, destination / name)
+    # what tells whose the rest is goes last
+    for name in sorted(own, key=lambda name: (name == RECORD, name == SUMMARY)):
+        (folder / name).unlink(missing_ok=True)
+    for inner in (*(folder / name for name in FOLDERS), folder):
+        with suppress(OSError):
+            inner.rmdir()
 
 
 def _exchange(one: Path, other: Path) -> bool:

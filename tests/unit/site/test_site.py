@@ -114,7 +114,11 @@ def test_equal_input_gives_equal_bytes_but_for_the_times(tmp_path):
     write_site(dataclasses.replace(report, seconds={"read": 9.0}), tmp_path / "two")
     one, two = contents(tmp_path / "one"), contents(tmp_path / "two")
     assert set(one) == set(two)
-    assert {name for name in one if one[name] != two[name]} == {"about.html", "data/summary.json"}
+    assert {name for name in one if one[name] != two[name]} == {
+        "about.html",
+        "data/summary.json",
+        "data/files.json",
+    }
 
 
 def test_text_from_the_database_is_never_markup(tmp_path):

@@ -15,16 +15,21 @@ WRITER = """
 import sys, time
 from pathlib import Path
 from shapeviz_report.site.swap import replaced_folder
-with replaced_folder(Path(sys.argv[1])) as folder:
+with replaced_folder(Path(sys.argv[1]), lambda folder: set()) as folder:
     (folder / "new").write_text("half")
     print(folder, flush=True)
     time.sleep(60)
 """
 
 
+def everything(folder):
+    """All that lies in a folder is the site's own."""
+    return set(os.listdir(folder))
+
+
 def test_a_new_folder_appears_with_its_parents(tmp_path):
     destination = tmp_path / "deep" / "site"
-    with replaced_folder(destination) as folder:
+    with replaced_folder(destination, everything) as folder:
         (folder / "page").write_text("content")
         assert not destination.exists()
     assert (destination / "page").read_text() == "content"
@@ -35,7 +40,7 @@ def test_an_old_folder_is_replaced_whole(tmp_path):
     destination = tmp_path / "site"
     destination.mkdir()
     (destination / "old").write_text("old")
-    with replaced_folder(destination) as folder:
+    with replaced_folder(destination, everything) as folder:
         (folder / "new").write_text("new")
         assert os.listdir(destination) == ["old"]
     assert os.listdir(destination) == ["new"]
@@ -48,7 +53,7 @@ def test_an_error_leaves_the_old_folder_and_nothing_else(tmp_path):
     (destination / "old").write_text("old")
 
     def fail_half_way():
-        with replaced_folder(destination) as folder:
+        with replaced_folder(destination, everything) as folder:
             (folder / "new").write_text("half")
             raise RuntimeError
 
@@ -69,7 +74,7 @@ def test_a_killed_writer_leaves_the_old_folder_and_the_next_one_cleans_up(tmp_pa
         writer.send_signal(signal.SIGKILL)
     assert os.listdir(destination) == ["old"]
     assert os.path.isdir(left)
-    with replaced_folder(destination) as folder:
+    with replaced_folder(destination, everything) as folder:
         (folder / "new").write_text("new")
     assert os.listdir(destination) == ["new"]
     assert os.listdir(tmp_path) == ["site"]
@@ -81,7 +86,7 @@ def test_a_writer_that_lives_is_left_alone(tmp_path):
         [sys.executable, "-c", WRITER, destination], stdout=subprocess.PIPE, text=True
     ) as writer:
         working = writer.stdout.readline().strip()
-        with replaced_folder(destination) as folder:
+        with replaced_folder(destination, everything) as folder:
             (folder / "new").write_text("new")
         assert os.path.isfile(os.path.join(working, "new"))
         writer.kill()
@@ -103,7 +108,7 @@ def test_there_is_no_instant_without_a_folder(tmp_path):
     watcher = threading.Thread(target=watch)
     watcher.start()
     for round_number in range(200):
-        with replaced_folder(destination) as folder:
+        with replaced_folder(destination, everything) as folder:
             (folder / "page").write_text(str(round_number))
     done.set()
     watcher.join()
@@ -116,7 +121,7 @@ def test_a_link_keeps_pointing_to_the_folder(tmp_path):
     real.mkdir()
     link = tmp_path / "link"
     link.symlink_to(real)
-    with replaced_folder(link) as folder:
+    with replaced_folder(link, everything) as folder:
         (folder / "new").write_text("new")
     assert link.is_symlink()
     assert os.listdir(real) == ["new"]
