@@ -81,7 +81,8 @@ def find_function_closure(function: Callable[..., Any]) -> Closure:
     return _reach(function.__module__.partition(".")[0], imports)
 
 
-def library_versions(libraries: Iterable[str]) -> list[str]:
+@cache
+def library_versions(libraries: tuple[str, ...]) -> tuple[str, ...]:
     """``name version`` of every distribution behind some imported packages, and of all that they require; sorted."""
     distributions = _distributions()
     waiting = [name for library in libraries for name in distributions.get(library, ())]
@@ -99,7 +100,7 @@ def library_versions(libraries: Iterable[str]) -> list[str]:
             bare, _, condition = requirement.partition(";")
             if "extra ==" not in condition and (match := _REQUIREMENT.match(bare.strip())):
                 waiting.append(match[0])
-    return sorted(f"{name} {number}" for name, number in found.items())
+    return tuple(sorted(f"{name} {number}" for name, number in found.items()))
 
 
 def _reach(own: str, imports: Iterable[Import]) -> Closure:

@@ -37,7 +37,7 @@ _NAME = re.compile(
     r"|assets/(first|vega|index|shapes|shape|compare|features|workbench|bins|about|overview|chunk-[\w-]+)\.js"
     r"|assets/(style\.css|icon\.svg|vega-licenses\.txt|logo\.(svg|png|webp))"
     r"|data/(summary\.json|files\.json|catalogue\.jsonld|features\.npz|scores\.npz)"
-    r"|data/(shapes|subsets|greedy|table2|retrieval|retrieval-classes|projection-\w+)\.csv"
+    r"|data/(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|projection-\w+)\.csv"
     r"|data/selected-bins\.txt"
     r"|models/[0-9a-f]{20}\.js|(paintings|thumbnails)/[0-9a-f]{20}\.webp"
 )

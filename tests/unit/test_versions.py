@@ -113,7 +113,7 @@ def test_libraries_count_with_what_they_require() -> None:
     names = [line.split()[0] for line in library_versions(("umap",))]
     assert {"umap-learn", "pynndescent", "numba", "llvmlite", "scikit-learn"} <= set(names)
     assert names == sorted(names)
-    assert library_versions(("not_installed",)) == []
+    assert library_versions(("not_installed",)) == ()
 
 
 def test_a_missing_source_is_named() -> None:
