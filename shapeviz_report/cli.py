@@ -161,6 +161,7 @@ def _parser() -> argparse.ArgumentParser:
             "external",
             "bins",
             *PUBLICATION,
+            "outside",
             "time_limit",
             "memory_limit",
             "jobs",

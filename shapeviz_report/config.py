@@ -110,6 +110,10 @@ class Config:
         False,
         "write one HTML file, to be mailed, instead of a folder: OUT is its name; it holds no 3D models",
     )
+    outside: bool = _machine_option(
+        False,
+        "also read meshes outside the database's folder, where links in it or rows of its table lead to some",
+    )
     edge_length: float = _option(
         0.01, "edge length after remeshing, as a fraction of the shape's size", "FRACTION"
     )
@@ -171,7 +175,7 @@ class Config:
 
     def as_parameters(self) -> dict[str, object]:
         """The options that shape the result, as JSON values; not where and how fast it was computed."""
-        left_out = {"single_file", "jobs", *PUBLICATION, "scheduler", "cache", "time_limit", "memory_limit"}
+        left_out = {*MACHINE, *PUBLICATION}
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
         return values | {
             "external": [path.name for path in self.external],

@@ -215,9 +215,10 @@ def build_report(
     with open_executor(config) as executor:
         run = _Runner(executor, clock, cache, database, failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
+        within = None if config.outside else database.root
 
         def plan_preparing(shape: str) -> _Task:
-            files = collect_files(paths[shape])
+            files = collect_files(paths[shape], within)
             key = stages.PREPARE.key(stages.identify(paths[shape], files), config.edge_length)
             return _Task(key, lambda: (files, config.edge_length))
 
@@ -255,7 +256,9 @@ def build_report(
         shapes = tuple(s for s in database.shapes if s.id in described)
         if not shapes:
             raise DatabaseError(*_nothing_usable(database_path, failures))
-        examined = run("examine", stages.EXAMINE, described, _plan_examining(paths), stages.read_examined)
+        examined = run(
+            "examine", stages.EXAMINE, described, _plan_examining(paths, within), stages.read_examined
+        )
         copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
         groups = group_copies(copies, [s.id for s in shapes])
         rows = [i for i, s in enumerate(database.shapes) if s.id in described]
@@ -396,19 +399,20 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
     with _open_workers(config, config.worker_count) as executor:
         run = _Runner(executor, clock, cache, database, failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
+        within = None if config.outside else database.root
 
-        examined = run("check", stages.EXAMINE, paths, _plan_examining(paths), stages.read_examined)
+        examined = run("check", stages.EXAMINE, paths, _plan_examining(paths, within), stages.read_examined)
         copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
     cache.tell_spoiled()
     repairs = {shape: result.value[0] for shape, result in examined.items()}
     return CheckResult(database, repairs, tuple(failures), copies)
 
 
-def _plan_examining(paths: Mapping[str, Path]) -> Callable[[str], _Task]:
+def _plan_examining(paths: Mapping[str, Path], within: Path | None) -> Callable[[str], _Task]:
     """How the mesh file of a shape is examined."""
 
     def plan(shape: str) -> _Task:
-        files = collect_files(paths[shape])
+        files = collect_files(paths[shape], within)
         return _Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
 
     return plan

@@ -40,8 +40,15 @@ def read_mesh(path: Path) -> Mesh:
     return parse_mesh(collect_files(path))
 
 
-def collect_files(path: Path) -> dict[str, bytes]:
+def collect_files(path: Path, within: Path | None = None) -> dict[str, bytes]:
     """The content of all files that make up a mesh: the mesh file, and the buffers of a glTF.
+
+    Parameters
+    ----------
+    path : Path
+        The mesh file.
+    within : Path, optional
+        A folder that it must lie in, links resolved.
 
     Returns
     -------
@@ -51,11 +58,17 @@ def collect_files(path: Path) -> dict[str, bytes]:
     Raises
     ------
     MeshError
-        If a file cannot be opened, or lies outside the mesh file's folder, links resolved.
+        If a file cannot be opened, or lies outside ``within``, or a buffer outside the mesh file's folder, links
+        resolved.
     """
     suffix = suffix_of(path.name)
     if suffix not in MESH_FORMATS:
         raise MeshError(why_not_read(path.name))
+    if within is not None and not path.resolve().is_relative_to(within.resolve()):
+        raise MeshError(
+            f"it lies outside the database's folder, at {path.resolve()}; copy it into the folder, or have such files "
+            "read by --outside"
+        )
     files = {path.name: _read_bytes(path)}
     if MESH_FORMATS[suffix] == "glTF" and files[path.name].strip():
         folder = path.parent.resolve()

@@ -185,3 +185,29 @@ def test_a_warning_is_logged_as_one_line() -> None:
     program = "import logging, shapeviz_report.cli as cli; cli.main(['check', 'none']); logging.warning('a\\x1b\\nb')"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stderr.splitlines()[-1] == "WARNING: a??b"
+
+
+def test_a_mesh_outside_the_database_is_read_only_when_asked(tmp_path, capsys) -> None:
+    """Through a link to a file, a link to a folder, and a row of a table."""
+    root, secret = tmp_path / "database", tmp_path / "secret"
+    make_shape("box", 0).export(secret_mesh := _folder(secret) / "s.off")
+    make_shape("box", 1).export(_folder(root / "box") / "a.off")
+    (root / "box" / "b.off").symlink_to(secret_mesh)
+    (root / "linked").symlink_to(secret)
+    make_shape("ball", 0).export(_folder(tmp_path / "table") / "c.off")
+    table = tmp_path / "table" / "shapes.csv"
+    table.write_text("file\nc.off\n../secret/s.off\n")
+    cache = ["--cache", str(tmp_path / "cache"), "--jobs", "1"]
+    for database, outside in ((root, 2), (table, 1)):
+        assert main(["check", str(database), *cache]) == 1
+        said = capsys.readouterr().out
+        assert said.count("lies outside the database's folder") == outside
+        assert str(secret_mesh) in said
+        assert "read by --outside" in said
+        assert main(["check", str(database), *cache, "--outside"]) == 0
+        assert "All files can be used." in capsys.readouterr().out
+
+
+def _folder(path: Path) -> Path:
+    path.mkdir(parents=True, exist_ok=True)
+    return path
