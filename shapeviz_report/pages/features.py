@@ -211,6 +211,7 @@ def _context(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[st
         "effects": _effects(search),
         "spread": _spread(search.spread, search.features) if search.spread else None,
         "held_out": _held_out(search.held_out) if search.held_out else None,
+        "chance": _range(report, search).chance,
         "chance_best": _chance_best(search) if len(search.null_best) else None,
         "table": search.table,
     }

@@ -50,7 +50,7 @@ export class Panel {
       element(
         "span",
         { class: "beside" },
-        place === 0 ? "the best of all" : against(0, "the best"),
+        place === 0 ? ["the best of all, chosen by the labels; ", element("b", {}, figure(subsets.data.chanceBest)), " with random ones"] : against(0, "the best"),
         element("br"),
         place === subsets.everything ? "all features" : against(subsets.everything, "all features"),
       ),

@@ -107,7 +107,7 @@ export class RetrievalSection {
     const notes = [
       kind === "chosen" && this.choose !== null && "chosen",
       row === ratings.everything && "all features",
-      row === ratings.data.best && ratings.choosable && "best of all, chosen by the labels",
+      row === ratings.data.best && ratings.choosable && "best of all",
     ].filter(Boolean);
     if (notes.length === 0) return listed;
     const note = notes.join(", ");
