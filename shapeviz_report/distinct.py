@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from shapeviz_report.quality import score
+from shapeviz_report.quality import hit_range, score
 from shapeviz_report.retrieval import query_classes, rate
 from shapeviz_report.types import FloatArray, IntArray, WithoutCopies, representatives
 
@@ -56,5 +56,6 @@ def rate_without_copies(
     return WithoutCopies(
         copies=len(groups) - len(kept),
         nh_s={method: score(xy[kept], own, k=k).nh_s for method, xy in maps.items()},
+        nh_max=hit_range(own, k).highest,
         retrieval=retrieval,
     )

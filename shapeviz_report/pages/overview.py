@@ -102,7 +102,11 @@ def _method(
         "hitOfAll": quality.nh_s,
         "withoutCopies": None
         if without_copies is None
-        else {"copies": without_copies.copies, "hitOfAll": without_copies.nh_s[projection.method]},
+        else {
+            "copies": without_copies.copies,
+            "hitOfAll": without_copies.nh_s[projection.method],
+            "highest": without_copies.nh_max,
+        },
         "chance": quality.null_mean,
         "chanceSpread": quality.null_std,
     }

@@ -146,7 +146,9 @@ def summary(report: Report, version: str) -> dict[str, object]:
 def _without_copies(found: WithoutCopies) -> dict[str, object]:
     return {
         "copies": found.copies,
-        "projections": {method: {"nh_s": _finite(nh_s)} for method, nh_s in found.nh_s.items()},
+        "projections": {
+            method: {"nh_s": _finite(nh_s), "nh_max": found.nh_max} for method, nh_s in found.nh_s.items()
+        },
         "retrieval": {name: named_scores(scores) for name, scores in found.retrieval.items()},
     }
 

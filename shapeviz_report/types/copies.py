@@ -90,6 +90,8 @@ class WithoutCopies:
         Shapes that are left out; at least one.
     nh_s : mapping of str to (float or None)
         Of the same maps, by method, with neighbours among the shapes that are left.
+    nh_max : float or None
+        What none of these can exceed; the classes are smaller than with copies.
     retrieval : mapping of str to (6,) float64 array
         :data:`shapeviz_report.retrieval.MEASURES` on average over shapes: by ``everything``, and by ``bins`` where some
         were rated. Empty where no class has two shapes left.
@@ -97,6 +99,7 @@ class WithoutCopies:
 
     copies: int
     nh_s: Mapping[str, float | None]
+    nh_max: float | None
     retrieval: Mapping[str, FloatArray]
 
 

@@ -57,7 +57,7 @@ def test_nothing_is_said_without_copies_and_none_of_retrieval_without_a_class_of
     )
     assert pairs is not None
     assert pairs.retrieval == {}
-    assert pairs.nh_s["pca"] == 0
+    assert pairs.nh_s["pca"] == pairs.nh_max == 0
 
 
 @pytest.fixture
@@ -69,10 +69,17 @@ def test_the_data_and_the_pages_give_both_figures(report: Report) -> None:
     data = summary(report, "1")["without_copies"]
     assert report.without_copies is not None
     assert data["copies"] == 2
-    assert data["projections"]["tsne"] == {"nh_s": report.without_copies.nh_s["tsne"]}
+    assert data["projections"]["tsne"] == {
+        "nh_s": report.without_copies.nh_s["tsne"],
+        "nh_max": report.without_copies.nh_max,
+    }
     assert set(data["retrieval"]["everything"]) == {measure.name for measure in MEASURES}
     methods = OverviewPage().content(report).chunks["overview"]["methods"]
-    assert methods[0]["withoutCopies"] == {"copies": 2, "hitOfAll": report.without_copies.nh_s["tsne"]}
+    assert methods[0]["withoutCopies"] == {
+        "copies": 2,
+        "hitOfAll": report.without_copies.nh_s["tsne"],
+        "highest": report.without_copies.nh_max,
+    }
     said = FeaturesPage().content(report).context["retrieval"]["without_copies"]
     assert said["copies"] == 2
     assert said["nearest"] == report.without_copies.retrieval["everything"][0]
