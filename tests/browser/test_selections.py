@@ -176,7 +176,12 @@ def test_every_page_exports_the_same_files(open_page, site, tmp_path, file):
     assert [row["id"] for row in rows] == ["class000/0001", "class002/0003"]
     summary = json.loads((site(where) / "data" / "summary.json").read_text())
     methods = list(summary["projections"])
-    assert list(rows[0]) == ["id", "name", "class", *(f"nh:{method}" for method in methods)]
+    assert list(rows[0]) == [
+        "id",
+        "name",
+        "class",
+        *(f"{what}:{method}" for method in methods for what in ("nh", "nh_max")),
+    ]
     with (site(where) / "data" / "shapes.csv").open(newline="", encoding="utf-8") as stream:
         known = {row["id"]: row for row in csv.DictReader(stream)}
     assert [row["name"] for row in rows] == [known[row["id"]]["name"] for row in rows]
