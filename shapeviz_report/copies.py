@@ -17,7 +17,8 @@ from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 from trimesh.triangles import closest_point
 
-from shapeviz_report.types import FloatArray, IntArray, Mesh
+from shapeviz_report.mesh.sampling import sample_surface
+from shapeviz_report.types import FloatArray, Mesh
 from shapeviz_report.types.copies import (
     IDENTICAL_FILE,
     IDENTICAL_GEOMETRY,
@@ -103,7 +104,7 @@ class Outline:
 def outline(mesh: Mesh) -> FloatArray:
     """The values of an :class:`Outline` of a cleaned mesh."""
     frame = _find_frame(mesh)
-    points, _ = sample(mesh, OUTLINE_POINTS)
+    points, _ = sample_surface(mesh, OUTLINE_POINTS)
     reach = np.linalg.norm(points - frame.centre, axis=1) / frame.radius
     quantiles = np.quantile(reach, (np.arange(QUANTILES) + 0.5) / QUANTILES)
     return np.concatenate([frame.lengths, [np.sqrt(frame.area) / frame.radius / 3], quantiles])
@@ -197,18 +198,6 @@ def compare(first: Mesh, second: Mesh, scale: float = 1.0) -> Match | None:
     return Match(SAME_SURFACE, best.distance, best.largest, times, mirrored)
 
 
-def sample(mesh: Mesh, count: int) -> tuple[FloatArray, IntArray]:
-    """Points (count, 3) spread evenly over a surface and their faces (count,); the same ones every time."""
-    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    random = np.random.default_rng(0)
-    position = (np.arange(count) + random.random(count)) / count * area.sum()
-    face = np.minimum(np.searchsorted(np.cumsum(area), position), len(area) - 1)
-    u, v = random.random((2, count, 1))
-    root = np.sqrt(u)
-    return (1 - root) * a[face] + root * (1 - v) * b[face] + root * v * c[face], face
-
-
 @dataclass(frozen=True)
 class _Frame:
     """Where a surface lies: exact moments of its area.
@@ -262,7 +251,7 @@ class _Surface:
         )
         self.normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
         own = Mesh(vertices, mesh.faces)
-        samples, owners = sample(own, 3 * POINTS)
+        samples, owners = sample_surface(own, 3 * POINTS)
         # Points in an order of their own: any first of them are spread over the surface.
         order = np.random.default_rng(0).permutation(len(samples))
         self.points = samples[order[:POINTS]]

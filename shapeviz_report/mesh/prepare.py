@@ -12,7 +12,8 @@ from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.clean import bounding_diagonal, clean, count_components, is_watertight
 from shapeviz_report.mesh.read import content_hash, parse_mesh
 from shapeviz_report.mesh.remesh import affordable_edge_length, remesh, surface_size
-from shapeviz_report.types import FloatArray, IntArray, Mesh, ShapeFacts
+from shapeviz_report.mesh.sampling import sample_surface
+from shapeviz_report.types import FloatArray, Mesh, ShapeFacts
 
 MAX_DEVIATION = 0.05
 """A prepared surface farther than this fraction of the diagonal from its input is refused.
@@ -159,8 +160,10 @@ def deviation(before: Mesh, after: Mesh) -> float:
         At least 0.
     """
     count = SAMPLES_PER_VERTEX * len(after.vertices)
-    there = _largest_distance(np.concatenate([_sample(before, count)[0], before.vertices]), after, count)
-    back = _largest_distance(np.concatenate([_sample(after, count)[0], after.vertices]), before, count)
+    there = _largest_distance(
+        np.concatenate([sample_surface(before, count)[0], before.vertices]), after, count
+    )
+    back = _largest_distance(np.concatenate([sample_surface(after, count)[0], after.vertices]), before, count)
     diagonal = np.linalg.norm(before.vertices.max(axis=0) - before.vertices.min(axis=0))
     return float(max(there, back) / diagonal)
 
@@ -171,7 +174,7 @@ def _largest_distance(points: FloatArray, mesh: Mesh, count: int) -> float:
     Points spread over the surface tell roughly; for the ``EXAMINED`` that seem farthest the faces of the nearest
     of those points tell exactly.
     """
-    samples, owners = _sample(mesh, count)
+    samples, owners = sample_surface(mesh, count)
     # Large faces need many points, and small ones, which chance may pass over, one each.
     samples = np.concatenate([samples, mesh.vertices[mesh.faces].mean(axis=1)])
     owners = np.concatenate([owners, np.arange(len(mesh.faces))])
@@ -182,15 +185,3 @@ def _largest_distance(points: FloatArray, mesh: Mesh, count: int) -> float:
     asked = np.repeat(points[index], near.shape[1], axis=0)
     closest = closest_point(corners.reshape(-1, 3, 3), asked).reshape(*near.shape, 3)
     return float(np.linalg.norm(closest - points[index][:, None], axis=2).min(axis=1).max())
-
-
-def _sample(mesh: Mesh, count: int) -> tuple[FloatArray, IntArray]:
-    """Points (count, 3) spread evenly over a surface and their faces (count,); the same ones every time."""
-    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    random = np.random.default_rng(0)
-    position = (np.arange(count) + random.random(count)) / count * area.sum()
-    face = np.minimum(np.searchsorted(np.cumsum(area), position), len(area) - 1)
-    u, v = random.random((2, count, 1))
-    root = np.sqrt(u)
-    return (1 - root) * a[face] + root * (1 - v) * b[face] + root * v * c[face], face
