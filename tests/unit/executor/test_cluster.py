@@ -23,7 +23,7 @@ def address(tmp_path_factory):
 
 def test_a_scheduler_that_is_not_there(monkeypatch) -> None:
     monkeypatch.setattr(module, "ANSWER_TIME", 1.0)
-    with pytest.raises(ClusterError, match=r"tcp://127.0.0.1:9 does not answer.*dask scheduler"):
+    with pytest.raises(ClusterError, match=r"tcp://127.0.0.1:9' does not answer.*dask scheduler"):
         DaskExecutor("tcp://127.0.0.1:9", 60, None, platform.python_version, os.getpid)
 
 
