@@ -89,5 +89,6 @@ CASES = [
     refuses("decimal commas", PLAIN.replace("v 2 3", "v 2,0 3"), "decimal comma"),
     refuses("vertices of two coordinates", PLAIN.replace("v 2 3 4", "v 2 3"), "fewer than 3"),
     refuses("vertex 0", PLAIN.replace("f 1 2", "f 0 2"), "counts from 1"),
+    refuses("corners without a vertex", PLAIN.replace("f 1 2 ", "f 1 2 /2 "), "'/2'"),
     refuses("index of no vertex", PLAIN.replace("f 1 2", "f 9 2"), "vertex 8 "),
 ]  # fmt: skip

@@ -10,18 +10,24 @@ import re
 from collections.abc import Iterator
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.readers.polygons import PolygonMesh, whole_numbers
+from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh
 from shapeviz_report.mesh.readers.text import (
+    Characters,
+    count_words,
     decode,
     not_numbers,
     parse_columns,
-    parse_numbers,
+    parse_indices,
     strip_comments,
 )
 
-_TEXTURE_AND_NORMAL = re.compile(r"/\S*")
+Mask = npt.NDArray[np.bool_]
+
+_CONTINUED = re.compile(r"\\[ \t]*\n")
+_TEXTURE_AND_NORMAL = re.compile(r"(?<=\d)/\S*")
 _FREE_FORM = frozenset({"surf", "bzp", "bsp", "cdp"})
 _OF_NUMBERS = frozenset(
     {
@@ -56,36 +62,24 @@ def read_obj(data: bytes) -> PolygonMesh:
     MeshError, ValueError
         If a vertex or a face is not written as it should be, or there is geometry that is not read.
     """
-    vertex_rows: list[str] = []
-    face_rows: list[str] = []
-    vertices_before: list[int] = []
-    for line in _lines(strip_comments(decode(data))):
-        keyword, _, row = line.strip().replace("\t", " ").partition(" ")
-        if keyword == "v":
-            vertex_rows.append(row)
-        elif keyword == "f":
-            face_rows.append(row)
-            vertices_before.append(len(vertex_rows))
-        elif keyword not in ("vt", "vn", ""):
-            keyword = keyword.lower()
-            if keyword == "v":
-                vertex_rows.append(row)
-            elif keyword in ("f", "fo"):
-                face_rows.append(row)
-                vertices_before.append(len(vertex_rows))
-            else:
-                _check_passed_over(keyword, line)
-    bare_rows = _TEXTURE_AND_NORMAL.sub("", "\n".join(face_rows))
-    sizes = np.array([len(row.split()) for row in bare_rows.split("\n")], dtype=np.int64)
-    if not face_rows:
-        sizes = sizes[:0]
-    numbers = whole_numbers(parse_numbers(bare_rows))
+    text = _join_continued(strip_comments(decode(data))) + "\n"
+    characters = np.frombuffer(bytearray(text, "latin-1", "replace"), np.uint8)
+    ends = np.flatnonzero(characters == ord("\n"))
+    starts = np.concatenate([[0], ends[:-1] + 1])
+    is_vertex, is_face = _find_rows(text, characters, starts, ends)
+    lengths = ends + 1 - starts
+    vertex_rows, face_rows = (
+        characters[np.repeat(is_row, lengths)].tobytes().decode("latin-1") for is_row in (is_vertex, is_face)
+    )
+    if "/" in face_rows:
+        face_rows = _TEXTURE_AND_NORMAL.sub("", face_rows)
+    numbers, sizes = parse_indices(face_rows), count_words(face_rows)
     if numbers.size != sizes.sum():
-        raise not_numbers(bare_rows)
+        raise not_numbers(face_rows)
     if (numbers == 0).any():
         raise MeshError("a face refers to vertex 0, but OBJ counts from 1")
     # -1 is the last vertex before the face
-    relative = np.repeat(np.array(vertices_before, dtype=np.int64), sizes) + numbers
+    relative = np.repeat(np.cumsum(is_vertex)[is_face], sizes) + numbers
     return PolygonMesh(
         vertices=parse_columns(vertex_rows, 3),
         corners=np.where(numbers > 0, numbers - 1, relative),
@@ -93,9 +87,37 @@ def read_obj(data: bytes) -> PolygonMesh:
     )
 
 
-def _lines(text: str) -> Iterator[str] | list[str]:
-    """The lines, those that a backslash continues in one; a name may end with a backslash and continues nothing."""
-    return _continued(text.split("\n")) if "\\" in text else text.split("\n")
+def _find_rows(text: str, characters: Characters, starts: Indices, ends: Indices) -> tuple[Mask, Mask]:
+    """Which lines, of given starts and ends, are vertices and which are faces; their keywords become blanks.
+
+    Lines as most programs write them are told by their first two characters, all at once; the others one by one.
+    """
+    first, second = characters[starts], characters[np.minimum(starts + 1, ends)]
+    of_vertex, blank = first == ord("v"), (second == ord(" ")) | (second == ord("\t"))
+    is_vertex, is_face = of_vertex & blank, (first == ord("f")) & blank
+    passed_over = of_vertex & ((second == ord("t")) | (second == ord("n"))) | (starts == ends)
+    characters[starts[is_vertex | is_face]] = ord(" ")
+    for index in np.flatnonzero(~(is_vertex | is_face | passed_over)).tolist():
+        line = text[starts[index] : ends[index]]
+        keyword = next(iter(line.split(maxsplit=1)), "")
+        place = starts[index] + line.index(keyword)
+        match keyword.lower():
+            case "v":
+                is_vertex[index] = True
+                characters[place] = ord(" ")
+            case "f" | "fo":
+                is_face[index] = True
+                characters[place : place + len(keyword)] = ord(" ")
+            case "" | "vt" | "vn":
+                pass
+            case other:
+                _check_passed_over(other, line)
+    return is_vertex, is_face
+
+
+def _join_continued(text: str) -> str:
+    """Lines that a backslash continues in one; a name may end with a backslash and continues nothing."""
+    return "\n".join(_continued(text.split("\n"))) if _CONTINUED.search(text) else text
 
 
 def _continued(lines: list[str]) -> Iterator[str]:

@@ -100,7 +100,7 @@ def _read_lines(lines: list[str], vertex_count: int, face_count: int) -> Polygon
             raise MeshError(f"a face announces {size} corners, but its line has {len(fields)}")
         corners.extend(fields[: sizes[-1]])
     return PolygonMesh(
-        vertices=parse_columns(lines[:vertex_count], 3),
+        vertices=parse_columns("".join(f"{line}\n" for line in lines[:vertex_count]), 3),
         corners=whole_numbers(parse_numbers(" ".join(corners))),
         sizes=np.array(sizes, dtype=np.int64),
     )

@@ -5,11 +5,16 @@ from __future__ import annotations
 import codecs
 import re
 import warnings
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.readers.polygons import Indices, whole_numbers
 from shapeviz_report.types import FloatArray
+
+Characters = npt.NDArray[np.uint8]
 
 # UTF-32 first: its mark begins with that of UTF-16
 _MARKS = (
@@ -89,37 +94,51 @@ def parse_numbers(text: str) -> FloatArray:
     MeshError
         With the first word that is no number.
     """
-    numbers = _scan(text)
+    numbers = _scan(text, np.float64)
     if numbers is None:
         text = mend_numbers(text)
-        numbers = _scan(text)
+        numbers = _scan(text, np.float64)
     if numbers is None:
         raise not_numbers(text)
     return numbers
 
 
-def parse_columns(rows: list[str], width: int) -> FloatArray:
-    """The first ``width`` numbers of each row, whatever follows them: an array (number of rows, ``width``).
+def parse_indices(text: str) -> Indices:
+    """All numbers of a text that has nothing but whole numbers. Raises ``MeshError``."""
+    indices = _scan(text, np.int64)  # much faster than as float64
+    return whole_numbers(parse_numbers(text)) if indices is None else indices
+
+
+def parse_columns(text: str, width: int) -> FloatArray:
+    """The first ``width`` numbers of each line, whatever follows them: an array (number of lines, ``width``).
 
     Raises
     ------
     MeshError
-        If a row has fewer, or anything else among them.
+        If a line has fewer, or anything else among them.
     """
-    if not rows:
-        return np.empty((0, width))
-    try:
-        return np.loadtxt(rows, usecols=range(width), ndmin=2, comments=None)
-    except ValueError:
-        fields = [row.split()[:width] for row in mend_numbers("\n".join(rows)).split("\n")]
-    short = next((row for row, words in zip(rows, fields, strict=True) if len(words) < width), None)
-    if short is not None:
-        raise MeshError(f"a vertex has fewer than {width} coordinates: {short.strip()[:60]!r}")
-    words = [word for row in fields for word in row]
-    numbers = parse_numbers("\n".join(words))
-    if numbers.size != len(words):
-        raise not_numbers("\n".join(words))
+    words = count_words(text)
+    if len(words) and words[0] >= width and (words == words[0]).all():
+        numbers = _scan(text, np.float64)
+        if numbers is not None and numbers.size == words.sum():
+            return np.ascontiguousarray(numbers.reshape(len(words), -1)[:, :width])
+    rows = text.split("\n")[: len(words)]
+    short = np.flatnonzero(words < width)
+    if len(short):
+        raise MeshError(f"a vertex has fewer than {width} coordinates: {rows[short[0]].strip()[:60]!r}")
+    wanted = "\n".join(word for row in rows for word in row.split()[:width])
+    numbers = parse_numbers(wanted)
+    if numbers.size != width * len(rows):
+        raise not_numbers(wanted)
     return numbers.reshape(len(rows), width)
+
+
+def count_words(text: str) -> Indices:
+    """How many words each line has; text is ASCII or Latin-1, and all its lines are ended."""
+    characters = np.frombuffer(text.encode("latin-1", "replace"), np.uint8)
+    visible = characters > ord(" ")
+    begins = np.cumsum(visible & ~np.concatenate([[False], visible[:-1]]))
+    return np.diff(begins[characters == ord("\n")], prepend=0)
 
 
 def mend_numbers(text: str) -> str:
@@ -137,11 +156,11 @@ def not_numbers(text: str) -> MeshError:
     return MeshError(f"something else stands where a number belongs: {word[:40]!r}")
 
 
-def _scan(text: str) -> FloatArray | None:
+def _scan(text: str, kind: type[np.float64] | type[np.int64]) -> npt.NDArray[Any] | None:
     """All numbers; None if numpy stops before the end, which it only warns of."""
     with warnings.catch_warnings():
         warnings.simplefilter("error", DeprecationWarning)
         try:
-            return np.fromstring(text, sep=" ")
+            return np.fromstring(text, kind, sep=" ")
         except (DeprecationWarning, ValueError):
             return None
