@@ -4,20 +4,22 @@ An entry's name is a hash of everything that went into it: the content of the me
 code that the stage reaches and the versions of the libraries behind it (``versions.py``). So entries never go stale;
 they are only no longer asked for. An entry is written under another name first and renamed, so a reader never meets
 half of one. It begins with a checksum over its stage, its key and its content: what a disk, a copy or a person has
-changed is thrown away and computed anew.
+changed is thrown away and computed anew. What cannot be put in its place is held until the process ends.
 """
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import logging
 import os
 import shutil
-import tempfile
+from contextlib import suppress
 from pathlib import Path
 
 from shapeviz_report.errors import CacheError
 from shapeviz_report.files import read_regular
+from shapeviz_report.writing import write_atomically
 
 logger = logging.getLogger(__name__)
 
@@ -25,6 +27,12 @@ _MARK = b"shapeviz-report entry 1\n"
 """What every entry begins with; the number changes with the layout."""
 
 _DIGEST_SIZE = 32
+
+MOST_HELD = 2**28
+"""Bytes of results that are held in memory, for want of a place."""
+
+_FULL = (errno.ENOSPC, errno.EDQUOT)
+"""What a disk says that takes no more."""
 
 
 def default_root() -> Path:
@@ -55,6 +63,8 @@ class Cache:
     def __init__(self, root: Path) -> None:
         self.root = root
         self.spoiled = 0
+        self._held: dict[tuple[str, str], bytes] = {}
+        self._refusal = ""
 
     def path(self, stage: str, key: str) -> Path:
         """Where the entry of a stage with a key is or would be."""
@@ -63,44 +73,75 @@ class Cache:
     def load(self, stage: str, key: str) -> bytes | None:
         """The content of an entry, exactly as it was stored; None if there is none.
 
-        Whatever else is found in its place is thrown away, and counted as spoiled.
+        Whatever else is found in its place or on the way there is thrown away, and counted as spoiled.
+        """
+        if (stage, key) in self._held:
+            return self._held[stage, key]
+        path = self.path(stage, key)
+        try:
+            entry = read_regular(path)
+        except OSError:
+            if not self._is_obstructed(path):
+                return None
+        else:
+            head, content = entry[: len(_MARK) + _DIGEST_SIZE], entry[len(_MARK) + _DIGEST_SIZE :]
+            if head == _head(stage, key, content):
+                return content
+            discard(path)
+        self.spoiled += 1
+        return None
+
+    def _is_obstructed(self, path: Path) -> bool:
+        """Whether something stands where an entry that could not be read would be, or a folder of it: it is removed."""
+        for folder in (path.parent.parent, path.parent):
+            if os.path.lexists(folder) and not os.path.isdir(folder):
+                discard(folder)
+                return True
+        try:
+            os.lstat(path)
+        except FileNotFoundError:
+            return False
+        except OSError:
+            return True
+        discard(path)
+        return True
+
+    def store(self, stage: str, key: str, content: bytes) -> None:
+        """Write an entry, whole or not at all. What the system does not let take its place is held in memory.
+
+        Raises
+        ------
+        CacheError
+            The cache takes no results at all, or more than :data:`MOST_HELD` bytes cannot be put in their places.
         """
         path = self.path(stage, key)
         try:
-            entry: bytes | None = read_regular(path)
-        except (FileNotFoundError, NotADirectoryError):
-            # A link to nowhere is not found either, and is in the way all the same.
-            entry = b"" if path.is_symlink() else None
-        except OSError:
-            entry = b""
-        if entry is None:
-            return None
-        head, content = entry[: len(_MARK) + _DIGEST_SIZE], entry[len(_MARK) + _DIGEST_SIZE :]
-        if head == _head(stage, key, content):
-            return content
-        self.spoiled += 1
-        discard(path)
-        return None
-
-    def store(self, stage: str, key: str, content: bytes) -> None:
-        """Write an entry, whole or not at all. Raises :class:`CacheError` if that cannot be done."""
-        try:
-            write_atomically(self.path(stage, key), _head(stage, key, content) + content)
+            write_atomically(path, _head(stage, key, content) + content)
         except OSError as error:
-            raise CacheError(
-                f"Results cannot be kept in the cache {self.root}: {error.strerror}. Make room there, or name another "
-                "folder with --cache; what was kept before stays."
-            ) from error
+            self._held[stage, key] = content
+            self._refusal = f"{error.strerror or error} ({path})"
+            takes_others = os.access(self.root, os.W_OK | os.X_OK) and error.errno not in _FULL
+            if not takes_others or sum(map(len, self._held.values())) > MOST_HELD:
+                raise CacheError(
+                    f"Results cannot be kept in the cache {self.root}: {self._refusal}. Make room there, or name "
+                    "another folder with --cache; what was kept before stays."
+                ) from error
 
-    def tell_spoiled(self) -> None:
-        """Log a warning if entries were spoiled."""
+    def tell(self) -> None:
+        """Log a warning if entries were spoiled or could not be put in their places."""
+        said = []
         if self.spoiled:
-            logger.warning(
-                "Note: %d kept %s in the cache %s had been damaged; computed anew.",
-                self.spoiled,
-                "result" if self.spoiled == 1 else "results",
-                self.root,
+            what = "result" if self.spoiled == 1 else "results"
+            said.append(
+                f"{self.spoiled:,} kept {what} in the cache {self.root} had been damaged; computed anew."
             )
+        if self._held:
+            what = "result" if len(self._held) == 1 else "results"
+            said.append(
+                f"{len(self._held):,} {what} could not be kept there, and will be computed again: {self._refusal}."
+            )
+        if said:
+            logger.warning("Note: %s", " ".join(said))
 
 
 def _head(stage: str, key: str, content: bytes) -> bytes:
@@ -110,22 +151,9 @@ def _head(stage: str, key: str, content: bytes) -> bytes:
 
 
 def discard(path: Path) -> None:
-    """Remove what stands at a path, be it a file, a link, a pipe or a folder; another process may be faster."""
-    if path.is_dir() and not path.is_symlink():
+    """Remove what stands at a path, be it a file, a link, a pipe or a folder, as far as the system allows."""
+    if os.path.isdir(path) and not os.path.islink(path):
         shutil.rmtree(path, ignore_errors=True)
     else:
-        path.unlink(missing_ok=True)
-
-
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write a file so that at no moment anything but its old or its whole new content is there."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    descriptor, temporary = tempfile.mkstemp(dir=path.parent, prefix=".", suffix=".tmp")
-    try:
-        with os.fdopen(descriptor, "wb") as file:
-            file.write(content)
-        os.chmod(temporary, 0o644)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
+        with suppress(OSError):
+            os.unlink(path)

@@ -35,8 +35,8 @@ def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:
             raise IsADirectoryError(0, "Is a directory", str(path))
         if not stat.S_ISREG(status.st_mode):
             raise OSError(0, "it is not a regular file but a pipe, a socket or a device", str(path))
-        # Python allocates what it is asked for, before it reads.
-        content = file.read(min(status.st_size, most) + 1)
-    if len(content) > most:
+        # Python allocates what it is asked for, before it reads; and the size need not be true.
+        content = file.read(status.st_size + 1) if status.st_size <= most else b""
+    if max(len(content), status.st_size) > most:
         raise OSError(0, f"it is larger than {most / 2**20:,.0f} MiB", str(path))
     return content

@@ -19,7 +19,7 @@ import numpy as np
 
 from shapeviz_report import demo, stages
 from shapeviz_report.bins import features_of, read_bins, scale_bins
-from shapeviz_report.cache import Cache, default_root, discard, write_atomically
+from shapeviz_report.cache import Cache, default_root, discard
 from shapeviz_report.clusters import Partition, describe_clusters
 from shapeviz_report.config import SEARCHES, Config
 from shapeviz_report.contrasts import choose_contrasts
@@ -74,6 +74,7 @@ from shapeviz_report.types import (
     ShapeEntry,
     group_copies,
 )
+from shapeviz_report.writing import write_atomically
 
 logger = logging.getLogger(__name__)
 
@@ -305,7 +306,7 @@ def build_report(
             )
             for s in shapes
         )
-    cache.tell_spoiled()
+    cache.tell()
     with clock.stage("score"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
@@ -373,13 +374,19 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
                 cache.store("generated", stages.GENERATE.key(*task), outcome.value)
                 made[task] = outcome.value
                 advance()
-    cache.tell_spoiled()
+    cache.tell()
     # The files that are read are written from what is kept, unless they are still the same.
-    for (name, index, _), content in made.items():
-        path = demo.shape_path(root, name, index)
-        if not path.is_file() or path.is_symlink() or path.read_bytes() != content:
-            discard(path)
-            write_atomically(path, content)
+    try:
+        for (name, index, _), content in made.items():
+            path = demo.shape_path(root, name, index)
+            if not path.is_file() or path.is_symlink() or path.read_bytes() != content:
+                discard(path)
+                write_atomically(path, content)
+    except OSError as error:
+        raise CacheError(
+            f"The demo shapes cannot be written to {root}: {error.strerror} ({error.filename}). Make room there, or "
+            "name another folder with --cache."
+        ) from error
     config = replace(config, title=config.title or "Demo shapes", licence=config.licence or "CC0-1.0", up="z")
     return build_report(root, destination, config, progress)
 
@@ -403,7 +410,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
 
         examined = run("check", stages.EXAMINE, paths, _plan_examining(paths, within), stages.read_examined)
         copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
-    cache.tell_spoiled()
+    cache.tell()
     repairs = {shape: result.value[0] for shape, result in examined.items()}
     return CheckResult(database, repairs, tuple(failures), copies)
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-import secrets
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+from shapeviz_report.writing import created, leftovers
+
+_TRIAL = ".shapeviz-trial-"
 
 TRIAL_BYTES = 65_536
 """Written to see that a disk is not full: enough for a system to give it a block of its own."""
@@ -56,12 +59,13 @@ def tried(folder: Path) -> Iterator[Path]:
     while not os.path.lexists(existing):
         missing.insert(0, existing.name)
         existing = existing.parent
-    trial = existing / f".shapeviz-trial-{secrets.token_hex(6)}"
-    trial.mkdir()
-    try:
-        inside = trial.joinpath(*missing)
-        inside.mkdir(parents=True, exist_ok=True)
-        (trial / "full").write_bytes(bytes(TRIAL_BYTES))
-        yield trial
-    finally:
-        shutil.rmtree(trial, ignore_errors=True)
+    for left in leftovers(existing, _TRIAL):
+        shutil.rmtree(left, ignore_errors=True)
+    with created(existing, _TRIAL, Path.mkdir) as trial:
+        try:
+            inside = trial.joinpath(*missing)
+            inside.mkdir(parents=True, exist_ok=True)
+            (trial / "full").write_bytes(bytes(TRIAL_BYTES))
+            yield trial
+        finally:
+            shutil.rmtree(trial, ignore_errors=True)

@@ -293,7 +293,7 @@ def _measure(
             measured = _compute(executor, cache, stages.MEASURE, key, lambda: (prepared, site.edges, by_area))
     except MeshError as error:
         raise MeshError(f"the mesh {mesh} cannot be used: {error}") from error
-    cache.tell_spoiled()
+    cache.tell()
     return facts, stages.read_array(measured)
 
 

@@ -15,7 +15,6 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
-from shapeviz_report.cache import write_atomically
 from shapeviz_report.errors import SiteError
 from shapeviz_report.order import natural
 from shapeviz_report.pages import PAGES, Page, PageContent
@@ -40,6 +39,7 @@ from shapeviz_report.site.single_file import (
 )
 from shapeviz_report.site.swap import replaced_folder
 from shapeviz_report.types import Accent, Report
+from shapeviz_report.writing import write_atomically
 
 __all__ = ["check_destination", "write_site"]
 

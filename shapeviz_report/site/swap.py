@@ -12,14 +12,13 @@ import errno
 import fcntl
 import logging
 import os
-import secrets
 import shutil
 from collections.abc import Callable, Iterator, Set
 from contextlib import contextmanager, suppress
-from hashlib import sha256
 from pathlib import Path
 
 from shapeviz_report.site.record import FOLDERS, RECORD, SUMMARY, list_entries
+from shapeviz_report.writing import created, hidden_prefix, leftovers, new_path
 
 logger = logging.getLogger(__name__)
 
@@ -60,69 +59,62 @@ def replaced_folder(destination: Path, find_own: FindOwn) -> Iterator[Path]:
     destination = destination.resolve()
     destination.parent.mkdir(parents=True, exist_ok=True)
     mend(destination, find_own)
-    folder = _sibling(destination, _WRITING)
-    folder.mkdir()
-    lock = os.open(folder, os.O_RDONLY)
-    placing = False
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        yield folder
-        placed = _sibling(destination, _PLACING)
-        folder.rename(placed)
-        folder, placing = placed, True
-        if destination.exists():
-            _carry(destination, folder, find_own(destination))
-            if not _exchange(folder, destination):
-                old = _sibling(destination, _PLACING)
-                destination.rename(old)
-                folder.rename(destination)
-                folder = old
-        else:
-            folder.rename(destination)
-            placing = False
-    finally:
-        if placing:
-            try:
-                _settle(folder, destination, find_own)
-            except OSError as error:
-                logger.warning("%s stays, until the next build can clear it: %s", folder, error)
-        else:
+    with created(destination.parent, hidden_prefix(destination.name, _WRITING), Path.mkdir) as folder:
+        try:
+            yield folder
+            with _placing(destination):
+                _place(folder, destination, find_own)
+        finally:
             shutil.rmtree(folder, ignore_errors=True)
-        os.close(lock)
 
 
-def _sibling(destination: Path, state: str) -> Path:
-    """A new name for a folder beside ``destination``: no longer than 80 characters, however long that one's is."""
-    return destination.parent / (_prefix(destination, state) + secrets.token_hex(6))
+def _place(folder: Path, destination: Path, find_own: FindOwn) -> None:
+    """Put a folder that was written into its place, and take out of there what is not its owner's."""
+    placed = new_path(destination.parent, hidden_prefix(destination.name, _PLACING))
+    folder.rename(placed)
+    if not destination.exists():
+        placed.rename(destination)
+        return
+    try:
+        _carry(destination, placed, find_own(destination))
+        if not _exchange(placed, destination):
+            old = new_path(destination.parent, hidden_prefix(destination.name, _PLACING))
+            destination.rename(old)
+            placed.rename(destination)
+            placed = old
+    finally:
+        try:
+            if destination.exists():
+                _settle(placed, destination, find_own)
+        except OSError as error:
+            logger.warning("%s stays, until the next build can clear it: %s", placed, error)
 
 
-def _prefix(destination: Path, state: str) -> str:
-    digest = sha256(os.fsencode(destination.name)).hexdigest()[:8]
-    return f".{destination.name[:24]}-{digest}.{state}-"
+@contextmanager
+def _placing(destination: Path) -> Iterator[None]:
+    """Inside, no other process places a folder beside this one: two would take each other's files for their owner's."""
+    handle = os.open(destination.parent, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # not every file system has locks
+            fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(handle)
 
 
 def mend(destination: Path, find_own: FindOwn) -> None:
     """Remove what killed writers left beside a folder, and give back what belongs into it. A folder whose writer
     lives is locked and stays."""
-    for state in (_PLACING, _WRITING):
-        prefix = _prefix(destination, state)
-        for name in sorted(os.listdir(destination.parent)):
-            folder = destination.parent / name
-            if not name.startswith(prefix):
-                continue
+    with _placing(destination):
+        for folder in leftovers(destination.parent, hidden_prefix(destination.name, _PLACING)):
             with suppress(OSError):
-                handle = os.open(folder, os.O_RDONLY | os.O_NOFOLLOW)
-                try:
-                    fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                    if state == _WRITING:
-                        shutil.rmtree(folder)
-                    elif destination.exists():
-                        _settle(folder, destination, find_own)
-                    else:
-                        # killed between the two renames of a system that cannot exchange
-                        folder.rename(destination)
-                finally:
-                    os.close(handle)
+                if destination.exists():
+                    _settle(folder, destination, find_own)
+                else:
+                    # killed between the two renames of a system that cannot exchange
+                    folder.rename(destination)
+    for folder in leftovers(destination.parent, hidden_prefix(destination.name, _WRITING)):
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _carry(source: Path, target: Path, own: Set[str]) -> None:
