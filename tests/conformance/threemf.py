@@ -74,6 +74,20 @@ def components(inner: str, number: int = 3) -> str:
 
 TWO_COMPONENTS = components(f'<component objectid="1"/><component objectid="1" {MOVED}/>')
 LATTICE = MESH.replace("</mesh>", '<b:beamlattice minlength="1"><b:beams/></b:beamlattice></mesh>')
+NOTHING = '<object id="2"/>'
+BOTH = ITEM + '<item objectid="2"/>'
+
+
+def compressed_by(method: int) -> bytes:
+    """A package that says that its files are compressed in another way than they are."""
+    data = bytearray(package(one()))
+    for mark, place in ((b"PK\x03\x04", 8), (b"PK\x01\x02", 10)):
+        start = -1
+        while (start := data.find(mark, start + 1)) >= 0:
+            data[start + place] = method
+    return bytes(data)
+
+
 UTF16 = model(ONE, ITEM).replace("UTF-8", "UTF-16").encode("utf-16")
 
 CASES = [
@@ -126,6 +140,16 @@ CASES = [
     refuses("shapes of an extension", one('<object id="1"><b:booleanshape/></object>'), "booleanshape"),
     refuses("objects within themselves", one(components('<component objectid="3"/>'), '<item objectid="3"/>'), "part of itself"),
     refuses("more copies than a computer can hold", one(chain(40, 8), '<item objectid="41"/>'), "triangles"),
+    reads("objects with a mesh without triangles", one(
+        ONE + '<object id="2"><mesh><vertices/><triangles/></mesh></object>', BOTH)),
+    refuses("objects with neither mesh nor components", one(ONE + NOTHING, BOTH), "'2' .* neither a mesh nor components"),
+    refuses("two objects of one id", one(ONE + ONE), "two objects of it have the id '1'"),
+    refuses("two parts of one name", {ROOT: model(ONE, ITEM), ROOT.upper(): model(ONE, ITEM)}, "twice"),
+    refuses("vertices without a coordinate", one(ONE.replace(' y="0"', "", 1)), "<vertex> of it has no y"),
+    refuses("decimal commas", one(ONE.replace('x="2"', 'x="2,0"', 1)), "decimal comma"),
+    refuses("words among numbers", one(ONE.replace('x="2"', 'x="2_0"', 1)), "number belongs: '2_0'"),
+    refuses("transforms of other than 12 numbers", one(build='<item objectid="1" transform="1 0 0 1"/>'), "4 numbers, not 12"),
+    refuses("transforms without a value", one(build=FAR.replace("10", "nan")), "without a value"),
     refuses("objects that are not there", one(build='<item objectid="7"/>'), "not there"),
     refuses("parts that are not there", one(build=f'<item objectid="1" {PATH}/>'), "not in it"),
     refuses("nothing built", one(build=""), "builds nothing"),
@@ -134,5 +158,6 @@ CASES = [
     refuses("cut off XML", {ROOT: model(ONE, ITEM)[:-40]}, "XML is broken"),
     refuses("no relationships", {"_rels/.rels": "<x/>"} | one(), "no part of it"),
     refuses("units that mean nothing", {ROOT: model(ONE, ITEM).replace("millimeter", "cubit")}, "cubit"),
+    Case("compressed as Windows does large files", "mesh.3mf", {"mesh.3mf": compressed_by(9)}, refused="method 9"),
     Case("archives that are cut off", "mesh.3mf", {"mesh.3mf": package(one())[:-30]}, refused="not 3MF, or damaged"),
 ]  # fmt: skip

@@ -360,7 +360,7 @@ class _Reader:
             raise MeshError(
                 f"a face refers to vertex {corners.max()} (counted from 0), but there are {count} vertices"
             )
-        rows, corners = np.unique(corners, return_inverse=True)
+        rows, corners = _used_rows(corners, count)
         faces = _cut_triangles(corners, primitive.get("mode", _TRIANGLES))
         points = self.values(attributes["POSITION"], rows, 3)
         for weight, target in zip(weights, primitive.get("targets", [])):
@@ -484,6 +484,16 @@ def _component(described: Document) -> np.dtype[Any]:
     if kind not in _COMPONENTS:
         raise MeshError(f"it has numbers of the type {kind!r:.20}, which glTF does not know")
     return _COMPONENTS[kind]
+
+
+def _used_rows(corners: Indices, count: int) -> tuple[Indices, Indices]:
+    """Which of ``count`` rows are used, rising, and the place of each corner among them."""
+    if count > 8 * len(corners):  # a small file may announce any number
+        rows, places = np.unique(corners, return_inverse=True)
+        return rows, places
+    used = np.zeros(count, bool)
+    used[corners] = True
+    return np.flatnonzero(used), (np.cumsum(used) - 1)[corners]
 
 
 def _cut_triangles(corners: Indices, mode: int) -> Indices:

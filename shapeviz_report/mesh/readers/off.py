@@ -12,7 +12,8 @@ from shapeviz_report.mesh.readers.text import decode, parse_columns, parse_numbe
 from shapeviz_report.types import FloatArray
 
 # ModelNet has headers such as "OFF1568 1546 0"; the keyword itself is optional by the format's definition
-_HEADER = re.compile(r"\s*(?:(?P<prefix>(?:ST)?C?N?4?n?)OFF\s*(?P<binary>BINARY)?)?", re.IGNORECASE)
+_HEADER = re.compile(r"\s*(?:(?P<prefix>(?:ST|[CN4])*)OFF\s*(?P<binary>BINARY)?)?", re.IGNORECASE)
+_DIMENSIONS = re.compile(r"\s*(\d+)(?=\s)")
 # the number of edges is often missing; it ends its line, or stands in one with the two others
 _COUNTS = re.compile(r"\s*(\d+)\s+(\d+)(?:\s+\d+(?=\s*\n)|[ \t]+\d+(?=\s))?(?=\s|$)")
 
@@ -28,13 +29,18 @@ def read_off(data: bytes) -> PolygonMesh:
     text = strip_comments(decode(data))
     header = _HEADER.match(text)
     assert header is not None  # it matches the empty string
-    counts = _COUNTS.match(text, header.end())
-    prefix = header["prefix"] or ""
-    # a capital N is for normals, a small one for any number of dimensions; all in small letters, it is for normals
-    if "4" in prefix or (prefix.endswith("n") and not header[0].strip().islower()):
-        raise MeshError("it is an OFF file of other than three dimensions")
+    prefix, end = header["prefix"] or "", header.end()
     if header["binary"]:
         raise MeshError("it is a binary OFF file; only the text form is read")
+    if "4" in prefix:
+        raise MeshError("its vertices have four coordinates (4OFF); export it in three dimensions")
+    # a capital N is for normals, a small one for any number of dimensions; all in small letters, it is for normals
+    if "n" in prefix and not header[0].strip().islower():
+        dimensions = _DIMENSIONS.match(text, end)
+        if dimensions is None or int(dimensions[1]) != 3:
+            raise MeshError("it is an OFF file of other than three dimensions (nOFF)")
+        end = dimensions.end()
+    counts = _COUNTS.match(text, end)
     if counts is None:
         raise MeshError("it does not begin with OFF and the numbers of vertices and faces")
     vertex_count, face_count = int(counts[1]), int(counts[2])
@@ -95,8 +101,8 @@ def _read_lines(lines: list[str], vertex_count: int, face_count: int) -> Polygon
     corners: list[str] = []
     for line in lines[vertex_count:]:
         size, *fields = line.split()
-        sizes.append(int(size))
-        if not 0 <= sizes[-1] <= len(fields):
+        sizes.append(int(float(size)))
+        if float(size) != sizes[-1] or not 0 <= sizes[-1] <= len(fields):
             raise MeshError(f"a face announces {size} corners, but its line has {len(fields)}")
         corners.extend(fields[: sizes[-1]])
     return PolygonMesh(

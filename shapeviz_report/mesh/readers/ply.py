@@ -137,6 +137,9 @@ def read_ply(data: bytes) -> PolygonMesh:
     polygons += [_strips(contents[name]) for name in _STRIP_NAMES if name in contents]
     if not polygons and "range_grid" in contents:
         raise MeshError("it is a range scan (range_grid) without faces, which is not read")
+    for name in contents.keys() - {"vertex", "face", "range_grid", *_STRIP_NAMES}:
+        if any(contents[name][key][0].max() > 2 for key in contents[name].keys() & set(_CORNER_NAMES)):
+            raise MeshError(f"its element {name[:40]} lists corners of faces, which are not read")
     return PolygonMesh(
         vertices,
         corners=np.concatenate([np.empty(0, np.int64), *(corners for _, corners in polygons)]),
@@ -229,7 +232,7 @@ def _read_element(body: TextBody | BinaryBody, element: Element) -> dict[str, Co
     for listed in element.properties:
         size = 1
         if listed.count_kind:
-            size = int(body.take(listed.count_kind, 1)[0])
+            size = _take_length(body, listed)
             columns.append((listed.count_kind, 1))
         columns.append((listed.kind, size))
         body.take(listed.kind, size)
@@ -239,6 +242,14 @@ def _read_element(body: TextBody | BinaryBody, element: Element) -> dict[str, Co
     except MeshError:  # lists of different lengths, or the file is cut off: reading row by row tells
         body.position = start
         return _ragged_rows(body, element)
+
+
+def _take_length(body: TextBody | BinaryBody, listed: Property) -> int:
+    """How long the next list is. Raises ``MeshError`` if that is no number of entries."""
+    length = float(body.take(str(listed.count_kind), 1)[0])
+    if not (length >= 0 and length.is_integer()):
+        raise MeshError(f"a list of {listed.name} announces {length:g} entries")
+    return int(length)
 
 
 def _equal_rows(
@@ -261,7 +272,7 @@ def _ragged_rows(body: TextBody | BinaryBody, element: Element) -> dict[str, Col
     values: dict[str, list[Values]] = {listed.name: [] for listed in element.properties}
     for _ in range(element.count):
         for listed in element.properties:
-            size = int(body.take(listed.count_kind, 1)[0]) if listed.count_kind else 1
+            size = _take_length(body, listed) if listed.count_kind else 1
             sizes[listed.name].append(size)
             values[listed.name].append(body.take(listed.kind, size))
     return {name: (np.array(sizes[name], np.int64), np.concatenate(values[name])) for name in sizes}

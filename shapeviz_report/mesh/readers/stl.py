@@ -33,9 +33,10 @@ def read_stl(data: bytes) -> PolygonMesh:
     """
     if len(data) == _HEADER_SIZE + _RECORD.itemsize * _announced(data):
         return _read_binary(data)
-    head = decode(data[:65536]).lstrip().lower()
-    if head.startswith(("solid", "facet")) and _FACET.search(head):
-        return _read_text(decode(data).lower())
+    if decode(data[:65536]).lstrip()[:5].lower() in ("solid", "facet"):
+        text = decode(data).lower()
+        if _FACET.search(text) or "endsolid" in text:
+            return _read_text(text)
     return _read_binary(data)
 
 
@@ -65,14 +66,18 @@ def _read_binary(data: bytes) -> PolygonMesh:
 
 def _read_text(text: str) -> PolygonMesh:
     """Polygons of a text STL in small letters: one a facet, of as many corners as it has vertices."""
-    body, ended = _strip_names(text)
+    body, ended, rest = _strip_names(text)
     facets = body.count("facet") - body.count("endfacet")
     check_faces(facets)
     ends = body.count("endfacet")
-    if not facets == ends == body.count("endloop"):
+    if facets != ends:
         raise MeshError(
             f"it is cut off, or a facet is not ended: it begins {facets:,} facets, and ends {ends:,}"
         )
+    if (loops := body.count("endloop")) != facets:
+        raise MeshError(f"it has {facets:,} facets, but ends {loops:,} loops of vertices")
+    if ended and rest:
+        raise MeshError(f"something else follows its last solid: {rest[:40]!r}")
     if not ended:
         raise MeshError("it may be cut off: its last solid does not end with 'endsolid'")
     for keyword, mark in (
@@ -101,8 +106,8 @@ def _read_text(text: str) -> PolygonMesh:
     return _separate(numbers[corners[:, None] + [1, 2, 3]], sizes)
 
 
-def _strip_names(text: str) -> tuple[str, bool]:
-    """The facets of all solids; and whether the last solid is ended. A name may have any word in it."""
+def _strip_names(text: str) -> tuple[str, bool, str]:
+    """The facets of all solids; whether the last is ended, and what follows it. A name may have any word in it."""
     pieces: list[str] = []
     position, ended = 0, True
     while (found := text.find("solid", position)) >= 0:
@@ -118,7 +123,9 @@ def _strip_names(text: str) -> tuple[str, bool]:
         position = end
     rest = text[position:]
     pieces.append(rest)
-    return " ".join(pieces), ended and (not rest.strip() or position == 0)
+    if position == 0 or _FACET.search(rest):  # facets without a solid, at the beginning or behind the last
+        return " ".join(pieces), position == 0, ""
+    return " ".join(pieces), ended, rest.strip()
 
 
 def _separate(vertices: FloatArray, sizes: Indices) -> PolygonMesh:

@@ -42,7 +42,8 @@ def decode(data: bytes) -> str:
     r"""The text of a file, lines ended by ``\n``.
 
     UTF-16 and UTF-32 are known by their byte order mark, or by where the zeros of the first characters stand. Anything
-    else is taken byte by byte: beyond names and comments a mesh is ASCII. Stray NULs become blanks.
+    else is taken byte by byte: beyond names and comments a mesh is ASCII. Stray NULs, and the mark at which DOS ends a
+    text, become blanks.
     """
     for mark, encoding in _MARKS:
         if data.startswith(mark):
@@ -52,7 +53,7 @@ def decode(data: bytes) -> str:
         text = data.decode(_encoding_without_mark(data[:64]), errors="replace")
     if "\r" in text:
         text = text.replace("\r\n", "\n").replace("\r", "\n")
-    return text.replace("\0", " ")
+    return text.replace("\0", " ").replace("\x1a", " ")
 
 
 def without_mark(data: bytes) -> bytes:

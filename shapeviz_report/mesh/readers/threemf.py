@@ -21,6 +21,7 @@ import numpy as np
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.readers.limits import check_faces, check_unpacked
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, check_indices
+from shapeviz_report.mesh.readers.text import not_numbers, parse_indices, parse_numbers
 from shapeviz_report.types import FloatArray
 
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
@@ -44,6 +45,7 @@ _MILLIMETRES = {
     "meter": 1e3,
 }
 _CHUNK = 2**20
+_MOST_WORDS = 2**18
 
 Key = tuple[str, str]
 """Which object: the path of its part, the number it has there."""
@@ -61,11 +63,14 @@ class Object:
         Of the corners of its triangles, three in turns.
     children : list of (Key, (4, 3) float64 array)
         Objects, and the matrix that a row (x, y, z, 1) is multiplied with to place it.
+    is_shape : bool
+        It has a mesh or components, be they empty.
     """
 
     coordinates: array[float] = field(default_factory=lambda: array("d"))
     indices: array[int] = field(default_factory=lambda: array("q"))
     children: list[tuple[Key, FloatArray]] = field(default_factory=list)
+    is_shape: bool = False
 
 
 @dataclass
@@ -99,7 +104,13 @@ class Package:
 
     def __init__(self, archive: ZipFile) -> None:
         self._archive = archive
-        self._entries: dict[str, ZipInfo] = {_normal(info.filename): info for info in archive.infolist()}
+        self._entries: dict[str, ZipInfo] = {}
+        self._twice: set[str] = set()
+        for info in archive.infolist():
+            path = _normal(info.filename)
+            if path in self._entries:
+                self._twice.add(path)
+            self._entries[path] = info
         self._unpacked = 0
 
     def parse(self, path: str, parser: expat.XMLParserType) -> None:
@@ -107,10 +118,18 @@ class Package:
         entry = self._entries.get(path)
         if entry is None:
             raise MeshError(f"it refers to {path[:100]!r}, which is not in it")
+        if path in self._twice:
+            raise MeshError(f"{path[:100]!r} stands in it twice")
         if entry.flag_bits & 1:
             raise MeshError("it is encrypted")
         check_unpacked(self._unpacked + entry.file_size)
-        with self._archive.open(entry) as file:
+        try:
+            file = self._archive.open(entry)
+        except NotImplementedError as error:
+            raise MeshError(
+                f"it is compressed in a way that is not read (method {entry.compress_type}); save it anew"
+            ) from error
+        with file:
             self._feed(file, parser)
 
     def _feed(self, file: IO[bytes], parser: expat.XMLParserType) -> None:
@@ -170,6 +189,8 @@ def _collect(package: Package) -> tuple[Object, dict[Key, Object]]:
         part = parts[path]
         if number not in part.objects:
             raise MeshError(f"it places object {number[:20]!r} of {path[:100]!r}, which is not there")
+        if not part.objects[number].is_shape:
+            raise MeshError(f"object {number[:20]!r} of {path[:100]!r} has neither a mesh nor components")
         objects[key] = part.objects[number]
         wanted += [child for child, _ in objects[key].children]
     # a component is placed in the unit of the part that places it
@@ -209,28 +230,58 @@ class PartReader:
         self._namespaces: dict[str | None, str] = {}
         self._open: list[str] = []
         self._object = Object()
+        self._coordinates: list[str] = []
+        self._indices: list[str] = []
 
     def _declare(self, prefix: str | None, namespace: str) -> None:
         self._namespaces.setdefault(prefix, namespace)
 
     def _end(self, name: str) -> None:
         self._open.pop()
+        if name in (_VERTICES, _TRIANGLES):
+            self._take_numbers()
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
         parent = self._open[-1] if self._open else ""
         self._open.append(name)
-        if name == _VERTEX and parent == _VERTICES:
-            self._object.coordinates.extend(
-                (float(attributes["x"]), float(attributes["y"]), float(attributes["z"]))
-            )
-        elif name == _TRIANGLE and parent == _TRIANGLES:
-            self._object.indices.extend((int(attributes["v1"]), int(attributes["v2"]), int(attributes["v3"])))
-        elif name == _MODEL and not parent:
+        try:
+            if name == _VERTEX and parent == _VERTICES:
+                self._coordinates += attributes["x"], attributes["y"], attributes["z"]
+            elif name == _TRIANGLE and parent == _TRIANGLES:
+                self._indices += attributes["v1"], attributes["v2"], attributes["v3"]
+            else:
+                self._begin(name, parent, attributes)
+        except KeyError as error:
+            raise MeshError(f"a <{name.rpartition(' ')[2]}> of it has no {error.args[0]}") from error
+        if len(self._coordinates) + len(self._indices) > _MOST_WORDS:
+            self._take_numbers()
+
+    def _take_numbers(self) -> None:
+        """Words that stand where numbers belong become those, many at once."""
+        for words, numbers, parse in (
+            (self._coordinates, self._object.coordinates, parse_numbers),
+            (self._indices, self._object.indices, parse_indices),
+        ):
+            if words:
+                text = " ".join(words)
+                values = parse(text)
+                if values.size != len(words):
+                    raise not_numbers(next((word for word in words if len(word.split()) != 1), ""))
+                numbers.frombytes(values.tobytes())
+                words.clear()
+
+    def _begin(self, name: str, parent: str, attributes: dict[str, str]) -> None:
+        """Whatever is not one of the many."""
+        if name == _MODEL and not parent:
             self.is_model = True
             self._begin_model(attributes)
         elif name == _OBJECT:
             check_faces(sum(len(each.indices) for each in self.part.objects.values()) // 3)
+            if attributes["id"] in self.part.objects:
+                raise MeshError(f"two objects of it have the id {attributes['id'][:20]!r}")
             self._object = self.part.objects[attributes["id"]] = Object()
+        elif name in (_MESH, _COMPONENTS) and parent == _OBJECT:
+            self._object.is_shape = True
         elif name == _COMPONENT:
             self._object.children.append(self._placed(attributes))
         elif name == _ITEM:
@@ -254,15 +305,19 @@ class PartReader:
         if len(words) != 12:
             raise MeshError(f"a transform of it has {len(words)} numbers, not 12")
         key = (_normal(path) if path else self._path, attributes["objectid"])
-        return key, np.array(words, dtype=np.float64).reshape(4, 3)
+        numbers = parse_numbers(" ".join(words))
+        if not np.isfinite(numbers).all():
+            raise MeshError(f"a transform of it has numbers without a value: {' '.join(words)[:60]!r}")
+        return key, numbers.reshape(4, 3)
 
 
-_MODEL, _OBJECT, _MESH, _COMPONENT, _ITEM, _VERTICES, _VERTEX, _TRIANGLES, _TRIANGLE = (
+_MODEL, _OBJECT, _MESH, _COMPONENTS, _COMPONENT, _ITEM, _VERTICES, _VERTEX, _TRIANGLES, _TRIANGLE = (
     f"{_CORE} {name}"
     for name in [
         "model",
         "object",
         "mesh",
+        "components",
         "component",
         "item",
         "vertices",
@@ -272,7 +327,7 @@ _MODEL, _OBJECT, _MESH, _COMPONENT, _ITEM, _VERTICES, _VERTEX, _TRIANGLES, _TRIA
     ]
 )
 _WITHIN = frozenset(
-    {_MESH, _VERTICES, _TRIANGLES, f"{_CORE} components", f"{_CORE} metadatagroup"}
+    {_VERTICES, _TRIANGLES, f"{_CORE} metadatagroup"}
     | {"http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07 trianglesets"}
 )
 """What an object and its mesh may have; anything else is geometry of an extension."""
