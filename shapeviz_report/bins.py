@@ -21,6 +21,9 @@ from shapeviz_report.features import Preset, compared_values
 from shapeviz_report.files import read_regular
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 
+MOST_BYTES = 1024**2
+"""Size of the largest file of bins."""
+
 _DESCRIPTORS = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
 
 
@@ -48,15 +51,16 @@ def read_bins(path: Path, blocks: Sequence[FeatureBlock]) -> tuple[str, ...]:
     """
     columns = {column: place for place, column in enumerate(c for block in blocks for c in block.columns)}
     try:
-        text = read_regular(path).decode("utf-8-sig")
+        text = read_regular(path, MOST_BYTES).decode("utf-8-sig")
         names = _READERS.get(path.suffix.lower(), _read_text)(text)
-    except (OSError, ValueError, csv.Error) as error:
-        raise ConfigError(f"the file of bins {path} cannot be read: {error}") from error
+    except (OSError, ValueError, RecursionError, csv.Error) as error:
+        said = error.strerror if isinstance(error, OSError) else error
+        raise ConfigError(f"the file of bins {path} cannot be read: {said}") from error
     if not names:
         raise ConfigError(f"the file of bins {path} names none; it takes a name such as Agd:6 on each line")
     for name, count in Counter(names).items():
         if name not in columns:
-            raise ConfigError(f"the file of bins {path} names {name!r}: {_missing(name, blocks)}")
+            raise ConfigError(f"the file of bins {path} names {name[:60]!r}: {_missing(name, blocks)}")
         if count > 1:
             raise ConfigError(f"the file of bins {path} names {name!r} {count} times")
     return tuple(sorted(names, key=columns.__getitem__))

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,12 @@ from shapeviz_report.descriptors.kernels.histograms import add_up
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, Mesh
+
+MOST_EXTERNAL_BYTES = 256 * 1024**2
+"""Size of the largest file of a user's own feature."""
+
+MOST_EXTERNAL_COLUMNS = 2000
+"""Columns of a user's own feature, each of which is scored and shown: as many as all of the descriptors have."""
 
 BINS = 10
 """Bins a dimension (paper, 3.4)."""
@@ -251,8 +258,10 @@ def load_external(path: Path, shape_count: int) -> FloatArray:
         The file is not a .npy array of that many rows of finite numbers.
     """
     try:
-        values = np.load(io.BytesIO(read_regular(path)), allow_pickle=False)
-    except (OSError, ValueError) as error:
+        values = np.load(io.BytesIO(read_regular(path, MOST_EXTERNAL_BYTES)), allow_pickle=False)
+    except OSError as error:
+        raise ConfigError(f"the feature file {path} cannot be read: {error.strerror}") from error
+    except (ValueError, TypeError, OverflowError, MemoryError, EOFError, BadZipFile) as error:
         raise ConfigError(f"the feature file {path} cannot be read: {error}") from error
     if not isinstance(values, np.ndarray) or values.ndim not in (1, 2) or values.dtype.kind not in "fiub":
         raise ConfigError(f"the feature file {path} must hold one array of numbers with one row a shape")
@@ -262,6 +271,11 @@ def load_external(path: Path, shape_count: int) -> FloatArray:
             "`shapeviz-report check DATABASE --list` prints them in the order of the rows"
         )
     values = values.reshape(len(values), -1).astype(np.float64)
+    if values.shape[1] > MOST_EXTERNAL_COLUMNS:
+        raise ConfigError(
+            f"the feature file {path} has {values.shape[1]:,} columns, more than {MOST_EXTERNAL_COLUMNS:,}; keep those "
+            "that tell most"
+        )
     if values.shape[1] == 0 or not np.isfinite(values).all():
         raise ConfigError(f"the feature file {path} must hold finite numbers only")
     return values

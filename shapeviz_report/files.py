@@ -6,8 +6,15 @@ import os
 import stat
 from pathlib import Path
 
-MOST_BYTES = 2 * 1024**3
-"""Size of the largest file that is read, in bytes: ten million triangles as text take one GiB or less."""
+MOST_BYTES = 1024**3
+"""Size of the largest file that is read, in bytes: ten million triangles as text take this much or less."""
+
+
+class TooLargeError(OSError):
+    """A file has more bytes than its reader takes."""
+
+    def __init__(self, path: Path, most: int) -> None:
+        super().__init__(0, f"it is larger than {most / 2**20:,.0f} MiB", str(path))
 
 
 def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:
@@ -38,5 +45,5 @@ def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:
         # Python allocates what it is asked for, before it reads; and the size need not be true.
         content = file.read(status.st_size + 1) if status.st_size <= most else b""
     if max(len(content), status.st_size) > most:
-        raise OSError(0, f"it is larger than {most / 2**20:,.0f} MiB", str(path))
+        raise TooLargeError(path, most)
     return content

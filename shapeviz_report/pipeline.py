@@ -614,17 +614,22 @@ class _Runner:
                 except MeshError as error:
                     drop(name, str(error), 0.0)
                     continue
+                except MemoryError:
+                    drop(name, "it is larger than the memory that this machine has left", 0.0)
+                    continue
                 content = self._cache.load(stage.folder, task.key)
                 if content is not None:
                     take(name, task.key, content, 0.0)
                     continue
                 try:
-                    arguments = task.arguments()
+                    arguments = [task.arguments()]
                 except MeshError as error:
                     drop(name, str(error), 0.0)
                     continue
                 sent.append((name, task.key))
-                yield arguments
+                # they may be a gigabyte, and are not to be held while the next ones are made
+                del task
+                yield arguments.pop()
 
         for outcome in self.executor.run(stage.function, open_tasks()):
             name, key = sent[outcome.index]

@@ -35,6 +35,10 @@ from shapeviz_report.types import Database, Failure, ShapeEntry
 CLASSIFICATION_FOLDER = "classification"
 ROOT_CLASS = "0"
 NO_CLASS = "-1"
+MOST_BYTES = 4 * 1024**2
+"""Size of the largest file that is read; the benchmark's have 10 kB."""
+MOST_LEVELS = 20
+"""Classes above one another; each level becomes a labeling. The benchmark has 4."""
 
 _SPLIT_NAME = re.compile(r"(.*?)[-_ ]?(train|test)", re.IGNORECASE)
 
@@ -194,7 +198,7 @@ def _split_of(file: Path) -> tuple[str, str]:
 def _read_cla(file: Path, warnings: list[str]) -> tuple[Category, ...]:
     """Parse one file. Raises ``DatabaseError`` with the line where it is wrong."""
     try:
-        text, _ = decode(read_regular(file))
+        text, _ = decode(read_regular(file, MOST_BYTES))
     except OSError as error:
         raise DatabaseError(f"The classification {file} cannot be read: {error.strerror}.") from error
     tokens = [(token, line) for line, content in enumerate(text.splitlines(), 1) for token in content.split()]
@@ -222,12 +226,16 @@ def _read_cla(file: Path, warnings: list[str]) -> tuple[Category, ...]:
         raise DatabaseError(f"{file} has version {version} of the Princeton format; only version 1 is known.")
     announced = take_count("the number of classes"), take_count("the number of models")
     categories: dict[str, Category] = {}
+    level = {ROOT_CLASS: 0}
     while position < len(tokens):
         name, parent = clean(take("a class")), clean(take("the parent of a class"))
         if name in categories:
             raise wrong(f"the class '{name}' is defined a second time")
         if parent != ROOT_CLASS and parent not in categories:
             raise wrong(f"the parent '{parent}' of the class '{name}' is not defined above it")
+        level[name] = level[parent] + 1
+        if level[name] > MOST_LEVELS:
+            raise wrong(f"the class '{name}' lies more than {MOST_LEVELS} levels deep")
         count = take_count(f"the number of models of the class '{name}'")
         models = tuple(take(f"a model of the class '{name}'") for _ in range(count))
         categories[name] = Category(name, None if parent == ROOT_CLASS else parent, models)

@@ -45,6 +45,12 @@ NO_VALUES = frozenset({"NaN", "nan", "N/A", "n/a", "#N/A", "<NA>"})
 DELIMITERS = (",", ";", "\t", "|")
 LINES_SUFFIXES = (".jsonl", ".ndjson")
 TABLE_SUFFIXES = (".csv", ".tsv", ".json", *LINES_SUFFIXES)
+MOST_BYTES = 64 * 1024**2
+"""Size of the largest table that is read."""
+MOST_CELLS = 5_000_000
+"""Cells of a table, empty ones too: 50 for each of 100,000 shapes."""
+MOST_LETTERS = 131_072
+"""Letters of a cell, as the csv module has it."""
 MOST_CLASSES = 100
 FEWEST_SHAPES_A_CLASS = 3
 
@@ -261,7 +267,7 @@ def _candidates(folder: Path) -> list[Path]:
 
 def _read_text(table: Path) -> tuple[str, bool]:
     try:
-        return decode(read_regular(table))
+        return decode(read_regular(table, MOST_BYTES))
     except OSError as error:
         raise DatabaseError(f"The table {table} cannot be read: {error.strerror}.") from error
 
@@ -303,9 +309,10 @@ def _csv_rows(text: str, table: Path) -> tuple[list[Row], bool]:
             "for instance: file,label.",
         )
     _check_names(columns, header, table)
-    rows = []
+    rows: list[Row] = []
     try:
         for cells in reader:
+            _check_cells(table, len(rows) * len(columns))
             place = f"line {reader.line_num + above}"
             if any(cell.strip() for cell in cells[len(columns) :]):
                 raise DatabaseError(
@@ -321,6 +328,8 @@ def _csv_rows(text: str, table: Path) -> tuple[list[Row], bool]:
 
 
 def _json_rows(text: str, table: Path) -> tuple[list[Row], bool]:
+    # by the characters that part values, before any is made
+    _check_cells(table, text.count(",") + text.count("[") + text.count("{"))
     entries = _json_entries(text, table)
     keys = list(dict.fromkeys(key for _, entry in entries for key in entry))
     names = dict(zip(keys, _columns(keys)))
@@ -329,7 +338,10 @@ def _json_rows(text: str, table: Path) -> tuple[list[Row], bool]:
     rows = []
     for place, entry in entries:
         _check_names([names[key] for key in entry], list(entry), table, place)
-        rows.append(_row(place, {names[key]: _as_text(value) for key, value in entry.items()}))
+        cells = {names[key]: _as_text(value) for key, value in entry.items()}
+        if any(len(cell) > MOST_LETTERS for cell in cells.values()):
+            raise DatabaseError(f"{table}, {place}: a value is longer than {MOST_LETTERS:,} letters.")
+        rows.append(_row(place, cells))
     return rows, FILE_COLUMN in map(_plain, keys)
 
 
@@ -368,6 +380,14 @@ def _json_entries(text: str, table: Path) -> list[tuple[str, dict[str, object]]]
             f'The table {table} is not a list of objects: [{{"file": "a.off", "label": "cup"}}, ...].'
         )
     return entries
+
+
+def _check_cells(table: Path, count: int) -> None:
+    """Refuse a table of too many cells. Raises ``DatabaseError``."""
+    if count > MOST_CELLS:
+        raise DatabaseError(
+            f"The table {table} has more than {MOST_CELLS:,} cells; leave out columns that say nothing of the shapes."
+        )
 
 
 def _objects(values: Sequence[object]) -> bool:

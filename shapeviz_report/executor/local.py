@@ -7,6 +7,7 @@ down takes one task with it and nothing else, and a caller's script is not impor
 from __future__ import annotations
 
 import os
+import pickle
 import signal
 import socket
 import subprocess
@@ -52,15 +53,17 @@ class LocalExecutor:
 
     def run(self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]) -> Iterator[Outcome]:
         """See :meth:`Executor.run`."""
-        waiting = enumerate(tasks)
+        # no `enumerate`, which holds the last of them while the next is made: a task may be a gigabyte
+        waiting, count = iter(tasks), 0
         idle = list(self._workers)
         busy: dict[Connection, tuple[_Worker, int, float]] = {}
         try:
             while True:
-                while len(busy) < self.jobs and (following := next(waiting, None)) is not None:
-                    index, task = following
+                while len(busy) < self.jobs and (task := next(waiting, None)) is not None:
                     worker = self._send((function, task), idle)
-                    busy[worker.connection] = (worker, index, time.monotonic() + self.time_limit)
+                    del task
+                    busy[worker.connection] = (worker, count, time.monotonic() + self.time_limit)
+                    count += 1
                 if not busy:
                     return
                 soonest = min(deadline for _, _, deadline in busy.values())
@@ -127,7 +130,7 @@ class LocalExecutor:
             worker = idle.pop()
             bound(worker.process.pid, self.memory_limit)
             try:
-                worker.connection.send(message)
+                worker.send(message)
                 return worker
             except ConnectionError:
                 # It was killed while it had nothing to do, which is no fault of this task.
@@ -138,7 +141,7 @@ class LocalExecutor:
         bound(worker.process.pid, self.memory_limit)
         # If it ended or refused before it had read all, its answer or its end says so.
         with suppress(ConnectionError):
-            worker.connection.send(message)
+            worker.send(message)
         return worker
 
 
@@ -179,6 +182,12 @@ class _Worker:
                     f"A worker process cannot be started: {error.strerror}. End other programs, or use fewer --jobs."
                 ) from error
         self.connection = Connection(ours.detach())
+        self._tasks = os.fdopen(os.dup(self.connection.fileno()), "wb")
+
+    def send(self, message: tuple[Any, ...]) -> None:
+        """Send a task: the files in it go straight into the pipe, where `Connection.send` would copy all first."""
+        pickle.dump(message, self._tasks, pickle.HIGHEST_PROTOCOL)
+        self._tasks.flush()
 
     @property
     def fate(self) -> str:
@@ -191,6 +200,8 @@ class _Worker:
     def stop(self) -> None:
         """End the process."""
         self.connection.close()
+        # without what it did not take: it may never take it
+        self._tasks.raw.close()
         try:
             # An idle worker sees the closed pipe and goes.
             self.process.wait(timeout=0.2)

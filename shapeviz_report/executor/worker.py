@@ -22,11 +22,12 @@ def serve(descriptor: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _end_with_parent()
     connection = Connection(descriptor)
+    tasks = os.fdopen(descriptor, "rb", closefd=False)
     reported = 0.0
     while True:
         try:
-            function, task = connection.recv()
-        except (EOFError, ConnectionError):
+            function, task = pickle.load(tasks)
+        except (EOFError, ConnectionError, pickle.UnpicklingError):
             return
         except MemoryError as error:
             # The rest of the task is still in the pipe, so this is the last answer.

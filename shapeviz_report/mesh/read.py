@@ -12,7 +12,7 @@ import numpy as np
 
 from shapeviz_report.database.formats import MESH_FORMATS, suffix_of, why_not_read
 from shapeviz_report.errors import MeshError
-from shapeviz_report.files import read_regular
+from shapeviz_report.files import MOST_BYTES, TooLargeError, read_regular
 from shapeviz_report.mesh.readers import READERS
 from shapeviz_report.mesh.readers.gltf import buffer_files, read_gltf, read_header
 from shapeviz_report.mesh.readers.limits import check_faces
@@ -78,10 +78,18 @@ def collect_files(path: Path, within: Path | None = None) -> dict[str, bytes]:
             raise MeshError(
                 "it is not glTF, or damaged: its buffers are not listed as they should be"
             ) from error
+        left = MOST_BYTES - len(files[path.name])
         for name in names:
-            if not (folder / name).resolve().is_relative_to(folder):
+            if name in files:
+                continue
+            try:
+                inside = (folder / name).resolve().is_relative_to(folder)
+            except (OSError, RuntimeError, ValueError):  # a circle of links, or no name that a file can have
+                inside = False
+            if not inside:
                 raise MeshError(f"it refers to {name[:100]!r}, which is not a file in its own folder")
-            files[name] = _read_bytes(folder / name)
+            files[name] = _read_bytes(folder / name, left)
+            left -= len(files[name])
     return files
 
 
@@ -166,8 +174,13 @@ def _explanation(error: Exception) -> str:
     return f" ({detail[:200]})" if _PLACE.search(detail) else ""
 
 
-def _read_bytes(path: Path) -> bytes:
+def _read_bytes(path: Path, most: int = MOST_BYTES) -> bytes:
     try:
-        return read_regular(path)
+        return read_regular(path, most)
+    except TooLargeError as error:
+        raise MeshError(
+            f"it is larger than {MOST_BYTES / 2**20:,.0f} MiB, all its files together; simplify it before it is "
+            "exported"
+        ) from error
     except OSError as error:
         raise MeshError(f"{path.name} cannot be opened: {error.strerror}") from error

@@ -8,7 +8,7 @@ from urllib.parse import urlsplit
 
 from shapeviz_report.config import Config
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.files import read_regular
+from shapeviz_report.files import TooLargeError, read_regular
 from shapeviz_report.publication.accent import fit_accent
 from shapeviz_report.publication.licence import LICENCE_COLUMNS, find_licence
 from shapeviz_report.publication.logo import read_logo
@@ -71,13 +71,13 @@ def _one_line(text: str | None) -> str | None:
 
 def _read_introduction(path: Path) -> str:
     try:
-        content = read_regular(path)
+        content = read_regular(path, MOST_INTRODUCTION)
+    except TooLargeError as error:
+        raise ConfigError(
+            f"the introduction {path} is too large; shorten it to {MOST_INTRODUCTION:,} bytes"
+        ) from error
     except OSError as error:
         raise ConfigError(f"the introduction {path} cannot be read: {error.strerror}") from error
-    if len(content) > MOST_INTRODUCTION:
-        raise ConfigError(
-            f"the introduction {path} has {len(content):,} bytes; shorten it to {MOST_INTRODUCTION:,}"
-        )
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -29,7 +29,7 @@ export function csvText(rows) {
   return `${rows.map((row) => row.map(quoted).join(",")).join("\n")}\n`;
 }
 
-const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+const NUMBER = /^[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?$/i;
 const FORMULA = /^'*[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]/;
 
 /** A cell; text that a spreadsheet program would take for a formula has an apostrophe before it, as cells.py writes it. */

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.readers.limits import check_faces
+from shapeviz_report.mesh.readers.limits import check_faces, check_json
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, cut_fan, cut_strip
 from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, place_nodes
 from shapeviz_report.types import FloatArray
@@ -73,6 +73,7 @@ def read_gltf(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
 def read_header(data: bytes) -> dict[str, Any]:
     """The JSON of a glTF. Raises ``MeshError`` if there is none, or of another version."""
     text = _split_chunks(data)[0] if data.startswith(_BINARY_MAGIC) else data
+    check_json(text)
     try:
         header = json.loads(text)
     except json.JSONDecodeError as error:

@@ -26,6 +26,8 @@ _KINDS = {
 }  # fmt: skip
 _BYTE_ORDERS = {"binary_little_endian": "<", "binary_big_endian": ">"}
 _FIRST_LINE = re.compile(rb"ply[ \t]*(\r\n|\r|\n)", re.IGNORECASE)
+_MOST_HEADER = 2**20
+"""Bytes within which a header ends."""
 _CORNER_NAMES = ("vertex_indices", "vertex_index")
 _STRIP_NAMES = ("tristrips", "tristrip")
 
@@ -161,7 +163,9 @@ def _split_header(data: bytes) -> tuple[str, int]:
     """
     first = _FIRST_LINE.match(data)
     ends = rb"\r" if first and first[1] == b"\r" else rb"\r\n|\r|\n"
-    end = re.search(rb"[\r\n][ \t]*end_header[ \t]*(?:" + ends + rb"|$)", data, re.IGNORECASE)
+    end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:" + ends + rb"|\Z)", re.IGNORECASE).search(
+        data, 0, _MOST_HEADER
+    )
     if first is None or end is None:
         raise MeshError("it has no PLY header")
     return decode(data[: end.start()]), end.end()
@@ -196,14 +200,16 @@ def _strips(strips: dict[str, Column]) -> tuple[Indices, Indices]:
 def _read_header(header: str) -> tuple[str, list[Element]]:
     encoding = ""
     elements: list[Element] = []
+    named: set[str] = set()
     for line in header.split("\n")[1:]:
         match line.lower().split():
             case ["format", name, *_]:
                 encoding = name
-            case ["element", name, _] if any(element.name == name for element in elements):
+            case ["element", name, _] if name in named:
                 raise MeshError(f"its PLY header announces {name} twice")
             case ["element", name, count] if count.lstrip("-").isdecimal():
                 elements.append(Element(name, int(count)))
+                named.add(name)
             case ["property", "list", count_kind, kind, name] if (
                 elements and {kind, count_kind} <= _KINDS.keys()
             ):

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import combinations
 
 import manifold3d
 import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.readers.limits import check_corners
 from shapeviz_report.types import FloatArray, UpAxis
 
 Indices = npt.NDArray[np.int64]
+Triangle = tuple[int, int, int]
 
 _LEAST_HEIGHT = 1e-6
 """A triangle as flat as this, as a fraction of its longest side, has its corners on a line but for rounding."""
@@ -97,6 +101,7 @@ def triangulate(mesh: PolygonMesh) -> Indices:
         With the orientation of the polygons.
     """
     corners, sizes = _drop_repeated(mesh.corners, mesh.sizes)
+    check_corners(int(sizes.max(initial=0)))
     starts = np.cumsum(sizes) - sizes
     triangles = [np.empty((0, 3), np.int64)]
     owners = [np.empty(0, np.int64)]
@@ -199,41 +204,65 @@ def _flip_flat(points: FloatArray, normal: FloatArray, triangles: Indices) -> In
     goes through that corner.
     """
 
-    def height(corners: tuple[int, int, int]) -> float:
-        return float(_least_height(points, normal, np.array([corners])))
+    places, (nx, ny, nz) = points.tolist(), normal.tolist()
 
-    cut = [tuple(triangle) for triangle in triangles.tolist()]
-    heights = [height(triangle) for triangle in cut]
-    for _ in range(4 * len(cut)):
-        flat = [index for index, value in enumerate(heights) if value < _LEAST_HEIGHT]
-        for index in flat:
-            if (flipped := _flip(cut, heights, index, height)) is not None:
-                other, pair = flipped
-                cut[index], cut[other] = pair
-                heights[index], heights[other] = height(pair[0]), height(pair[1])
-                break
-        else:
-            break
+    def height(corners: Triangle) -> float:
+        # as `_least_height`, which takes ten times as long for one
+        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (places[corner] for corner in corners)
+        ux, uy, uz, vx, vy, vz, wx, wy, wz = (
+            bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az, cx - bx, cy - by, cz - bz,
+        )  # fmt: skip
+        area = (uy * vz - uz * vy) * nx + (uz * vx - ux * vz) * ny + (ux * vy - uy * vx) * nz
+        longest = max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz, wx * wx + wy * wy + wz * wz)
+        return area / longest if longest > 0 else 0.0
+
+    cut: list[Triangle] = [(a, b, c) for a, b, c in triangles.tolist()]
+    heights = _least_height(points, normal, triangles[:, None]).tolist()
+    beside: dict[frozenset[int], set[int]] = {}
+    for index, triangle in enumerate(cut):
+        for side in combinations(triangle, 2):
+            beside.setdefault(frozenset(side), set()).add(index)
+    # the first flat triangle first; one that gained nothing is tried again only where a neighbour has changed
+    waiting = [index for index, value in enumerate(heights) if value < _LEAST_HEIGHT]
+    flips = 0
+    while waiting and flips < 4 * len(cut):
+        index = heappop(waiting)
+        if heights[index] >= _LEAST_HEIGHT or (flipped := _flip(cut, heights, beside, index, height)) is None:
+            continue
+        other, pair = flipped
+        changed = set()
+        for place, triangle in zip((index, other), pair):
+            for side in combinations(cut[place], 2):
+                beside[frozenset(side)].discard(place)
+            cut[place], heights[place] = triangle, height(triangle)
+            for side in combinations(triangle, 2):
+                beside.setdefault(frozenset(side), set()).add(place)
+        for side in (side for triangle in pair for side in combinations(triangle, 2)):
+            changed |= beside[frozenset(side)]
+        for place in changed:
+            if heights[place] < _LEAST_HEIGHT:
+                heappush(waiting, place)
+        flips += 1
     return np.array(cut, np.int64)
 
 
 def _flip(
-    cut: list[tuple[int, int, int]],
+    cut: list[Triangle],
     heights: list[float],
+    beside: dict[frozenset[int], set[int]],
     index: int,
-    height: Callable[[tuple[int, int, int]], float],
-) -> tuple[int, tuple[tuple[int, int, int], tuple[int, int, int]]] | None:
+    height: Callable[[Triangle], float],
+) -> tuple[int, tuple[Triangle, Triangle]] | None:
     """The neighbour with which a triangle gains most by exchanging their diagonal, and the two that then are."""
     best, gain = None, heights[index]
     for turn in range(3):
         a, b, c = (cut[index][(turn + corner) % 3] for corner in range(3))
-        for other, triangle in enumerate(cut):
-            if other != index and a in triangle and c in triangle:
-                (d,) = set(triangle) - {a, c} or (b,)
-                pair = ((a, b, d), (b, c, d))
-                least = min(height(pair[0]), height(pair[1]))
-                if d != b and least > min(gain, heights[other]):
-                    best, gain = (other, pair), least
+        for other in sorted(beside[frozenset((a, c))] - {index}):
+            (d,) = set(cut[other]) - {a, c} or (b,)
+            pair = ((a, b, d), (b, c, d))
+            least = min(height(pair[0]), height(pair[1]))
+            if d != b and least > min(gain, heights[other]):
+                best, gain = (other, pair), least
     return best
 
 

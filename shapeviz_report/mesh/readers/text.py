@@ -33,7 +33,7 @@ _NOT_A_NUMBER = re.compile(
 )
 _INFINITE = re.compile(r"(?<!\S)([+-]?)1\.#(?:INF|J)\d*(?!\S)", re.IGNORECASE)
 _NUMBER = re.compile(
-    r"[+-]?(?:(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?|inf|infinity|nan)(?:/[-\d/]*)?", re.IGNORECASE
+    r"[+-]?(?:(?:\d+(?:\.\d*)?|\.\d+)(?:e[+-]?\d+)?|inf|infinity|nan)(?:/[-\d/]*)?", re.IGNORECASE
 )
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(?:e[+-]?\d+)?,?", re.IGNORECASE)
 

@@ -232,6 +232,7 @@ class PartReader:
         self._object = Object()
         self._coordinates: list[str] = []
         self._indices: list[str] = []
+        self._triangles = 0
 
     def _declare(self, prefix: str | None, namespace: str) -> None:
         self._namespaces.setdefault(prefix, namespace)
@@ -258,6 +259,8 @@ class PartReader:
 
     def _take_numbers(self) -> None:
         """Words that stand where numbers belong become those, many at once."""
+        self._triangles += len(self._indices) // 3
+        check_faces(self._triangles)
         for words, numbers, parse in (
             (self._coordinates, self._object.coordinates, parse_numbers),
             (self._indices, self._object.indices, parse_indices),
@@ -276,7 +279,6 @@ class PartReader:
             self.is_model = True
             self._begin_model(attributes)
         elif name == _OBJECT:
-            check_faces(sum(len(each.indices) for each in self.part.objects.values()) // 3)
             if attributes["id"] in self.part.objects:
                 raise MeshError(f"two objects of it have the id {attributes['id'][:20]!r}")
             self._object = self.part.objects[attributes["id"]] = Object()
