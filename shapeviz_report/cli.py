@@ -327,7 +327,7 @@ def _print_found(result: QueryResult, mesh: Path) -> None:
         what = result.bins[0] if len(result.bins) == 1 else f"{len(result.bins)} bins"
     else:
         what = ", ".join(result.features or ())
-    among = f"{result.shapes:,} shapes of {result.database}"
+    among = f"{_count(result.shapes, 'shape', 'shapes')} of {result.database}"
     _say(f"{mesh}: the most similar of {among}, by {what}.")
     if result.left_out:
         _say(f"Left out, for a mesh alone has no value for it: {', '.join(result.left_out)}.")
@@ -348,13 +348,14 @@ def _print_found(result: QueryResult, mesh: Path) -> None:
 
 
 def _print_database(database: Database) -> None:
-    _say(f"{database.name}: {len(database.shapes):,} shapes, read as {database.layout} from {database.root}")
+    shapes = _count(len(database.shapes), "shape", "shapes")
+    _say(f"{database.name}: {shapes}, read as {database.layout} from {database.root}")
 
     for labeling in database.labelings:
         sizes = Counter(s.labels[labeling] for s in database.shapes if labeling in s.labels)
         missing = len(database.shapes) - sum(sizes.values())
-        without = f", {missing} shapes without" if missing else ""
-        _say("", f"Labeling {labeling!r}: {len(sizes)} classes{without}")
+        without = f", {_count(missing, 'shape', 'shapes')} without" if missing else ""
+        _say("", f"Labeling {labeling!r}: {_count(len(sizes), 'class', 'classes')}{without}")
         for label in classes_of(sizes):
             _say(f"  {sizes[label]:6,}  {label}")
     if not database.labelings:
@@ -366,7 +367,7 @@ def _print_database(database: Database) -> None:
 def _print_failures(failures: Sequence[Failure]) -> None:
     if not failures:
         return
-    _say("", f"Cannot be used: {len(failures)} {'file' if len(failures) == 1 else 'files'}")
+    _say("", f"Cannot be used: {_count(len(failures), 'file', 'files')}")
     for failure in failures:
         _say(f"  {failure.path}: {failure.reason}")
 
@@ -398,6 +399,10 @@ def _print_summary(report: Report, destination: Path) -> None:
         _say("", f"Note: {warning}")
     page = destination if destination.is_file() else destination / "index.html"
     _say("", f"The site is ready. Open {page.absolute()}")
+
+
+def _count(number: int, one: str, many: str) -> str:
+    return f"{number:,} {one if number == 1 else many}"
 
 
 def _say(*lines: str, file: TextIO | None = None) -> None:

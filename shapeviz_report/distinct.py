@@ -8,7 +8,14 @@ import numpy as np
 
 from shapeviz_report.quality import hit_range, score
 from shapeviz_report.retrieval import query_classes, rate
-from shapeviz_report.types import FloatArray, IntArray, WithoutCopies, representatives
+from shapeviz_report.types import (
+    BinSelection,
+    FeatureSearch,
+    FloatArray,
+    IntArray,
+    WithoutCopies,
+    representatives,
+)
 
 
 def rate_without_copies(
@@ -18,8 +25,10 @@ def rate_without_copies(
     k: int,
     rows: IntArray,
     distances: Mapping[str, FloatArray],
+    search: FeatureSearch | None = None,
+    automatic: BinSelection | None = None,
 ) -> WithoutCopies | None:
-    """Rate the same maps and the same distances among the first shape of each group of copies.
+    """Rate the same maps and the same distances among one shape of each group of copies.
 
     Parameters
     ----------
@@ -35,17 +44,20 @@ def rate_without_copies(
         The shapes that retrieval took, as rising rows.
     distances : mapping of str to (m, m) float array
         Squared distances of these, by what is compared.
+    search, automatic
+        Whose best maps are rated, too.
 
     Returns
     -------
     WithoutCopies or None
         None where no shape has a copy.
     """
-    kept = representatives(groups)
+    labelled = np.array([label is not None for label in labels])
+    kept = representatives(groups, labelled)
     if len(kept) == len(groups):
         return None
     own = [labels[row] for row in kept]
-    queried = representatives(groups[rows])
+    queried = representatives(groups[rows], labelled[rows])
     classes, codes = query_classes([labels[row] for row in rows[queried]])
     retrieval = {}
     if classes:
@@ -53,9 +65,22 @@ def rate_without_copies(
         for name, squared in distances.items():
             scores = rate(squared[np.ix_(queried, queried)], codes).scores
             retrieval[name] = np.average(scores, axis=0, weights=weights)
+
+    def hit(xy: FloatArray, shown: IntArray, k: int) -> float | None:
+        """NH_s of a map of some rows."""
+        own = representatives(groups[shown], labelled[shown])
+        return score(xy[own], [labels[row] for row in shown[own]], k=k).nh_s
+
+    best = None
+    if search is not None and not np.isnan(search.subsets.nh_s).any():
+        best = hit(search.subsets.xy[int(search.subsets.nh_s.argmax())], search.rows, search.k)
     return WithoutCopies(
         copies=len(groups) - len(kept),
-        nh_s={method: score(xy[kept], own, k=k).nh_s for method, xy in maps.items()},
+        nh_s={method: hit(xy, np.arange(len(labels)), k) for method, xy in maps.items()},
         nh_max=hit_range(own, k).highest,
+        bins=hit(automatic.path[-1].xy, automatic.rows, automatic.k)
+        if automatic and automatic.path
+        else None,
+        best=best,
         retrieval=retrieval,
     )

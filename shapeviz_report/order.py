@@ -9,9 +9,13 @@ from collections.abc import Iterable
 def natural(text: str) -> tuple[object, ...]:
     """A key that sorts as people do: ``cup 2`` before ``cup 10``, capitals among small letters.
 
-    The text itself comes last, so that only equal texts are equal.
+    A text that is nothing but a decimal goes by its value, ``0.25`` before ``0.5``. Inside of names points part counted
+    numbers, ``v1.9`` before ``v1.10``, as file managers have it. The text itself comes last, so that only equal texts
+    are equal.
     """
-    parts = re.split(r"(\d+)", text.casefold(), flags=re.ASCII)
+    decimal = re.fullmatch(r"(\d+)(\.\d+)", text, flags=re.ASCII)
+    # Digits behind a decimal point compare from left to right, as text does.
+    parts = ["", *decimal.groups()] if decimal else re.split(r"(\d+)", text.casefold(), flags=re.ASCII)
     # Split at numbers, every second part is one: text is compared with text, numbers with numbers. A number is
     # compared by its length before its digits, because Python turns no text of thousands of digits into one.
     key = tuple(

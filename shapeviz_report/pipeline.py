@@ -72,6 +72,7 @@ from shapeviz_report.types import (
     Report,
     Retrieval,
     ShapeEntry,
+    distinct_rows,
     group_copies,
 )
 from shapeviz_report.writing import write_atomically
@@ -260,7 +261,7 @@ def build_report(
         examined = run(
             "examine", stages.EXAMINE, described, _plan_examining(paths, within), stages.read_examined
         )
-        copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
+        copies = _compare(run, paths, within, examined)
         groups = group_copies(copies, [s.id for s in shapes])
         rows = [i for i, s in enumerate(database.shapes) if s.id in described]
         features = FeatureTable(
@@ -322,6 +323,8 @@ def build_report(
             config.neighbours,
             space.rows,
             distances,
+            search,
+            found.automatic if found is not None else None,
         )
     report = Report(
         database=database,
@@ -409,7 +412,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         within = None if config.outside else database.root
 
         examined = run("check", stages.EXAMINE, paths, _plan_examining(paths, within), stages.read_examined)
-        copies = _compare(run, paths, {shape: result.value[1] for shape, result in examined.items()})
+        copies = _compare(run, paths, within, examined)
     cache.tell()
     repairs = {shape: result.value[0] for shape, result in examined.items()}
     return CheckResult(database, repairs, tuple(failures), copies)
@@ -669,14 +672,17 @@ class _Runner:
         return outcome.value
 
 
-def _compare(run: _Runner, paths: Mapping[str, Path], outlines: Mapping[str, Outline]) -> tuple[Copy, ...]:
+def _compare(
+    run: _Runner, paths: Mapping[str, Path], within: Path | None, examined: Mapping[str, _Result]
+) -> tuple[Copy, ...]:
     """The shapes that are the same shape again; those whose comparison fails are taken for different."""
+    outlines: dict[str, Outline] = {shape: result.value[1] for shape, result in examined.items()}
     certain, possible = pair_outlines(outlines)
     found: dict[tuple[str, str], Match | None] = {}
     with run.clock.stage("compare", len(possible)) as step:
 
         def plan(pair: tuple[str, str]) -> _Task:
-            first, second = (collect_files(paths[shape]) for shape in pair)
+            first, second = (collect_files(paths[shape], within) for shape in pair)
             names = [stages.identify(paths[shape], files) for shape, files in zip(pair, (first, second))]
             return _Task(stages.COMPARE.key(*names), lambda: (first, second))
 
@@ -865,7 +871,10 @@ def _search_bins(
     everything = squared_distances(scaled[space.rows])
     shared = {"k": config.neighbours, "seed": config.seed}
     questions: list[tuple[str, Sequence[str | None], dict[str, Any]]] = [("select", labels, shared)]
-    held = {"k": config.neighbours, "everything": everything}
+    held: dict[str, Any] = {"k": config.neighbours, "everything": everything}
+    distinct = distinct_rows(groups[space.rows], codes >= 0)
+    if distinct is not None:
+        held["distinct"] = distinct.tolist()
     for deal in range(affordable_deals(len(codes))):
         seed = config.seed + deal
         for fold in deal_folds(codes, seed, groups[space.rows]):

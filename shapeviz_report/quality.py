@@ -135,6 +135,32 @@ def share_of_range(value: float | None, chance: float | None, highest: float | N
     return (value - chance) / (highest - chance)
 
 
+def hits_among(points: FloatArray, codes: np.ndarray, kept: np.ndarray, k: int) -> FloatArray:
+    """NH of some points, with neighbours among these alone.
+
+    Parameters
+    ----------
+    points : (n, d) float array
+    codes : (n,) int array
+        The class of each point, -1 without one.
+    kept : (m,) int array
+        Which points count.
+    k : int
+        Number of neighbours; less where fewer points count.
+
+    Returns
+    -------
+    (n,) float64 array
+        NaN for the other points, for those without a class, and where no two points count.
+    """
+    hits = np.full(len(points), np.nan)
+    k = min(k, len(kept) - 1)
+    if k >= 1:
+        found = neighbourhood_hits(neighbour_weights(points[kept], k), codes[kept])
+        hits[kept] = np.where(codes[kept] >= 0, found, np.nan)
+    return hits
+
+
 def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
     """The k nearest neighbours of every point, as weights that add up to 1 in every row.
 

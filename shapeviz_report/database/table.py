@@ -57,6 +57,8 @@ FEWEST_SHAPES_A_CLASS = 3
 _EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
 _SECOND_OBJECT = re.compile(r"\s*\{.*\}[ \t\r]*\n\s*\{")
 """An object that ends on its line and another below, without a comma: JSON lines, whatever the file is called."""
+_COUNTED = re.compile(r"^0*(\d+)(?:\.0+)?(\.[a-z]\w*)?$", re.ASCII)
+"""A name that is a whole number, with or without a suffix."""
 _csv_reader = partial(csv.reader, skipinitialspace=True)
 
 
@@ -482,8 +484,8 @@ class _Finder:
         """The file, or the folder, that a table means; None if nothing is there, or it cannot be said which.
 
         A path that does not exist as written is also tried with Windows' separators turned, then in other Unicode
-        normal forms, which tables and file systems exchange behind their users' backs, then in another case; each also
-        with the suffixes of meshes.
+        normal forms, which tables and file systems exchange behind their users' backs, then in another case, then as a
+        number that a spreadsheet has written its own way; each also with the suffixes of meshes.
         """
         spellings = list(dict.fromkeys((file, file.replace("\\", "/"))))
         for spelling in spellings:
@@ -493,7 +495,7 @@ class _Finder:
                     return Path(path + suffix)
             if os.path.lexists(path):
                 return Path(path)
-        for like in (_composed, _any_case):
+        for like in (_composed, _any_case, _as_number):
             for spelling in spellings:
                 if found := self._find_like(spelling, like):
                     return found
@@ -531,6 +533,11 @@ def _composed(name: str) -> str:
 
 def _any_case(name: str) -> str:
     return _composed(_composed(name).casefold())
+
+
+def _as_number(name: str) -> str:
+    """The name without what spreadsheets add to a number, ``.0``, and what they take away, zeros in front."""
+    return _COUNTED.sub(r"\1\2", _any_case(name))
 
 
 def _count_unlisted(root: Path, rows: Sequence[Row], finder: _Finder) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -12,7 +12,8 @@ import numpy.typing as npt
 from shapeviz_report import charts
 from shapeviz_report.order import classes_of
 from shapeviz_report.projections import PROJECTIONS
-from shapeviz_report.types import FloatArray, Projection, Report
+from shapeviz_report.search.certainty import measure_distinct_gain
+from shapeviz_report.types import FloatArray, HeldOutBins, HeldOutFold, Projection, Report
 
 #: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
 COORDINATE_STEPS = 32767
@@ -36,6 +37,19 @@ class PageContent:
 
     context: Mapping[str, object]
     chunks: Mapping[str, object] = field(default_factory=dict)
+
+
+def distinct_means(folds: Sequence[HeldOutFold | HeldOutBins]) -> dict[str, object] | None:
+    """What held-out shapes reach where one of each group of copies stands for all of it; None where there are none."""
+    gain = measure_distinct_gain(folds)
+    if gain is None:
+        return None
+    shapes = [fold.shapes for fold in folds]
+    own, everything = (
+        float(np.average([getattr(fold, name) for fold in folds], weights=shapes))
+        for name in ("nh_s_distinct", "nh_s_all_distinct")
+    )
+    return {"nh_s": own, "all": everything, "gain": gain}
 
 
 class Page(Protocol):

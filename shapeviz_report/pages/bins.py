@@ -16,6 +16,7 @@ from shapeviz_report.pages.base import (
     PageContent,
     class_names,
     coordinate_steps,
+    distinct_means,
     rounded,
 )
 from shapeviz_report.quality import hit_range
@@ -206,6 +207,8 @@ def _headline(report: Report, found: BinSearch) -> dict[str, object]:
         "deals": len({fold.deal for fold in found.held_out}),
         "held_out": _means(found.held_out),
         "gain": measure_gain(found.held_out),
+        "distinct": distinct_means(found.held_out),
+        "without_copies": report.without_copies,
         "recognition_gain": measure_gain(found.held_out, "knn_accuracy", "knn_accuracy_all"),
         "shuffled": _means(found.shuffled),
         "shuffled_seen": mean_over_folds(found.shuffled, "nh_s_seen"),

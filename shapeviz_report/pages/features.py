@@ -16,6 +16,7 @@ from shapeviz_report.pages.base import (
     PageContent,
     class_names,
     coordinate_steps,
+    distinct_means,
     feature_marks,
     rounded,
 )
@@ -212,6 +213,7 @@ def _context(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[st
         "spread": _spread(search.spread, search.features) if search.spread else None,
         "held_out": _held_out(search.held_out) if search.held_out else None,
         "chance": _range(report, search).chance,
+        "without_copies": report.without_copies,
         "chance_best": _chance_best(search) if len(search.null_best) else None,
         "table": search.table,
     }
@@ -265,7 +267,12 @@ def _held_out(folds: tuple[HeldOutFold, ...]) -> dict[str, object]:
         deals.append(
             {"number": number, "seed": own[0].seed, "folds": len(own), "picked": picked, **_means(own)}
         )
-    return {"deals": deals, **_means(folds), "gain": measure_gain(folds)}
+    return {
+        "deals": deals,
+        **_means(folds),
+        "gain": measure_gain(folds),
+        "distinct": distinct_means(folds),
+    }
 
 
 def _means(folds: Sequence[HeldOutFold]) -> dict[str, float]:

@@ -78,7 +78,7 @@ def describe_fields(report: Report) -> list[dict[str, object]]:
         found.append(_clusters(report.clusters))
     if report.copies:
         copied = {shape for copy in report.copies for shape in (copy.first, copy.second)}
-        has = ["has copies" if shape.id in copied else None for shape in report.shapes]
+        has = ["has copies" if shape.id in copied else "no copies" for shape in report.shapes]
         found.append(_field("copies", "Copies") | _values(has, natural))
     for key, title, unit, measure in _FACTS:
         found.append(_numbers(f"fact:{key}", title, [measure(facts) for facts in report.facts], unit))

@@ -154,6 +154,7 @@ def _marks(class_count: int) -> dict[str, object]:
 def _details(report: Report) -> dict[str, object]:
     """What is known of every shape beyond its place: loaded when a reader opens one, or searches."""
     row = {shape.id: index for index, shape in enumerate(report.shapes)}
+    name = [shape.name for shape in report.shapes]
     return {
         "labelings": list(report.database.labelings),
         "shapes": [
@@ -161,7 +162,10 @@ def _details(report: Report) -> dict[str, object]:
                 "labels": [shape.labels.get(labeling) for labeling in report.database.labelings],
                 # Pairs, because a column may have any name, "__proto__" included.
                 "metadata": [[key, value] for key, value in shape.metadata.items()],
-                "copies": [[row[other], match.words] for other, match in copies_of(report.copies, shape.id)],
+                "copies": [
+                    [row[other], f"as {name[row[found]]}" if isinstance(found, str) else found.words]
+                    for other, found in copies_of(report.copies, shape.id)
+                ],
                 "repairs": [[repair, count] for repair, count in facts.repairs.items()],
                 "faces": facts.faces,
                 "vertices": facts.vertices,

@@ -126,6 +126,13 @@ def measure_gain(
     return Gain(float(by_deal.mean()), float(max(spreads)) if spreads else None, len(by_deal))
 
 
+def measure_distinct_gain(folds: Sequence[HeldOutFold | HeldOutBins]) -> Gain | None:
+    """The same where one shape of each group of copies stands for all of it; None where there are no copies."""
+    if not folds or folds[0].nh_s_distinct is None:
+        return None
+    return measure_gain(folds, "nh_s_distinct", "nh_s_all_distinct")
+
+
 def seen_scores(weights: csr_matrix, codes: Codes, held_out: Codes) -> FloatArray:
     """NH_s of each map as it looks without the labels of some shapes.
 

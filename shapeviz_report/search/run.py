@@ -10,7 +10,13 @@ from scipy.sparse import csr_matrix, vstack
 
 from shapeviz_report.order import classes_of
 from shapeviz_report.projections import turn_towards
-from shapeviz_report.quality import NEIGHBOURS, highest_hits, neighbour_weights, neighbourhood_hits
+from shapeviz_report.quality import (
+    NEIGHBOURS,
+    highest_hits,
+    hits_among,
+    neighbour_weights,
+    neighbourhood_hits,
+)
 from shapeviz_report.search.certainty import (
     DEALS,
     best_by_chance,
@@ -31,6 +37,7 @@ from shapeviz_report.types import (
     SearchRow,
     SeedSpread,
     SubsetScores,
+    distinct_rows,
 )
 
 EXHAUSTIVE_LIMIT = 10
@@ -122,10 +129,12 @@ class _Search:
         self.labelled = self.codes >= 0
         self.k = min(k, len(labels) - 1)
         self.scored = self.k >= 1 and bool(self.classes)
+        self.kept = None if groups is None else distinct_rows(groups, self.labelled)
         self.highest = highest_hits(self.codes, max(self.k, 1))
         self.maps: dict[int, np.ndarray] = {}
         self.weights: dict[tuple[int, int], csr_matrix] = {}
         self.hits: dict[tuple[int, int], np.ndarray] = {}
+        self.distinct_hits: dict[tuple[int, int], np.ndarray] = {}
         self.seconds: dict[tuple[int, int], float] = {}
 
     def run(self, rounds: int) -> FeatureSearch:
@@ -187,6 +196,10 @@ class _Search:
                 weights = neighbour_weights(xy.astype(np.float64), self.k)
                 hits[self.labelled] = neighbourhood_hits(weights, self.codes)[self.labelled]
                 self.weights[seed, subset] = weights
+                if self.kept is not None:
+                    self.distinct_hits[seed, subset] = hits_among(
+                        xy.astype(np.float64), self.codes, self.kept, self.k
+                    )
             self.hits[seed, subset] = hits
 
     def score(self, seed: int, subset: int) -> float:
@@ -282,9 +295,14 @@ class _Search:
 
     def fold(self, deal: int, seed: int, chosen: int, seen: float, shapes: np.ndarray) -> HeldOutFold:
         """What the subset that was chosen without some shapes reaches on these."""
-        own, everything = (
-            float(self.hits[seed, subset][shapes].mean()) for subset in (chosen, self.space.everything)
-        )
+        subsets = (chosen, self.space.everything)
+        own, everything = (float(self.hits[seed, subset][shapes].mean()) for subset in subsets)
+        own_distinct, everything_distinct = None, None
+        if self.kept is not None:
+            distinct = np.intersect1d(shapes, self.kept)
+            own_distinct, everything_distinct = (
+                float(self.distinct_hits[seed, subset][distinct].mean()) for subset in subsets
+            )
         return HeldOutFold(
             deal=deal,
             seed=seed,
@@ -294,6 +312,8 @@ class _Search:
             nh_s=own,
             nh_s_all=everything,
             nh_max=float(self.highest[shapes].mean()),
+            nh_s_distinct=own_distinct,
+            nh_s_all_distinct=everything_distinct,
         )
 
     def forget_neighbours(self, seed: int) -> None:

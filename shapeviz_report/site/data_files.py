@@ -18,7 +18,7 @@ import numpy as np
 from shapeviz_report.cells import write_cell
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.quality import hit_range, share_of_range
-from shapeviz_report.search.certainty import measure_gain
+from shapeviz_report.search.certainty import measure_distinct_gain, measure_gain
 from shapeviz_report.site.retrieval_data import (
     named_scores,
     retrieval_class_rows,
@@ -32,6 +32,7 @@ from shapeviz_report.types import (
     FeatureSearch,
     Gain,
     HeldOutBins,
+    HeldOutFold,
     HitRange,
     Report,
     WithoutCopies,
@@ -149,6 +150,8 @@ def _without_copies(found: WithoutCopies) -> dict[str, object]:
         "projections": {
             method: {"nh_s": _finite(nh_s), "nh_max": found.nh_max} for method, nh_s in found.nh_s.items()
         },
+        "bins": None if found.bins is None else {"nh_s": found.bins},
+        "best": None if found.best is None else {"nh_s": found.best},
         "retrieval": {name: named_scores(scores) for name, scores in found.retrieval.items()},
     }
 
@@ -262,10 +265,12 @@ def _search(report: Report, search: FeatureSearch) -> dict[str, object]:
                 "nh_s": fold.nh_s,
                 "nh_s_all": fold.nh_s_all,
                 "nh_max": fold.nh_max,
+                **_distinct(fold),
             }
             for fold in search.held_out
         ],
         "held_out_gain": _gain(measure_gain(search.held_out)) if search.held_out else None,
+        "held_out_gain_without_copies": _gain(measure_distinct_gain(search.held_out)),
         "null_best": search.null_best.tolist(),
         "effects": {
             effect.feature: {
@@ -388,6 +393,7 @@ def _bins(report: Report, found: BinSearch) -> dict[str, object]:
             "held_out": _folds(found.held_out)
             | {
                 "gain": _gain(measure_gain(found.held_out)),
+                "gain_without_copies": _gain(measure_distinct_gain(found.held_out)),
                 "knn_gain": _gain(measure_gain(found.held_out, "knn_accuracy", "knn_accuracy_all")),
             },
             "permuted": _folds(found.shuffled) | {"chance": found.chance},
@@ -433,13 +439,20 @@ def _folds(folds: Sequence[HeldOutBins]) -> dict[str, object]:
                 "bins": list(fold.bins),
                 "shapes": fold.shapes,
                 **{name: getattr(fold, name) for name in names},
+                **_distinct(fold),
             }
             for fold in folds
         ],
     }
 
 
-def _gain(gain: Gain) -> dict[str, object]:
+def _distinct(fold: HeldOutFold | HeldOutBins) -> dict[str, object]:
+    return {"nh_s_distinct": fold.nh_s_distinct, "nh_s_all_distinct": fold.nh_s_all_distinct}
+
+
+def _gain(gain: Gain | None) -> dict[str, object] | None:
+    if gain is None:
+        return None
     return {"mean": gain.mean, "spread": gain.spread, "deals": gain.deals, "sure": gain.is_sure}
 
 

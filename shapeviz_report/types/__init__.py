@@ -16,7 +16,15 @@ from shapeviz_report.types.bins import (
     Painting,
 )
 from shapeviz_report.types.clusters import Cluster, Clusters
-from shapeviz_report.types.copies import Copy, Match, WithoutCopies, copies_of, group_copies, representatives
+from shapeviz_report.types.copies import (
+    Copy,
+    Match,
+    WithoutCopies,
+    copies_of,
+    distinct_rows,
+    group_copies,
+    representatives,
+)
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import HitRange, Projection, Quality
@@ -80,6 +88,7 @@ __all__ = [
     "UpAxis",
     "WithoutCopies",
     "copies_of",
+    "distinct_rows",
     "group_copies",
     "representatives",
 ]

@@ -121,6 +121,9 @@ class HeldOutBins:
         What no map exceeds for these shapes.
     knn_accuracy, knn_accuracy_all : float
         Share of the held-out shapes that their k nearest others recognise, by the bins and by all features.
+    nh_s_distinct, nh_s_all_distinct : float or None
+        ``nh_s`` and ``nh_s_all`` where one shape of each group of copies stands for all of it, as neighbour too; None
+        where there are no copies.
     """
 
     deal: int
@@ -133,6 +136,8 @@ class HeldOutBins:
     nh_max: float
     knn_accuracy: float
     knn_accuracy_all: float
+    nh_s_distinct: float | None = None
+    nh_s_all_distinct: float | None = None
 
 
 @dataclass(frozen=True)
@@ -172,11 +177,6 @@ class MinimalBins:
     label: str
     rows: IntArray
     sets: tuple[MinimalSet, ...]
-
-    def fewest(self, nh_c: float) -> MinimalSet:
-        """The smallest set that reaches an NH_c in the space of the bins and on the map; else the best one."""
-        reached = (found for found in self.sets if min(found.nh_c_space, found.nh_c) >= nh_c)
-        return next(reached, max(self.sets, key=lambda found: min(found.nh_c_space, found.nh_c)))
 
 
 @dataclass(frozen=True)

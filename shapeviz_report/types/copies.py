@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
@@ -14,6 +15,7 @@ from shapeviz_report.types.arrays import FloatArray, IntArray
 IDENTICAL_FILE = "identical file"
 IDENTICAL_GEOMETRY = "identical geometry"
 SAME_SURFACE = "same surface"
+NEARLY_SAME_SURFACE = "nearly the same surface"
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,8 @@ class Match:
     ----------
     kind : str
         ``IDENTICAL_FILE``: the same bytes. ``IDENTICAL_GEOMETRY``: the same triangles, up to rounding, in any order.
-        ``SAME_SURFACE``: other triangles on the same surface.
+        ``SAME_SURFACE``: other triangles on the same surface. ``NEARLY_SAME_SURFACE``: so many triangles fewer, or
+        so much of the surface moved, that the two can be told apart.
     distance, largest : float
         The root mean square and the maximum of the distances from points of each to the other, as fractions of the
         size of the shape (the diagonal of its bounding box).
@@ -44,8 +47,10 @@ class Match:
     def words(self) -> str:
         """The evidence as a reader finds it; begins with the kind."""
         said = [self.kind]
-        if self.kind == SAME_SURFACE:
-            said[0] += f" within {100 * self.distance:.2g} % of its size, {100 * self.largest:.2g} % at most"
+        if self.kind in (SAME_SURFACE, NEARLY_SAME_SURFACE):
+            said[0] += (
+                f": {100 * self.distance:.2g} % of its size apart on average, {100 * self.largest:.2g} % at most"
+            )
         if self.mirrored:
             said.append("mirrored")
         if abs(self.scale - 1) > 1e-3:
@@ -69,20 +74,32 @@ class Copy:
     match: Match
 
 
-def copies_of(copies: Sequence[Copy], shape: str) -> list[tuple[str, Match]]:
-    """The other shape of each pair that a shape, by id, is in, and how that one lies on it."""
-    found = []
+def copies_of(copies: Sequence[Copy], shape: str) -> list[tuple[str, Match | str]]:
+    """All shapes of the group of copies that a shape, by id, is in, the nearest in the chain first.
+
+    Returns
+    -------
+    list of (str, Match or str)
+        The other's id and how it lies on the shape; where the two were not laid on each other, the id of the shape
+        through which one is a copy of the other.
+    """
+    beside: dict[str, dict[str, Match]] = {}
     for copy in copies:
-        if shape == copy.first:
-            found.append((copy.second, copy.match))
-        elif shape == copy.second:
-            found.append((copy.first, replace(copy.match, scale=1 / copy.match.scale)))
-    return found
+        beside.setdefault(copy.first, {})[copy.second] = copy.match
+        beside.setdefault(copy.second, {})[copy.first] = replace(copy.match, scale=1 / copy.match.scale)
+    found: dict[str, Match | str] = dict(beside.get(shape, {}))
+    waiting = list(found)
+    for other in waiting:
+        for farther in beside[other]:
+            if farther != shape and farther not in found:
+                found[farther] = other
+                waiting.append(farther)
+    return list(found.items())
 
 
 @dataclass(frozen=True)
 class WithoutCopies:
-    """Figures of a database in which the first of each group of copies stands for all of it.
+    """Figures of a database in which one of each group of copies stands for all of it.
 
     Attributes
     ----------
@@ -92,6 +109,10 @@ class WithoutCopies:
         Of the same maps, by method, with neighbours among the shapes that are left.
     nh_max : float or None
         What none of these can exceed; the classes are smaller than with copies.
+    bins : float or None
+        NH_s of the map of the automatic selection of bins, in the same way; None where there is none.
+    best : float or None
+        The same of the subset of features whose map is best with copies.
     retrieval : mapping of str to (6,) float64 array
         :data:`shapeviz_report.retrieval.MEASURES` on average over shapes: by ``everything``, and by ``bins`` where some
         were rated. Empty where no class has two shapes left.
@@ -100,13 +121,15 @@ class WithoutCopies:
     copies: int
     nh_s: Mapping[str, float | None]
     nh_max: float | None
+    bins: float | None
+    best: float | None
     retrieval: Mapping[str, FloatArray]
 
 
 def group_copies(copies: Sequence[Copy], ids: Sequence[str]) -> IntArray:
     """The group of copies of each shape: a number (n,) that shapes share exactly if a chain of copies joins them.
 
-    Groups are numbered by their first shape, which stands for them; a shape without a copy is a group of its own.
+    Groups are numbered by their first shape; a shape without a copy is a group of its own.
     """
     place = {shape: row for row, shape in enumerate(ids)}
     pairs = [(place[c.first], place[c.second]) for c in copies if c.first in place and c.second in place]
@@ -117,6 +140,13 @@ def group_copies(copies: Sequence[Copy], ids: Sequence[str]) -> IntArray:
     return np.argsort(np.argsort(first))[of].astype(np.int32)
 
 
-def representatives(groups: IntArray) -> IntArray:
-    """The first shape of each group, as rising rows."""
-    return np.sort(np.unique(groups, return_index=True)[1])
+def representatives(groups: IntArray, labelled: npt.NDArray[np.bool_]) -> IntArray:
+    """The shape that stands for each group, the first that has a label, or the first; as rising rows."""
+    order = np.argsort(~labelled, kind="stable")
+    return np.sort(order[np.unique(groups[order], return_index=True)[1]])
+
+
+def distinct_rows(groups: IntArray, labelled: npt.NDArray[np.bool_]) -> IntArray | None:
+    """The representatives; None where no shape has a copy, and where a single shape would be left."""
+    kept = representatives(groups, labelled)
+    return kept if 1 < len(kept) < len(groups) else None

@@ -182,6 +182,9 @@ class HeldOutFold:
         NH_s of the same shapes on the map of all features.
     nh_max : float
         What NH_s of these shapes cannot exceed on any map.
+    nh_s_distinct, nh_s_all_distinct : float or None
+        ``nh_s`` and ``nh_s_all`` where one shape of each group of copies stands for all of it, as neighbour too; None
+        where there are no copies.
     """
 
     deal: int
@@ -192,6 +195,8 @@ class HeldOutFold:
     nh_s: float
     nh_s_all: float
     nh_max: float
+    nh_s_distinct: float | None = None
+    nh_s_all_distinct: float | None = None
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,7 @@
-"""Every number that decides a value has a name, and stands under it in docs/method.md."""
+"""What the modules of the features and of NH bind to a name in capitals stands under it in docs/method.md.
+
+What a number does without a name, in an expression, is not looked for.
+"""
 
 from __future__ import annotations
 

@@ -9,10 +9,10 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from shapeviz_report import demo
-from shapeviz_report.copies import Outline, compare, join_copies, outline, pair_outlines
+from shapeviz_report.copies import NEARLY_DISTANCE, Outline, compare, join_copies, outline, pair_outlines
 from shapeviz_report.mesh import clean, parse_mesh
 from shapeviz_report.search.certainty import deal_folds
-from shapeviz_report.types import Copy, Match, Mesh, copies_of, group_copies, representatives
+from shapeviz_report.types import Copy, Match, Mesh, copies_of, distinct_rows, group_copies, representatives
 
 TURN = Rotation.from_rotvec([0.3, -1.1, 0.7]).as_matrix()
 
@@ -65,18 +65,44 @@ def test_a_copy_is_found_with_what_was_done_to_it(how: str, kind: str, mirrored:
 
 
 @pytest.mark.parametrize("how", ["moved and scaled", "mirrored", "refined"])
-@pytest.mark.parametrize("solid", ["box", "cube", "ring", "sheet"])
+@pytest.mark.parametrize("solid", ["box", "cube", "ring", "sheet", "faceted ball", "prism", "cone"])
 def test_symmetric_and_flat_shapes_are_found_too_and_need_no_mirror(solid: str, how: str) -> None:
     made = {
         "box": trimesh.creation.box((2, 3, 4)),
         "cube": trimesh.creation.box((1, 1, 1)),
         "ring": trimesh.creation.torus(1, 0.3, 24, 12),
+        "faceted ball": trimesh.creation.icosphere(1),
+        "prism": trimesh.creation.cylinder(0.5, 1.3, sections=5),
+        "cone": trimesh.creation.cone(0.5, 1.3, sections=7),
         "sheet": trimesh.Trimesh([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]),
     }[solid]
     original = Mesh(np.array(made.vertices, float), np.array(made.faces, np.int32))
     found = match(original, changed(original, how))
     assert found is not None
     assert not found.mirrored
+
+
+@pytest.mark.parametrize("name", ["ant", "chair", "cup", "human", "table", "teddy"])
+def test_few_faces_leave_nearly_the_same_surface(name: str) -> None:
+    original = demo_mesh(name, 3)
+    vertices, faces = fast_simplification.simplify(original.vertices, original.faces.astype(np.int64), 0.9)
+    found = match(original, Mesh(np.asarray(vertices, float) @ TURN.T, np.asarray(faces, np.int32)))
+    assert found is not None
+    assert found.kind in ("same surface", "nearly the same surface")
+    assert found.distance < NEARLY_DISTANCE
+
+
+def test_parts_that_lie_close_are_measured_exactly() -> None:
+    """A soup of long thin blades, as models of bicycles are: the nearest face is not that of the nearest sample."""
+    random = np.random.default_rng(3)
+    middles, along = random.random((400, 3)), random.standard_normal((400, 3))
+    blades = middles[:, None] + np.stack(
+        [-along / 4, along / 4, along / 4 + 0.004 * random.random((400, 3))], axis=1
+    )
+    original = Mesh(blades.reshape(-1, 3), np.arange(1200, dtype=np.int32).reshape(-1, 3))
+    found = match(original, changed(original, "moved and scaled"))
+    assert found is not None
+    assert found.kind == "identical geometry"
 
 
 def test_boxes_of_other_proportions_are_no_copies() -> None:
@@ -113,7 +139,13 @@ def test_groups_follow_chains_of_copies() -> None:
     assert [(copy.first, copy.second) for copy in found] == [("b", "e"), ("c", "e")]
     groups = group_copies(found, ids)
     assert groups.tolist() == [0, 1, 1, 2, 1]
-    assert representatives(groups).tolist() == [0, 1, 3]
+    everyone = np.ones(5, bool)
+    assert representatives(groups, everyone).tolist() == [0, 1, 3]
+    # One with a label stands for those without.
+    assert representatives(groups, np.array([True, False, True, True, True])).tolist() == [0, 2, 3]
+    assert distinct_rows(groups, everyone).tolist() == [0, 1, 3]
+    assert distinct_rows(np.arange(5), everyone) is None
+    assert distinct_rows(np.zeros(5, int), everyone) is None
     assert group_copies([Copy("a", "gone", Match("identical file"))], ids).tolist() == [0, 1, 2, 3, 4]
 
 
@@ -126,6 +158,27 @@ def test_each_of_a_pair_names_the_other_as_it_lies_on_it() -> None:
         ("a", "identical geometry, mirrored, scaled by 0.25")
     ]
     assert copies_of(found, "c") == []
+
+
+def test_a_shape_names_its_whole_group_and_through_whom() -> None:
+    same = Match("identical file")
+    found = [Copy("a", "b", same), Copy("b", "c", same), Copy("c", "d", same), Copy("x", "y", same)]
+    assert copies_of(found, "a") == [("b", same), ("c", "b"), ("d", "c")]
+    assert copies_of(found, "c") == [("b", same), ("d", same), ("a", "b")]
+    assert copies_of(found, "x") == [("y", same)]
+
+
+def test_more_copies_than_are_looked_for_beside_each_shape_make_one_group() -> None:
+    outlines = {}
+    for name, size in (("cube", (1, 1, 1)), ("beam", (1, 1, 6))):
+        for number in range(30):
+            made = trimesh.creation.box(size)
+            turn = Rotation.random(random_state=number).as_matrix()
+            mesh = clean(Mesh(np.array(made.vertices @ turn.T, float), np.array(made.faces, np.int32)))[0]
+            outlines[f"{name} {number}"] = Outline(f"{name} {number}", outline(mesh))
+    _, possible = pair_outlines(outlines)
+    found = join_copies([], {pair: Match("identical geometry") for pair in possible}, list(outlines))
+    assert group_copies(found, list(outlines)).tolist() == [0] * 30 + [1] * 30
 
 
 def test_no_fold_parts_copies() -> None:

@@ -9,10 +9,10 @@ from reports import make_report, with_copies, with_retrieval
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.pages.features import FeaturesPage
 from shapeviz_report.pages.overview import OverviewPage
-from shapeviz_report.quality import score
+from shapeviz_report.quality import hits_among, neighbour_weights, neighbourhood_hits, score
 from shapeviz_report.retrieval import MEASURES, query_classes, rate
 from shapeviz_report.site.data_files import summary
-from shapeviz_report.types import Report
+from shapeviz_report.types import Report, distinct_rows
 
 LABELS = ["ant", "bird", "ant", "bird", "ant", "bird"]
 POINTS = np.array([[0, 0], [1, 0], [2, 0.3], [3.1, 0], [4.5, 0], [6, 1]], float)
@@ -90,3 +90,20 @@ def test_nothing_is_said_where_there_are_no_copies() -> None:
     assert summary(report, "1")["without_copies"] is None
     assert OverviewPage().content(report).chunks["overview"]["methods"][0]["withoutCopies"] is None
     assert FeaturesPage().content(report).context["retrieval"]["without_copies"] is None
+
+
+def test_held_out_shapes_and_chosen_bins_are_rated_without_copies() -> None:
+    """Copies of one another are neighbours on any map: without them a map that holds nothing else has nothing."""
+    random = np.random.default_rng(4)
+    values = random.random((12, 2)).repeat(2, axis=0)
+    labels = list(random.permutation(np.repeat(["a", "b"], 6)).repeat(2))
+    codes = np.array([label == "b" for label in labels], int)
+    groups = np.arange(12).repeat(2)
+    kept = distinct_rows(groups, codes >= 0)
+    assert kept is not None
+    alone = hits_among(values, codes, kept, 1)
+    assert np.isnan(alone[1::2]).all()
+    np.testing.assert_array_equal(
+        alone[kept], neighbourhood_hits(neighbour_weights(values[kept], 1), codes[kept])
+    )
+    assert alone[kept].mean() < 1 == neighbourhood_hits(neighbour_weights(values, 1), codes).mean()

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.quality import NEIGHBOURS, TIE, highest_hits
+from shapeviz_report.quality import NEIGHBOURS, TIE, highest_hits, hits_among
 from shapeviz_report.search.bins.automatic import LIMIT, select_bins
 from shapeviz_report.search.bins.space import BinSpace, Codes, encode, hits_of, hits_on, lay_out
 from shapeviz_report.types import FloatArray, HeldOutBins
@@ -36,6 +36,7 @@ def hold_out(
     limit: int = LIMIT,
     seed: int = 0,
     deal: int = 1,
+    distinct: Sequence[int] | None = None,
 ) -> HeldOutBins:
     """Select bins without some shapes, then see how well these are separated and recognised.
 
@@ -56,6 +57,8 @@ def hold_out(
         As in :func:`~shapeviz_report.search.bins.automatic.select_bins`.
     deal : int
         Which deal the fold is of.
+    distinct : rows, optional
+        Places of shapes of which none is a copy of another, one of each group of copies; without it there are none.
     """
     _, codes = encode(space, labels)
     seen = np.setdiff1d(np.arange(len(codes)), fold)
@@ -64,17 +67,27 @@ def hold_out(
     squared = space.squared(bins)
     k = min(k, len(codes) - 1)
     seeds = range(seed, seed + MAP_SEEDS)
+    own, whole = ([lay_out(distances, s) for s in seeds] for distances in (squared, everything))
+    own_distinct, whole_distinct = None, None
+    if distinct is not None:
+        kept = np.array(distinct)
+        own_distinct, whole_distinct = (
+            float(np.mean([np.nanmean(hits_among(xy, codes, kept, k)[fold]) for xy in maps]))
+            for maps in (own, whole)
+        )
     return HeldOutBins(
         deal=deal,
         bins=selection.bins,
         shapes=len(fold),
         nh_s_seen=selection.nh_s,
         nh_space=float(hits_of(squared, fold, codes, k).mean()),
-        nh_s=float(np.mean([hits_on(lay_out(squared, s), codes, k)[fold].mean() for s in seeds])),
-        nh_s_all=float(np.mean([hits_on(lay_out(everything, s), codes, k)[fold].mean() for s in seeds])),
+        nh_s=float(np.mean([hits_on(xy, codes, k)[fold].mean() for xy in own])),
+        nh_s_all=float(np.mean([hits_on(xy, codes, k)[fold].mean() for xy in whole])),
         nh_max=float(highest_hits(codes, k)[fold].mean()),
         knn_accuracy=recognise(squared, codes, fold, k),
         knn_accuracy_all=recognise(everything, codes, fold, k),
+        nh_s_distinct=own_distinct,
+        nh_s_all_distinct=whole_distinct,
     )
 
 

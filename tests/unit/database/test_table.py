@@ -388,6 +388,35 @@ def test_files_of_another_case_are_found_where_that_is_clear(root):
     ]
 
 
+@pytest.mark.parametrize(
+    ("files", "cell", "found"),
+    [
+        (["1.off"], "1.0", "1"),
+        (["1.off"], "1.00", "1"),
+        (["1.0.off"], "1", "1.0"),
+        (["007.off"], "7", "007"),
+        (["deep/0042.stl"], "deep/42", "deep/0042"),
+        (["7.OFF"], "007.off", "7"),
+        (["1.off", "01.off"], "1", "1"),  # as it is written, before anything like it
+        (["1.off", "01.off"], "001", None),  # it cannot be said which
+        (["1.5.off"], "1", None),
+        (["10.off"], "1", None),
+        (["m1.off"], "1", None),
+    ],
+)
+def test_numbers_are_found_as_spreadsheets_write_them(tmp_path, files, cell, found):
+    for name in files:
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        path.touch()
+    (tmp_path / "other.off").touch()
+    database = read_database(table(tmp_path, f"file,label\n{cell},cup\nother.off,ant\n"))
+    assert [shape.id for shape in database.shapes if shape.labels["label"] == "cup"] == (
+        [found] if found else []
+    )
+    assert len(database.failures) == (0 if found else 1)
+
+
 def test_paths_of_mixed_normal_forms_are_found(root):
     folder = root / "Mu\u0308nzen"
     folder.mkdir()

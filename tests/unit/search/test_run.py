@@ -173,3 +173,24 @@ def test_dearer_methods_have_fewer_rounds() -> None:
     # 255 subsets in each round; 12 finalists and all features for the rest of ten seeds.
     assert planned_runs(8, "tsne") == 3 * 255 + 7 * 13
     assert planned_runs(8, "umap") == 255 + 9 * 13
+
+
+def test_held_out_shapes_are_rated_without_copies_as_if_there_were_none(values) -> None:
+    """Where every shape is there twice, one of each is held out with the other, and rated among the others' firsts."""
+    twice = np.repeat(values, 2, axis=0)
+    labels = [label for label in LABELS for _ in range(2)]
+    space = make_space(table_of(twice, (2, 2, 2)), twice, labels)
+    groups = np.arange(36).repeat(2)
+    found = search_features(space, labels, "tsne", rounds=1, k=8, groups=groups)
+    everything = np.flatnonzero(found.subsets.members.all(axis=1))[0]
+    xy = found.subsets.xy[everything].astype(np.float64)
+    alone = score(xy[::2], LABELS, k=8).nh
+    # Each fold is of whole pairs; over all folds of a deal each shape counts once.
+    first = [fold for fold in found.held_out if fold.deal == 1]
+    assert sum(fold.shapes for fold in first) == 72
+    assert all(fold.shapes % 2 == 0 for fold in found.held_out)
+    mean = np.average([fold.nh_s_all_distinct for fold in first], weights=[fold.shapes for fold in first])
+    assert mean == pytest.approx(alone.mean())
+    assert all(
+        fold.nh_s_distinct is None for fold in search_features(space, labels, "tsne", rounds=1, k=8).held_out
+    )

@@ -1,0 +1,123 @@
+"""The point of a surface that is closest to another point, by a tree of bounding boxes."""
+
+import numpy as np
+
+from shapeviz_report.compilation import kernel
+from shapeviz_report.descriptors.kernels.rays import DEPTH
+
+
+@kernel(error_model="numpy")
+def _outside(boxes, node, x, y, z):  # pragma: no cover - compiled
+    """The squared distance of a point from a box; infinite for one that nothing meets."""
+    dx = max(boxes[node, 0] - x, 0.0, x - boxes[node, 3])
+    dy = max(boxes[node, 1] - y, 0.0, y - boxes[node, 4])
+    dz = max(boxes[node, 2] - z, 0.0, z - boxes[node, 5])
+    return dx * dx + dy * dy + dz * dz
+
+
+@kernel(error_model="numpy")
+def _dot(a, b):  # pragma: no cover - compiled
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel(error_model="numpy")
+def _weigh(triangle, x, y, z):  # pragma: no cover - compiled
+    """Weights of the second and the third corner in the point of a triangle that is closest to another (Ericson,
+    Real-Time Collision Detection, 2005, 5.1.5)."""
+    a, b, c = triangle[0], triangle[1], triangle[2]
+    ab = (b[0] - a[0], b[1] - a[1], b[2] - a[2])
+    ac = (c[0] - a[0], c[1] - a[1], c[2] - a[2])
+    ap = (x - a[0], y - a[1], z - a[2])
+    d1, d2 = _dot(ab, ap), _dot(ac, ap)
+    if d1 <= 0.0 and d2 <= 0.0:
+        return 0.0, 0.0
+    bp = (x - b[0], y - b[1], z - b[2])
+    d3, d4 = _dot(ab, bp), _dot(ac, bp)
+    if d3 >= 0.0 and d4 <= d3:
+        return 1.0, 0.0
+    over_c = d1 * d4 - d3 * d2
+    if over_c <= 0.0 and d1 >= 0.0 and d3 <= 0.0:
+        return d1 / (d1 - d3), 0.0
+    cp = (x - c[0], y - c[1], z - c[2])
+    d5, d6 = _dot(ab, cp), _dot(ac, cp)
+    if d6 >= 0.0 and d5 <= d6:
+        return 0.0, 1.0
+    over_b = d5 * d2 - d1 * d6
+    if over_b <= 0.0 and d2 >= 0.0 and d6 <= 0.0:
+        return 0.0, d2 / (d2 - d6)
+    over_a = d3 * d6 - d5 * d4
+    if over_a <= 0.0 and d4 >= d3 and d5 >= d6:
+        along = (d4 - d3) / ((d4 - d3) + (d5 - d6))
+        return 1.0 - along, along
+    whole = over_a + over_b + over_c
+    return over_b / whole, over_c / whole
+
+
+@kernel(error_model="numpy")
+def find_closest(points, corners, boxes, leaf):  # pragma: no cover - compiled
+    """The closest point of a surface to each of some points.
+
+    Parameters
+    ----------
+    points : (n, 3) float64 array
+    corners : (m, 3, 3) float64 array
+        Of the faces, in the order of the tree's leaves.
+    boxes, leaf
+        As :func:`~shapeviz_report.descriptors.kernels.boxes.box_faces` makes them.
+
+    Returns
+    -------
+    closest : (n, 3) float64 array
+    place : (n,) int64 array
+        The face each lies on, in the order of ``corners``.
+    """
+    count, first_leaf = len(corners), len(boxes) // 2
+    closest, owner = np.empty((len(points), 3)), np.zeros(len(points), np.int64)
+    stack, gaps = np.empty(DEPTH, np.int64), np.empty(DEPTH)
+    for number in range(len(points)):
+        x, y, z = points[number, 0], points[number, 1], points[number, 2]
+        best = np.inf
+        stack[0], gaps[0] = 1, 0.0
+        depth = 1
+        while depth > 0:
+            depth -= 1
+            if gaps[depth] >= best:
+                continue
+            node = stack[depth]
+            if node < first_leaf:
+                near, far = 2 * node, 2 * node + 1
+                near_gap, far_gap = _outside(boxes, near, x, y, z), _outside(boxes, far, x, y, z)
+                if far_gap < near_gap:
+                    near, far, near_gap, far_gap = far, near, far_gap, near_gap
+                if far_gap < best:
+                    stack[depth], gaps[depth] = far, far_gap
+                    depth += 1
+                if near_gap < best:
+                    stack[depth], gaps[depth] = near, near_gap
+                    depth += 1
+                continue
+            start = (node - first_leaf) * leaf
+            for place in range(start, min(start + leaf, count)):
+                second, third = _weigh(corners[place], x, y, z)
+                first = 1.0 - second - third
+                px = (
+                    first * corners[place, 0, 0]
+                    + second * corners[place, 1, 0]
+                    + third * corners[place, 2, 0]
+                )
+                py = (
+                    first * corners[place, 0, 1]
+                    + second * corners[place, 1, 1]
+                    + third * corners[place, 2, 1]
+                )
+                pz = (
+                    first * corners[place, 0, 2]
+                    + second * corners[place, 1, 2]
+                    + third * corners[place, 2, 2]
+                )
+                gap = (px - x) ** 2 + (py - y) ** 2 + (pz - z) ** 2
+                if gap < best:
+                    best = gap
+                    owner[number] = place
+                    closest[number, 0], closest[number, 1], closest[number, 2] = px, py, pz
+    return closest, owner
