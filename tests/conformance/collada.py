@@ -114,7 +114,15 @@ def primitives() -> list[Case]:
     lines = (
         '<lines count="1">{inputs}<p>0 7</p></lines><linestrips count="1">{inputs}<p>0 7 3</p></linestrips>'
     )
-    hole = '<polygons count="1">{inputs}<ph><p>0 1 3 2</p><h>4 5 7</h></ph></polygons>'
+    square, hole = [[0, 0], [4, 0], [4, 4], [0, 4]], [[1, 1], [1, 3], [3, 3], [3, 1]]
+    frame = np.array([[x, y, z] for z in (0, 1) for x, y in square + hole])
+    around = [[k, (k + 1) % 4 + k // 4 * 4, (k + 1) % 4 + k // 4 * 4 + 8, k + 8] for k in range(8)]
+
+    def with_holes(below: str, above: str, count: int = 10) -> bytes:
+        faces = f'<polygons count="{count}">{POINTS.format(id="g")}'
+        faces += f"<ph><p>3 2 1 0</p>{below}</ph><ph><p>8 9 10 11</p>{above}</ph>{''.join(map(run, around))}</polygons>"
+        return document(geometries=geometry(faces=faces, points=source("g-p", frame)))
+
     return [
         one("triangles", document()),
         one(
@@ -134,13 +142,40 @@ def primitives() -> list[Case]:
         one("lines and linestrips", of(triangles() + lines)),
         one("splines", document(show() + show("c"), geometry() + '<geometry id="c"><spline/></geometry>')),
         one("convex_mesh with faces", document(geometries=geometry(kind="convex_mesh"))),
-        bad("polygons with holes", of(hole), "polygons with holes"),
+        one("polygons with holes", with_holes("<h>7 6 5 4</h>", "<h>12 13 14 15</h>"), 48, 12, (4, 4, 1)),
+        one(
+            "polygons with holes turned as their outlines",
+            with_holes("<h>4 5 6 7</h>", "<h>15 14 13 12</h>"),
+            48,
+            12,
+            (4, 4, 1),
+        ),
+        bad(
+            "holes that overlap",
+            with_holes("<h>4 5 6 7</h><h>4 5 6 7</h>", "<h>12 13 14 15</h>"),
+            "holes that do not lie within",
+        ),
+        bad(
+            "holes without an outline",
+            of("<polygons count='1'>{inputs}<ph><h>0 1 2</h></ph></polygons>"),
+            "0 outlines",
+        ),
+        bad(
+            "fewer polygons with holes than announced",
+            with_holes("", "", 11),
+            "announces 11 elements, and has 10",
+        ),
         bad(
             "convex_mesh of another geometry",
             document(geometries='<geometry id="g"><convex_mesh convex_hull_of="#h"/></geometry>'),
             "convex hull",
         ),
         bad("brep", document(geometries='<geometry id="g"><brep/></geometry>'), "brep"),
+        bad(
+            "a count that is no number",
+            of(triangles().replace('"12"', '"twelve"')),
+            "count of <triangles> .* 'twelve'",
+        ),
         bad(
             "fewer triangles than announced",
             of(triangles(corners=BOX_TRIANGLES[:10])),
@@ -198,8 +233,9 @@ def sources() -> list[Case]:
         bad(
             "words among numbers",
             with_points(source("g-p", box()).replace("3 4<", "3 four<")),
-            "number belongs",
+            "number belongs: 'four'",
         ),
+        bad("decimal commas", with_points(source("g-p", box()).replace("3 4<", "3,5 4<")), "decimal comma"),
     ]
 
 
@@ -255,6 +291,21 @@ def scenes() -> list[Case]:
         ),
         two("no scene", document(show() + MOVED, scene="")),
         one("no visual scene", document(scene="").replace(b"library_visual_scenes", b"library_lights")),
+        bad(
+            "transformations that mean nothing",
+            document(show(moves="<lookat>0 0 0 0 0 0 0 1 0</lookat>")),
+            "<lookat> of a node means nothing",
+        ),
+        bad(
+            "transformations without a value",
+            document(show(moves="<translate>nan 0 0</translate>")),
+            "means nothing",
+        ),
+        bad(
+            "transformations of too few numbers",
+            document(show(moves="<scale>2 2</scale>")),
+            "2 numbers, not 3",
+        ),
         bad("a scene without geometry", document("<node/>"), "shows none of its geometries"),
         bad(
             "a geometry that is not there",
@@ -329,6 +380,16 @@ def controllers() -> list[Case]:
             morph("NORMALIZED", "none", 0.5),
             "'none', which is not in the file",
         ),
+        bad(
+            "skins without an input",
+            document(posed + joint, more=skin().replace("INV_BIND_MATRIX", "X")),
+            "no input INV_BIND",
+        ),
+        bad(
+            "skins of joints that are not there",
+            document(posed + joint, more=skin().replace("<v>0 0", "<v>-5 0")),
+            "a joint or a weight that is not there",
+        ),
         bad("controllers that are not there", document(played), "'c', which is not in the file"),
     ]
 
@@ -360,6 +421,7 @@ def documents() -> list[Case]:
             "comments and processing instructions",
             plain.replace(b"<node>", b"<!-- a --><?b c?><node><!-- d -->"),
         ),
+        one("blanks and NULs around", b"\n " + plain + b"\r\n\0\0"),
         one("a byte order mark", b"\xef\xbb\xbf" + plain),
         one("UTF-16", declared.format("utf-16").encode("utf-16")),
         one("Latin-1 that calls itself UTF-8", noted.encode("latin-1")),

@@ -155,6 +155,14 @@ def primitives() -> list[Case]:
     file.mesh(file.primitive())
     file.document["meshes"][0]["primitives"][0]["attributes"] = {}
     cases.append(bad("no positions", file, "no positions"))
+    file = File()
+    file.mesh(file.primitive())
+    del file.document["meshes"][0]["primitives"]
+    cases.append(bad("a part of the JSON that is not there", file, "no 'primitives' where glTF has one"))
+    file = File()
+    file.mesh(file.primitive())
+    file.document["meshes"] = {"first": file.document["meshes"][0]}
+    cases.append(bad("a part of the JSON of another kind", file, "of another kind than glTF says"))
     return cases
 
 
@@ -288,6 +296,16 @@ def scenes() -> list[Case]:
         one("meshes without nodes", loose),
         one("hidden nodes", hidden),
         bad("a scene without triangles", nodes({}, {"mesh": 0}, roots=[0]), "shows none of its meshes"),
+        bad(
+            "matrices of too few numbers",
+            nodes({"mesh": 0, "matrix": [1, 0, 0]}),
+            "matrix of node 0 is not 16 numbers",
+        ),
+        bad(
+            "translations without a value",
+            nodes({"mesh": 0, "translation": [float("nan"), 0, 0]}),
+            "else than numbers",
+        ),
         bad("nodes in a circle", nodes({"children": [1]}, {"children": [0]}, roots=[0]), "root of its scene"),
         bad(
             "a node below two others",

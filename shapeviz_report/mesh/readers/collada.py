@@ -16,9 +16,11 @@ from shapeviz_report.mesh.readers.polygons import (
     check_indices,
     cut_fan,
     cut_strip,
+    cut_with_holes,
     triangulate,
 )
 from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, place_nodes
+from shapeviz_report.mesh.readers.text import parse_indices, parse_numbers
 from shapeviz_report.types import FloatArray, UpAxis
 
 Element = etree._Element
@@ -32,6 +34,7 @@ _FIRST_BYTES = {
     b"<\0": "utf-16-le",
     b"\0<": "utf-16-be",
 }
+_BLANKS = b" \t\r\n\0\x1a"
 _FACES = frozenset({"triangles", "polylist", "polygons", "tristrips", "trifans"})
 
 
@@ -52,8 +55,8 @@ def _parse(data: bytes) -> Element:
     Whatever encoding is declared, the parser meets UTF-8: all that matters here is ASCII, names apart, and so there is
     no encoding in which a declaration could pass that is not allowed.
     """
-    text = _in_utf8(data)
-    if not text.lstrip().startswith(b"<") or b"COLLADA" not in text:
+    text = _in_utf8(data).strip(_BLANKS)
+    if not text.startswith(b"<") or b"COLLADA" not in text:
         raise MeshError("it is not COLLADA")
     if b"<!DOCTYPE" in text:
         raise MeshError("it has a document type declaration, which COLLADA does not use")
@@ -182,7 +185,10 @@ class _Reader:
         deformation = _deformation(controller)
         if deformation.tag == "morph":
             return Part(points, faces, transforms)
-        bind = _numbers(deformation.findtext("bind_shape_matrix") or _IDENTITY).reshape(4, 4)
+        bind = _numbers(deformation.findtext("bind_shape_matrix") or _IDENTITY)
+        if len(bind) != 16:
+            raise MeshError(f"<bind_shape_matrix> of a skin has {len(bind)} numbers, not 16")
+        bind = bind.reshape(4, 4)
         poses = self.poses(instance, deformation)
         if poses is None:
             return Part(points, faces, transforms @ bind)
@@ -203,9 +209,10 @@ class _Reader:
             points = self.deformed(below, points)
         if deformation.tag == "skin":
             return points
-        inputs = {one.get("semantic"): one for one in deformation.findall("targets/input")}
-        names = self.words(inputs["MORPH_TARGET"])
-        weights = self.rows(inputs["MORPH_WEIGHT"])[:, 0]
+        target, weight_of = _inputs(deformation.find("targets"), "MORPH_TARGET", "MORPH_WEIGHT")
+        names, weights = self.words(target), self.rows(weight_of)[:, 0]
+        if len(names) != len(weights):
+            raise MeshError(f"a morph has {len(names)} targets, and {len(weights)} weights")
         relative = deformation.get("method", "NORMALIZED") == "RELATIVE"
         result = points if relative else points * (1 - weights.sum())
         for name, weight in zip(names, weights, strict=True):
@@ -220,11 +227,11 @@ class _Reader:
 
     def poses(self, instance: Element, skin: Element) -> FloatArray | None:
         """(j, 4, 4): from where a skin was bound to where its joints rest; None if one is not in the file."""
-        inputs = {one.get("semantic"): one for one in skin.findall("joints/input")}
-        names = self.words(inputs["JOINT"])
-        inverse = self.rows(inputs["INV_BIND_MATRIX"]).reshape(-1, 4, 4)
-        if len(inverse) != len(names):
-            raise MeshError(f"a skin has {len(names)} joints, and {len(inverse)} bind matrices")
+        joint, bound = _inputs(skin.find("joints"), "JOINT", "INV_BIND_MATRIX")
+        names, inverse = self.words(joint), self.rows(bound)
+        if inverse.shape != (len(names), 16):
+            raise MeshError(f"a skin has {len(names)} joints, and {inverse.size / 16:g} bind matrices")
+        inverse = inverse.reshape(-1, 4, 4)
         roots = [self.target(_with_url(one), "node") for one in instance.findall("skeleton") if one.text]
         joints = {}
         for root in roots or self.root.findall("library_visual_scenes/visual_scene"):
@@ -241,18 +248,20 @@ class _Reader:
         element = skin.find("vertex_weights")
         if element is None:
             raise MeshError("a skin has no weights")
-        inputs = {one.get("semantic"): one for one in element.findall("input")}
-        width = 1 + max(int(one.get("offset", 0)) for one in inputs.values())
-        sizes = _integers(element.findtext("vcount") or "")
-        table = _integers(element.findtext("v") or "")
+        joint, weight = _inputs(element, "JOINT", "WEIGHT")
+        width = _width(element)
+        sizes = _integers(element.findtext("vcount"))
+        table = _integers(element.findtext("v"))
         if len(sizes) != len(points) or len(table) != sizes.sum() * width:
             raise MeshError("the weights of a skin are not as many as it announces")
         table = table.reshape(-1, width)
-        joints = table[:, int(inputs["JOINT"].get("offset", 0))]
-        values = self.rows(inputs["WEIGHT"])[:, 0]
-        places = table[:, int(inputs["WEIGHT"].get("offset", 0))]
+        joints, places = (table[:, _whole(one, "offset", 0)] for one in (joint, weight))
+        values = self.rows(weight)[:, 0]
         if len(table) and not (
-            places.min() >= 0 and places.max() < len(values) and joints.max() < len(poses)
+            places.min() >= 0
+            and places.max() < len(values)
+            and joints.min() >= -1
+            and joints.max() < len(poses)
         ):
             raise MeshError("a skin refers to a joint or a weight that is not there")
         owners = np.repeat(np.arange(len(points)), sizes)
@@ -280,12 +289,14 @@ class _Reader:
             # what has corners is read, whatever it announces, so that both can be compared
             total += any(run.text or len(run) for run in primitive.iterfind("*") if run.tag in ("p", "ph"))
             if primitive.tag == "polylist":
-                total += int(np.maximum(_integers(primitive.findtext("vcount") or "") - 2, 0).sum())
+                total += int(np.maximum(_integers(primitive.findtext("vcount")) - 2, 0).sum())
             elif primitive.tag == "triangles":
-                total += _declared(primitive)
+                total += _whole(primitive, "count", 0)
             else:
                 width = _width(primitive)
                 total += sum(max(len((p.text or "").split()) // width - 2, 0) for p in primitive.findall("p"))
+                # a hole of s corners makes s + 2 triangles more
+                total += sum(len((run.text or "").split()) // width + 2 for run in primitive.iterfind("ph/*"))
         return total
 
     def surface(self, geometry: Element) -> tuple[FloatArray, Indices]:
@@ -294,15 +305,14 @@ class _Reader:
         points = self.positions(mesh)
         faces = [np.empty((0, 3), np.int64)]
         for primitive in [] if mesh is None else _primitives(mesh):
-            runs = [_integers(p.text or "") for p in primitive.findall("p")]
-            for run in runs:
-                if len(run) % _width(primitive):
-                    raise MeshError(f"<{primitive.tag}> has corners that are not complete")
-            offset = _vertex_offset(primitive)
-            corners = [run.reshape(-1, _width(primitive))[:, offset] for run in runs]
-            for corner in corners:
-                check_indices(points, corner)
-            faces.append(_faces_of(primitive, corners, points))
+            corners = [_corners(primitive, p, points) for p in primitive.findall("p")]
+            holed = []
+            for ph in primitive.findall("ph"):
+                outlines, holes = ph.findall("p"), ph.findall("h")
+                if len(outlines) != 1:
+                    raise MeshError(f"a polygon with holes has {len(outlines)} outlines")
+                holed.append([_corners(primitive, loop, points) for loop in (*outlines, *holes)])
+            faces.append(_faces_of(primitive, corners, holed, points))
         return points, np.concatenate(faces)
 
     def positions(self, mesh: Element | None) -> FloatArray:
@@ -321,16 +331,11 @@ class _Reader:
         """What an ``<input>`` refers to, (count, width): of the accessor's parameters those that have names."""
         accessor, text = self.array(element, "float_array", "int_array")
         values = _numbers(text)
-        stride, count = int(accessor.get("stride", 1)), int(accessor.get("count", 0))
-        offset = int(accessor.get("offset", 0))
+        stride, count = _whole(accessor, "stride", 1), _whole(accessor, "count", 0)
+        offset = _whole(accessor, "offset", 0)
         params = accessor.findall("param")
         width = stride if stride in (9, 16) or not params else len(params)
-        if (
-            offset < 0
-            or count < 0
-            or stride < max(width, 1)
-            or offset + stride * (count - 1) + width > len(values)
-        ):
+        if stride < max(width, 1) or offset + stride * (count - 1) + width > len(values):
             raise MeshError(
                 f"a source announces {count:,} elements of {stride} numbers, but has {len(values):,} numbers"
             )
@@ -343,7 +348,7 @@ class _Reader:
 
     def words(self, element: Element) -> list[str]:
         accessor, text = self.array(element, "Name_array", "IDREF_array", "SIDREF_array")
-        return text.split()[: int(accessor.get("count", 0))]
+        return text.split()[: _whole(accessor, "count", 0)]
 
     def array(self, element: Element, *tags: str) -> tuple[Element, str]:
         """The accessor of what an ``<input>`` refers to, and the text of its array."""
@@ -358,12 +363,29 @@ class _Reader:
 _IDENTITY = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
 
 
-def _numbers(text: str) -> FloatArray:
-    return np.fromstring(text, sep=" ") if text.strip() else np.empty(0)
+def _numbers(text: str | None) -> FloatArray:
+    return parse_numbers(text) if text and not text.isspace() else np.empty(0)
 
 
-def _integers(text: str) -> Indices:
-    return np.fromstring(text, np.int64, sep=" ") if text.strip() else np.empty(0, np.int64)
+def _integers(text: str | None) -> Indices:
+    return parse_indices(text) if text and not text.isspace() else np.empty(0, np.int64)
+
+
+def _whole(element: Element, name: str, default: int) -> int:
+    """An attribute that is a count or a place. Raises ``MeshError`` if it is something else."""
+    value = (element.get(name) or str(default)).strip()
+    if not value.isdecimal():
+        raise MeshError(f"the {name} of <{element.tag}> is no whole number from 0 on: {value[:20]!r}")
+    return int(value)
+
+
+def _inputs(element: Element | None, *semantics: str) -> list[Element]:
+    """The inputs of given meanings. Raises ``MeshError`` if one is not there."""
+    found = {} if element is None else {one.get("semantic"): one for one in element.findall("input")}
+    for semantic in semantics:
+        if semantic not in found:
+            raise MeshError(f"a skin or a morph of it has no input {semantic}")
+    return [found[semantic] for semantic in semantics]
 
 
 def _with_url(skeleton: Element) -> Element:
@@ -396,29 +418,40 @@ def _primitives(mesh: Element) -> list[Element]:
     return [element for element in mesh if element.tag in _FACES]
 
 
-def _declared(primitive: Element) -> int:
-    count = int(primitive.get("count", 0))
-    if count < 0:
-        raise MeshError(f"<{primitive.tag}> announces {count} elements")
-    return count
-
-
 def _width(primitive: Element) -> int:
     """How many indices a corner has."""
-    return 1 + max((int(one.get("offset", 0)) for one in primitive.findall("input")), default=0)
+    return 1 + max((_whole(one, "offset", 0) for one in primitive.findall("input")), default=0)
 
 
 def _vertex_offset(primitive: Element) -> int:
     element = primitive.find("input[@semantic='VERTEX']")
     if element is None:
         raise MeshError(f"<{primitive.tag}> has no vertices")
-    return int(element.get("offset", 0))
+    return _whole(element, "offset", 0)
 
 
-def _faces_of(primitive: Element, corners: list[Indices], points: FloatArray) -> Indices:
-    """Triangles (m, 3). Raises ``MeshError`` if they are not as many as the primitive announces."""
+def _corners(primitive: Element, run: Element, points: FloatArray) -> Indices:
+    """The vertices that a run of indices goes through. Raises ``MeshError`` if one is not there."""
+    indices, width = _integers(run.text), _width(primitive)
+    if len(indices) % width:
+        raise MeshError(f"<{primitive.tag}> has corners that are not complete")
+    corners = indices.reshape(-1, width)[:, _vertex_offset(primitive)]
+    check_indices(points, corners)
+    return corners
+
+
+def _faces_of(
+    primitive: Element, corners: list[Indices], holed: list[list[Indices]], points: FloatArray
+) -> Indices:
+    """Triangles (m, 3) of runs of corners, and of polygons with holes, each a list of an outline and holes.
+
+    Raises
+    ------
+    MeshError
+        If they are not as many as the primitive announces.
+    """
     together = np.concatenate([np.empty(0, np.int64), *corners])
-    declared, found = _declared(primitive), len(corners)
+    declared, found = _whole(primitive, "count", 0), len(corners)
     if primitive.tag in ("tristrips", "trifans"):
         cut: Callable[[Indices], Indices] = cut_strip if primitive.tag == "tristrips" else cut_fan
         faces = np.concatenate([np.empty((0, 3), np.int64), *(cut(run) for run in corners if len(run) > 2)])
@@ -428,15 +461,14 @@ def _faces_of(primitive: Element, corners: list[Indices], points: FloatArray) ->
     else:
         sizes = np.array([len(run) for run in corners], np.int64)
         if primitive.tag == "polylist":
-            sizes = _integers(primitive.findtext("vcount") or "")
+            sizes = _integers(primitive.findtext("vcount"))
             found = len(sizes)
             if (sizes < 0).any() or sizes.sum() != len(together):
                 raise MeshError(f"<polylist> announces {sizes.sum():,} corners, and has {len(together):,}")
-        elif primitive.find("ph") is not None:
-            raise MeshError(
-                "it has polygons with holes, which are not read; triangulate it before it is exported"
-            )
         faces = triangulate(PolygonMesh(points, together, sizes))
+        if holed:
+            found += len(holed)
+            faces = np.concatenate([faces, *(cut_with_holes(points, loops) for loops in holed)])
     if found != declared:
         raise MeshError(f"<{primitive.tag}> announces {declared:,} elements, and has {max(found, 0):,}")
     return faces
@@ -456,11 +488,16 @@ def _transform(node: Element) -> FloatArray:
     matrix = np.eye(4)
     for element in node:
         if element.tag in _TRANSFORMATIONS:
-            numbers = _numbers(element.text or "")
+            numbers = _numbers(element.text)
             count, make = _TRANSFORMATIONS[element.tag]
             if len(numbers) != count:
                 raise MeshError(f"<{element.tag}> of a node has {len(numbers)} numbers, not {count}")
-            matrix = matrix @ make(numbers)
+            move = make(numbers)
+            if not np.isfinite(move).all():
+                raise MeshError(
+                    f"<{element.tag}> of a node means nothing: {(element.text or '').strip()[:60]!r}"
+                )
+            matrix = matrix @ move
     return matrix
 
 

@@ -46,7 +46,8 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES, _TRIANGLE_STRIP, _TRIANGLE_FAN = 4, 5, 6
 _POINTS_AND_LINES = range(4)
 
-_MOVES = frozenset({"translation", "rotation", "scale"})
+_MOVES = {"translation": np.zeros(3), "rotation": np.array([0.0, 0, 0, 1]), "scale": np.ones(3)}
+"""What may move a node, and the values that do not."""
 _STILL = np.eye(4)
 
 Document = Mapping[str, Any]
@@ -67,7 +68,12 @@ def read_gltf(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     MeshError
         If it is anything else, or holds a surface that is not read.
     """
-    return _Reader(read_header(data), data, files).read()
+    try:
+        return _Reader(read_header(data), data, files).read()
+    except KeyError as error:
+        raise MeshError(f"it is damaged: no {str(error.args[0])[:40]!r} where glTF has one") from error
+    except (AttributeError, TypeError) as error:
+        raise MeshError("it is damaged: something in its JSON is of another kind than glTF says") from error
 
 
 def read_header(data: bytes) -> dict[str, Any]:
@@ -249,13 +255,9 @@ class _Reader:
             count = self.triangles[node["mesh"]] * self.count_instances(node)
         transform = _STILL
         if node.get("matrix") is not None:
-            transform = np.array(node["matrix"], np.float64).reshape(4, 4).T
-        elif not _MOVES.isdisjoint(node):
-            transform = _compose(
-                np.array([node.get("translation", (0, 0, 0))], np.float64),
-                np.array([node.get("rotation", (0, 0, 0, 1))], np.float64),
-                np.array([node.get("scale", (1, 1, 1))], np.float64),
-            )[0]
+            transform = _move(node, number, "matrix", _STILL.ravel()).reshape(4, 4).T
+        elif not _MOVES.keys().isdisjoint(node):
+            transform = _compose(*(_move(node, number, *each)[None] for each in _MOVES.items()))[0]
         return Node(transform, node.get("children", ()), count)
 
     def instances_of(self, node: Document) -> dict[str, int]:
@@ -273,14 +275,13 @@ class _Reader:
         """(k, 4, 4), one a copy that the node itself places."""
         accessors = self.instances_of(node)
         count = self.count_instances(node)
-        neutral = {"TRANSLATION": (0, 0, 0), "ROTATION": (0, 0, 0, 1), "SCALE": (1, 1, 1)}
         rows = np.arange(count)
         return _compose(
             *(
-                self.values(accessors[name], rows, len(value))
-                if name in accessors
-                else np.broadcast_to(np.array(value, np.float64), (count, len(value)))
-                for name, value in neutral.items()
+                self.values(accessors[name.upper()], rows, len(neutral))
+                if name.upper() in accessors
+                else np.broadcast_to(neutral, (count, len(neutral)))
+                for name, neutral in _MOVES.items()
             )
         )
 
@@ -478,6 +479,18 @@ def _whole(number: Any) -> int:
     ):
         raise MeshError(f"it is damaged: a length or a place is {number!r:.40}")
     return int(number)
+
+
+def _move(node: Document, number: int, name: str, neutral: FloatArray) -> FloatArray:
+    """The numbers of a node's matrix, translation, rotation or scale. Raises ``MeshError`` if they are none."""
+    given = node.get(name)
+    if given is None:
+        return neutral
+    if not isinstance(given, list) or len(given) != len(neutral):
+        raise MeshError(f"the {name} of node {number} is not {len(neutral)} numbers")
+    if not all(isinstance(value, int | float) and abs(value) < np.inf for value in given):
+        raise MeshError(f"the {name} of node {number} has something else than numbers")
+    return np.array(given, np.float64)
 
 
 def _component(described: Document) -> np.dtype[Any]:

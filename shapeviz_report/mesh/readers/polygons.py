@@ -63,6 +63,48 @@ def cut_fan(corners: Indices) -> Indices:
     return np.column_stack([first, corners[1:-1], corners[2:]])
 
 
+def cut_with_holes(vertices: FloatArray, loops: list[Indices]) -> Indices:
+    """Triangles (m, 3) between an outline and the holes in it, in the plane of the outline's Newell normal.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64 array
+    loops : list of (s,) int64 arrays
+        The outline, whose orientation the triangles have, then the holes, however they are turned. A corner that is
+        repeated at once counts once; loops of fewer than three corners vanish.
+
+    Raises
+    ------
+    MeshError
+        If the holes do not lie within the outline, apart from each other: then the triangles cover another area.
+    """
+    loops = [loop[loop != np.roll(loop, -1)] for loop in loops]
+    if len(loops[0]) < 3:
+        return np.empty((0, 3), np.int64)
+    points = vertices[loops[0]]
+    normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
+    length = np.linalg.norm(normal)
+    if not 0 < length < np.inf:
+        return np.empty((0, 3), np.int64)
+    turned, outlines, areas = [], [], []
+    for loop in loops:
+        flat = _project(vertices[loop] - points[0], normal / length)
+        (x, y), (next_x, next_y) = flat.T, np.roll(flat, -1, axis=0).T
+        area = float((x * next_y - y * next_x).sum()) / 2
+        if len(loop) > 2 and np.isfinite(area):
+            inside = bool(turned) and area > 0
+            turned.append(loop[::-1] if inside else loop)
+            outlines.append(flat[::-1] if inside else flat)
+            areas.append(abs(area))
+    cut = np.asarray(manifold3d.triangulate(outlines), np.int64).reshape(-1, 3)
+    a, b, c = (np.concatenate(outlines)[cut[:, corner]] for corner in range(3))
+    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+    covered = float(np.abs(ux * vy - uy * vx).sum()) / 2
+    if abs(covered - areas[0] + sum(areas[1:])) > 1e-6 * areas[0]:
+        raise MeshError("a polygon of it has holes that do not lie within its outline, or overlap")
+    return np.concatenate(turned)[cut]
+
+
 def whole_numbers(values: npt.NDArray[np.generic]) -> Indices:
     """Indices that were read as numbers. Raises ``MeshError`` if one is not whole."""
     indices = values.astype(np.int64)
