@@ -19,6 +19,10 @@ from shapeviz_report.imports import is_program, trusted_path
 if is_program():
     # before any other module is looked for
     sys.path[:] = trusted_path()
+    from shapeviz_report.ending import end_at_once, listen
+
+    # imports take seconds, and somebody may have mistyped
+    listen(end_at_once)
 
 import os
 from collections.abc import Sequence

@@ -6,19 +6,19 @@ import argparse
 import dataclasses
 import io
 import logging
-import signal
+import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Any, TextIO
 
 from tqdm import tqdm
 
 from shapeviz_report import __version__
 from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
+from shapeviz_report.ending import STOPPED, end_at_once, end_in_order, listen
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.imports import import_numba
 from shapeviz_report.order import classes_of
@@ -63,46 +63,49 @@ STAGES = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:  # as `nohup` has it
-            signal.signal(number, _terminate)
-    for stream in (sys.stdout, sys.stderr):
-        # names of a database may have letters that a terminal has not
-        if isinstance(stream, io.TextIOWrapper):
+    listen(end_at_once)
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # as `>&-` has it
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+        elif isinstance(stream, io.TextIOWrapper):
+            # names of a database may have letters that a terminal has not
             stream.reconfigure(errors="backslashreplace")
     try:
         options = _parser().parse_args(arguments)
-        handler = logging.StreamHandler()
+        handler = logging.StreamHandler(_Patient(sys.stderr))
         handler.setFormatter(_LogFormatter("%(levelname)s: %(message)s"))
         logging.basicConfig(level=logging.WARNING, handlers=[handler])
         import_numba()
-        code = int(options.command(options))
-        if sys.stdout is not None:
-            # here, and not when Python ends, where nobody could say what went wrong
-            sys.stdout.flush()
-        return code
+        return int(options.command(options))
     except ShapevizError as error:
         first, *rest = error.lines
-        _say(f"shapeviz-report: {first}", *rest, file=sys.stderr)
+        _complain(f"shapeviz-report: {first}", *rest)
         return 1
     except MemoryError:
-        print(
+        _complain(
             "shapeviz-report: the memory of this machine does not suffice. What was computed is kept: end other "
-            "programs, or use fewer --jobs, and the same command continues.",
-            file=sys.stderr,
+            "programs, or use fewer --jobs, and the same command continues."
         )
         return 1
     except KeyboardInterrupt:
-        _say("", "Stopped. What was computed is kept: the same command continues from here.", file=sys.stderr)
+        _complain("", STOPPED)
         return 130
-    except BrokenPipeError:
-        # The reader of our output has gone, as in `... | head`.
-        sys.stderr.close()
+    except _OutputError as error:
+        if not isinstance(
+            error.__cause__, BrokenPipeError
+        ):  # whoever reads no further, as `head`, wants no words
+            _complain(f"shapeviz-report: what there is to say cannot be written: {error}")
         return 1
-
-
-def _terminate(number: int, frame: FrameType | None) -> None:
-    raise SystemExit(128 + number)
+    finally:
+        # What follows is the end of Python, where nobody could say what went wrong.
+        listen(end_at_once)
+        for stream in (sys.stdout, sys.stderr):
+            try:
+                stream.flush()
+            except OSError:
+                with suppress(OSError):
+                    stream.close()
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -255,6 +258,7 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 def _build(options: argparse.Namespace) -> int:
     from shapeviz_report.pipeline import build_report
 
+    listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
     report = build_report(options.database, options.output, config, TerminalProgress())
     _print_summary(report, options.output)
@@ -264,6 +268,7 @@ def _build(options: argparse.Namespace) -> int:
 def _demo(options: argparse.Namespace) -> int:
     from shapeviz_report.pipeline import build_demo
 
+    listen(end_in_order)
     report = build_demo(
         options.output, load_config(None, _given(options), options.config), TerminalProgress()
     )
@@ -275,6 +280,7 @@ def _check(options: argparse.Namespace) -> int:
     from shapeviz_report.database import read_database
     from shapeviz_report.pipeline import check_database
 
+    listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
     if options.list:
         database = read_database(options.database, layout=config.layout, labeling=config.labeling)
@@ -302,6 +308,7 @@ def _query(options: argparse.Namespace) -> int:
     from shapeviz_report.querying import find_similar
     from shapeviz_report.site.data_files import json_text
 
+    listen(end_in_order)
     config = load_config(None, {name: getattr(options, name) for name in QUERYING}, options.config)
     result = find_similar(
         options.site,
@@ -405,13 +412,26 @@ def _count(number: int, one: str, many: str) -> str:
     return f"{number:,} {one if number == 1 else many}"
 
 
+class _OutputError(Exception):
+    """Standard output takes no more, and why."""
+
+
 def _say(*lines: str, file: TextIO | None = None) -> None:
     """Print each text as one line: all that the command tells goes this way, for it may hold names of strangers."""
     file = file or sys.stdout
     encoding = file.encoding or "utf-8"
-    for line in lines:
-        print(_one_line(line).encode(encoding, "replace").decode(encoding), file=file)
-    file.flush()
+    try:
+        for line in lines:
+            print(_one_line(line).encode(encoding, "replace").decode(encoding), file=file)
+        file.flush()
+    except OSError as error:
+        raise _OutputError(error.strerror) from error
+
+
+def _complain(*lines: str) -> None:
+    """Say something on standard error, if it takes it."""
+    with suppress(_OutputError):
+        _say(*lines, file=sys.stderr)
 
 
 def _one_line(text: str) -> str:
@@ -431,6 +451,24 @@ class _LogFormatter(logging.Formatter):
         return "\n".join(map(_one_line, super().formatException(ei).splitlines()))
 
 
+class _Patient:
+    """A stream for what may get lost: that its disk is full, or its reader gone, stops nobody's work."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> None:
+        with suppress(OSError):
+            self._stream.write(text)
+
+    def flush(self) -> None:
+        with suppress(OSError):
+            self._stream.flush()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
 class TerminalProgress:
     """A bar with the time left on a terminal; on anything else a line every ten seconds."""
 
@@ -439,7 +477,7 @@ class TerminalProgress:
         """See :class:`shapeviz_report.pipeline.Progress`."""
         title = STAGES[name]
         if total == 0:
-            _say(title, file=sys.stderr)
+            _complain(title)
             yield lambda: None
             return
         live = sys.stderr.isatty()
@@ -451,7 +489,7 @@ class TerminalProgress:
             maxinterval=1.0 if live else 10.0,
             smoothing=0.05,
             ascii=not live,
-            file=sys.stderr,
+            file=_Patient(sys.stderr),
             dynamic_ncols=live,
         ) as bar:
             yield lambda: bar.update()

@@ -18,6 +18,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
+from shapeviz_report.ending import ASKING
 from shapeviz_report.errors import ShapevizError, WorkerError
 from shapeviz_report.executor.base import Outcome
 from shapeviz_report.executor.memory import bound
@@ -165,6 +166,8 @@ class _Worker:
                 "NUMBA_NUM_THREADS",
             ):
                 environment[variable] = "1"
+            # What comes while it starts waits until it can decide.
+            before = signal.pthread_sigmask(signal.SIG_BLOCK, ASKING)
             try:
                 # Standard input is its lifeline: it closes when this process ends, however that comes.
                 self.process = subprocess.Popen(
@@ -181,6 +184,8 @@ class _Worker:
                 raise WorkerError(
                     f"A worker process cannot be started: {error.strerror}. End other programs, or use fewer --jobs."
                 ) from error
+            finally:
+                signal.pthread_sigmask(signal.SIG_SETMASK, before)
         self.connection = Connection(ours.detach())
         self._tasks = os.fdopen(os.dup(self.connection.fileno()), "wb")
 

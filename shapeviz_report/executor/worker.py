@@ -13,13 +13,16 @@ import time
 import traceback
 from multiprocessing.connection import Connection
 
+from shapeviz_report.ending import ASKING
 from shapeviz_report.errors import ShapevizError
 
 
 def serve(descriptor: int) -> None:
     """The life of a worker: take a task, answer with (value, error, CPU seconds), until the pipe closes."""
     # Ctrl-C reaches every process of the terminal; the parent alone decides what it means.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in ASKING:
+        signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, ASKING)
     _end_with_parent()
     connection = Connection(descriptor)
     tasks = os.fdopen(descriptor, "rb", closefd=False)

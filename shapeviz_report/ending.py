@@ -1,0 +1,40 @@
+"""How the command ends when it is asked to: by Ctrl-C, by a terminal that closes, or by a termination signal."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable
+from types import FrameType
+
+ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+"""The signals that ask a program to end."""
+
+STOPPED = "Stopped. What was computed is kept: the same command continues from here."
+
+
+def end_at_once(number: int, frame: FrameType | None = None) -> None:
+    """End now: there is nothing to put away yet, or somebody has asked a second time.
+
+    Workers end with this process, and what it was writing is cleared by the next build.
+    """
+    try:
+        # past Python's buffers, for this may come in the middle of another message
+        os.write(2, f"\n{STOPPED}\n".encode())
+    finally:
+        os._exit(128 + number)
+
+
+def end_in_order(number: int, frame: FrameType | None = None) -> None:
+    """End by an exception, so that what is under way is put away; asked again, at once."""
+    listen(end_at_once)
+    if number == signal.SIGINT:
+        raise KeyboardInterrupt
+    raise SystemExit(128 + number)
+
+
+def listen(handler: Callable[[int, FrameType | None], None]) -> None:
+    """Have these signals handled so, but for those that are switched off, as by ``nohup``."""
+    for number in ASKING:
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, handler)
