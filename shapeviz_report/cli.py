@@ -18,7 +18,7 @@ from tqdm import tqdm
 
 from shapeviz_report import __version__
 from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
-from shapeviz_report.ending import STOPPED, end_at_once, end_in_order, listen
+from shapeviz_report.ending import STOPPED, end_in_order, listen, listening
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.imports import import_numba
 from shapeviz_report.order import classes_of
@@ -63,7 +63,11 @@ STAGES = {
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
-    listen(end_at_once)
+    with listening():
+        return _run(arguments)
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:  # as `>&-` has it
@@ -92,14 +96,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _complain("", STOPPED)
         return 130
     except _OutputError as error:
-        if not isinstance(
-            error.__cause__, BrokenPipeError
-        ):  # whoever reads no further, as `head`, wants no words
+        # Whoever reads no further, as `head`, wants no words.
+        if not isinstance(error.__cause__, BrokenPipeError):
             _complain(f"shapeviz-report: what there is to say cannot be written: {error}")
         return 1
     finally:
         # What follows is the end of Python, where nobody could say what went wrong.
-        listen(end_at_once)
         for stream in (sys.stdout, sys.stderr):
             try:
                 stream.flush()

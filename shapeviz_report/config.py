@@ -17,6 +17,7 @@ from typing import Any
 
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
+from shapeviz_report.places import refuse_no_path
 
 FILE_NAME = "shapeviz.toml"
 """The options' file; it lies in the database's folder."""
@@ -290,11 +291,11 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
     if kind.startswith("tuple"):
         paths = value if isinstance(value, list | tuple) else [value]
         if all(isinstance(path, str | os.PathLike) for path in paths):
-            return tuple(folder / path for path in paths)
+            return tuple(_path(key, path, where, folder) for path in paths)
     elif kind == "bool" and isinstance(value, bool):
         return value
     elif kind.startswith("Path") and isinstance(value, str | os.PathLike):
-        return folder / value
+        return _path(key, value, where, folder)
     elif kind.startswith("float") and isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
     elif isinstance(value, {"str": str, "int": int}.get(kind[:3], ())) and not isinstance(value, bool):
@@ -302,3 +303,11 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
     wanted = {"t": "a list of file names", "P": "a path", "s": "text", "i": "a whole number", "f": "a number"}
     wanted["b"] = "true or false"
     raise ConfigError(f"{key} must be {wanted[kind[0]]}, not {value!r} ({where})")
+
+
+def _path(key: str, value: str | os.PathLike[str], where: str, folder: Path) -> Path:
+    try:
+        refuse_no_path(folder / value)
+    except OSError as error:
+        raise ConfigError(f"{key} ({where}) is no path that can be followed: {error.strerror}") from error
+    return folder / value

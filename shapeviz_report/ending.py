@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from types import FrameType
 
 ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -33,8 +35,24 @@ def end_in_order(number: int, frame: FrameType | None = None) -> None:
     raise SystemExit(128 + number)
 
 
-def listen(handler: Callable[[int, FrameType | None], None]) -> None:
+def listen(handler: Callable[[int, FrameType | None], None] | signal.Handlers) -> None:
     """Have these signals handled so, but for those that are switched off, as by ``nohup``."""
     for number in ASKING:
         if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, handler)
+
+
+@contextmanager
+def listening() -> Iterator[None]:
+    """Inside, a program ends at once when it is asked to, unless :func:`listen` says otherwise; afterwards as before.
+
+    At the very end, where Python forgets how signals are handled, they are ignored: its exit code is settled.
+    """
+    before = {number: signal.getsignal(number) for number in ASKING}
+    atexit.register(listen, signal.SIG_IGN)
+    listen(end_at_once)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
             signal.signal(number, handler)

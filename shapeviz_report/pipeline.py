@@ -40,7 +40,7 @@ from shapeviz_report.features import (
 )
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.order import classes_of
-from shapeviz_report.places import holds, tried
+from shapeviz_report.places import explain, holds, tried
 from shapeviz_report.projections import PROJECTIONS, align, squared_distances
 from shapeviz_report.publication import licence_warning, read_publication
 from shapeviz_report.quality import score
@@ -447,7 +447,7 @@ def check_cache(root: Path, database: Path | None) -> None:
             pass
     except OSError as error:
         raise CacheError(
-            f"results cannot be kept in {root}: {error.strerror} ({error.filename}). Name another folder with --cache"
+            f"results cannot be kept in {root}: {explain(error)}. Name another folder with --cache"
         ) from error
 
 

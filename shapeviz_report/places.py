@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import shutil
@@ -17,9 +18,40 @@ TRIAL_BYTES = 65_536
 """Written to see that a disk is not full: enough for a system to give it a block of its own."""
 
 
+_ADVICE = {
+    errno.ENAMETOOLONG: "choose a shorter name",
+    errno.ENOSPC: "make room there, or choose another place",
+    errno.EDQUOT: "make room there, or choose another place",
+    errno.EINVAL: "choose a name that the system takes",
+    errno.EILSEQ: "choose a name that the system takes",
+}
+
+
+def explain(error: OSError) -> str:
+    """Why nothing can be written somewhere, where, and what to do about it."""
+    where = (
+        f" ({os.fsdecode(error.filename)})" if isinstance(error.filename, str | bytes | os.PathLike) else ""
+    )
+    advice = _ADVICE.get(error.errno or 0, "choose another place, or make this one writable")
+    return f"{error.strerror or error}{where}; {advice}"
+
+
+def refuse_no_path(path: Path) -> None:
+    """Refuse text that no file can be called. Raises ``OSError``, as the system does for other names."""
+    try:
+        encoded = os.fsencode(path)
+    except UnicodeEncodeError:
+        encoded = b"\0"
+    if b"\0" in encoded:
+        raise OSError(errno.EINVAL, "it is no name of a file", ascii(os.fspath(path)))
+
+
 def holds(folder: Path, path: Path) -> bool:
-    """Whether a path is a folder or lies in it, links resolved."""
-    return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
+    """Whether a path is a folder or lies in it, links resolved. What no file can be called lies nowhere."""
+    try:
+        return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
+    except ValueError:
+        return False
 
 
 def is_mount_point(path: Path) -> bool:
@@ -54,6 +86,7 @@ def tried(folder: Path) -> Iterator[Path]:
     OSError
         Nothing can be written there.
     """
+    refuse_no_path(folder)
     existing = Path(os.path.realpath(folder))
     missing: list[str] = []
     while not os.path.lexists(existing):

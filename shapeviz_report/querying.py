@@ -25,7 +25,7 @@ from shapeviz_report.errors import ConfigError, MeshError, SiteError
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import BLOCKS, PRESETS, Preset
 from shapeviz_report.mesh import collect_files
-from shapeviz_report.pipeline import Progress, QuietProgress
+from shapeviz_report.pipeline import Progress, QuietProgress, check_cache
 from shapeviz_report.similarity import rank_similar, typical_distance
 from shapeviz_report.site.data_files import GENERATOR
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, ShapeFacts
@@ -163,9 +163,12 @@ def find_similar(
         The mesh cannot be used.
     ConfigError
         A feature or bin is not there, or only a build has it.
+    CacheError
+        Results cannot be kept in the cache.
     """
     if count < 1:
         raise ConfigError(f"the number of shapes to find must be at least 1, not {count}")
+    check_cache(cache, None)
     opened = _open_site(site)
     chosen, names, left_out = _choose(opened, features, bins)
     with LocalExecutor(1, time_limit, memory_limit or memory_share(1)) as executor:

@@ -21,13 +21,14 @@ from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.pages.bins import model_name, painting_name
 from shapeviz_report.pages.overview import thumbnail_name
+from shapeviz_report.places import explain
 from shapeviz_report.site import preview
 from shapeviz_report.site.data_files import data_files, json_text
 from shapeviz_report.site.destination import check_destination
 from shapeviz_report.site.joiner import join
 from shapeviz_report.site.linked_data import catalogue, dataset, describe
 from shapeviz_report.site.markdown import first_paragraph, render_markdown
-from shapeviz_report.site.record import RECORD, find_own, record_text
+from shapeviz_report.site.record import RECORD, find_own, record_text, sealed
 from shapeviz_report.site.resources import site_folder, templates_folder
 from shapeviz_report.site.single_file import (
     Inline,
@@ -90,8 +91,8 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
     ----------
     report : Report
     destination : Path
-        A folder that is not there yet, is empty, or holds an earlier site. Only files that a site wrote are replaced;
-        whatever else is in it stays.
+        A folder that is not there yet, or holds an earlier site, or nothing but what publishers keep beside one. Only
+        files that a site wrote are replaced; whatever else is in it stays.
     single_file : bool
         Write one HTML file instead, without 3D models; ``destination`` is its path.
 
@@ -107,7 +108,7 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
     _check_report(report)
     try:
         if single_file:
-            write_atomically(destination.resolve(), _whole(report))
+            write_atomically(destination.resolve(), sealed(_whole(report)))
             return
         with replaced_folder(destination, find_own) as folder:
             hashes = {}
@@ -118,7 +119,7 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
                 hashes[name] = sha256(content).hexdigest()
             (folder / RECORD).write_bytes(record_text(hashes))
     except OSError as error:
-        raise SiteError(f"the site cannot be written to {destination}: {error}") from error
+        raise SiteError(f"the site cannot be written to {destination}: {explain(error)}") from error
 
 
 def _files(report: Report) -> Iterator[tuple[str, bytes]]:

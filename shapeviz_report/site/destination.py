@@ -8,8 +8,16 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from shapeviz_report.errors import SiteError
-from shapeviz_report.places import holds, is_mount_point, tried
-from shapeviz_report.site.record import FOLDERS, find_own, is_page, list_entries, may_be_written
+from shapeviz_report.places import explain, holds, is_mount_point, refuse_no_path, tried
+from shapeviz_report.site.record import (
+    FOLDERS,
+    find_own,
+    is_changed,
+    is_kept_beside,
+    is_page,
+    list_entries,
+    may_be_written,
+)
 from shapeviz_report.site.swap import mend
 
 
@@ -32,6 +40,7 @@ def check_destination(
         The message says what is in the way, and what to do.
     """
     try:
+        refuse_no_path(destination)
         if _is_loop(destination):
             raise SiteError(
                 f"{destination} is a link that leads to itself: choose another place for the site"
@@ -46,11 +55,7 @@ def check_destination(
         else:
             _check_folder(destination)
     except OSError as error:
-        where = error.filename if isinstance(error.filename, str) else os.fspath(destination)
-        raise SiteError(
-            f"the site cannot be written to {destination}: {error.strerror or error} ({where}). Choose another "
-            "place, or make this one writable"
-        ) from error
+        raise SiteError(f"the site cannot be written to {destination}: {explain(error)}") from error
 
 
 def _is_loop(path: Path) -> bool:
@@ -69,6 +74,10 @@ def _check_file(destination: Path) -> None:
     if os.path.exists(destination) and not is_page(destination):
         raise SiteError(
             f"{destination} is not a site of shapeviz-report, and would be replaced: choose another name"
+        )
+    if os.path.exists(destination) and is_changed(destination.read_bytes()):
+        raise SiteError(
+            f"{destination} was changed since it was written, and would be replaced: move it, or choose another name"
         )
     _check_parents(destination)
     real = Path(os.path.realpath(destination))
@@ -97,7 +106,7 @@ def _check_folder(destination: Path) -> None:
     mend(real, find_own)
     own = find_own(real)
     foreign = [name for name in list_entries(real) if name not in own]
-    if foreign and not own:
+    if not own and not all(map(is_kept_beside, foreign)):
         raise SiteError(
             f"{destination} holds files that are not a site of shapeviz-report, and would be replaced: "
             "choose another folder, or empty this one"

@@ -1,7 +1,8 @@
 """Which files of a folder the site wrote: what a rebuild may remove, and nothing else.
 
 A site keeps a record of its files with their hashes. A file is the site's own while its content is what was recorded;
-whatever else lies in the folder, a file of the site that somebody has edited too, belongs to the publisher.
+whatever else lies in the folder, a file of the site that somebody has edited too, belongs to the publisher. A site in
+one file has its hash at its end.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import os
 import re
 import stat
 from collections.abc import Iterator, Mapping
-from hashlib import file_digest
+from hashlib import file_digest, sha256
 from pathlib import Path
 from typing import Any
 
@@ -41,6 +42,18 @@ _NAME = re.compile(
     r"|data/selected-bins\.txt"
     r"|models/[0-9a-f]{20}\.js|(paintings|thumbnails)/[0-9a-f]{20}\.webp"
 )
+
+_SEAL = b"<!-- shapeviz-report sha256 "
+
+_KEPT = re.compile(
+    r"\..+|CNAME|_config\.yml|_headers|_redirects|404\.html|(ads|humans|robots|security)\.txt|sitemap\.(txt|xml)"
+    r"|favicon\.(ico|png|svg)|(LICEN[CS]E|COPYING|README)(\.\w+)?|google[0-9a-f]+\.html|BingSiteAuth\.xml"
+)
+
+
+def is_kept_beside(name: str) -> bool:
+    """Whether publishers keep an entry of this name in the folder of any site, before there is one."""
+    return _KEPT.fullmatch(name) is not None
 
 
 def may_be_written(name: str) -> bool:
@@ -109,6 +122,17 @@ def _is_own(folder: Path, name: str, recorded: Mapping[str, str] | None) -> bool
             return file_digest(file, "sha256").hexdigest() == recorded[name]
     except PermissionError:
         return False
+
+
+def sealed(page: bytes) -> bytes:
+    """A page with its hash at its end, by which a later change of it is seen."""
+    return page + _SEAL + sha256(page).hexdigest().encode() + b" -->\n"
+
+
+def is_changed(page: bytes) -> bool:
+    """Whether a page is another one than was sealed. One of an earlier version has no seal."""
+    before, seal, _ = page.rpartition(_SEAL)
+    return bool(seal) and page != sealed(before)
 
 
 def is_page(path: Path) -> bool:

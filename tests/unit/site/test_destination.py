@@ -10,7 +10,7 @@ from reports import make_report
 from small_database import write_database
 
 import shapeviz_report
-from shapeviz_report.errors import CacheError, DatabaseError, ShapevizError, SiteError
+from shapeviz_report.errors import CacheError, ConfigError, DatabaseError, ShapevizError, SiteError
 from shapeviz_report.places import is_mount_point
 from shapeviz_report.site import check_destination, write_site
 
@@ -49,6 +49,8 @@ def listing(folder: Path) -> list[str]:
         f"new/{LONG}",
         "cache",
         "cache/site",
+        "a\0b",
+        "\ud800",
     ],
 )
 def test_a_place_that_cannot_be_is_refused_first_and_nothing_is_left(places, output):
@@ -56,6 +58,9 @@ def test_a_place_that_cannot_be_is_refused_first_and_nothing_is_left(places, out
     with pytest.raises(SiteError) as refused:
         shapeviz_report.build("db", output, cache="cache")
     assert str(Path(output)) in str(refused.value)
+    assert "[Errno" not in str(refused.value)
+    if LONG in output:
+        assert "choose a shorter name" in str(refused.value)
     assert listing(places) == before
 
 
@@ -68,7 +73,14 @@ def test_a_cache_that_cannot_be_is_refused_first(places, cache):
     assert listing(places) == before
 
 
-@pytest.mark.parametrize("database", ["nowhere", "loop", "pipe", "d" * 300])
+@pytest.mark.parametrize("option", ["cache", "introduction", "logo", "bins", "external"])
+@pytest.mark.parametrize("name", ["a\0b", "\ud800"])
+def test_an_option_that_no_file_can_be_called_is_refused(places, option, name):
+    with pytest.raises(ConfigError, match=f"{option} .* is no path that can be followed"):
+        shapeviz_report.check("db", **{option: name})
+
+
+@pytest.mark.parametrize("database", ["nowhere", "loop", "pipe", "d" * 300, "a\0b", "\ud800"])
 def test_a_database_that_cannot_be_is_refused(places, database):
     with pytest.raises(DatabaseError, match=database):
         shapeviz_report.build(database, "site", cache="cache")
@@ -112,7 +124,7 @@ def test_a_folder_that_is_read_only_is_refused(tmp_path):
         (["-t", "tmpfs", "tmpfs"], "", "is a mount point"),
         (["--bind", "."], "", "is a mount point"),
         (["-t", "tmpfs", "-o", "ro", "tmpfs"], "site", "Read-only"),
-        (["-t", "tmpfs", "-o", "size=16k", "tmpfs"], "site", "No space left"),
+        (["-t", "tmpfs", "-o", "size=16k", "tmpfs"], "site", "No space left .* make room there"),
     ],
 )
 def test_what_is_mounted_is_found_out(tmp_path, options, output, said):

@@ -107,6 +107,63 @@ def test_a_link_in_the_place_of_a_folder_of_the_site_is_not_followed(tmp_path):
     assert json.loads((tmp_path / "elsewhere" / "files.json").read_text())
 
 
+BESIDE = [
+    "CNAME",
+    "robots.txt",
+    ".nojekyll",
+    "LICENSE.md",
+    "README.md",
+    "_headers",
+    "google0123456789abcdef.html",
+]
+
+
+def test_the_first_build_may_go_into_a_folder_with_what_publishers_keep(tmp_path):
+    site = tmp_path / "checkout"
+    (site / ".git" / "objects").mkdir(parents=True)
+    (site / ".git" / "HEAD").write_text("ref: refs/heads/gh-pages")
+    for name in BESIDE:
+        (site / name).write_text(name)
+    inode = (site / ".git").stat().st_ino
+    write_site(make_report(), site)
+    assert [(site / name).read_text() for name in BESIDE] == BESIDE
+    assert (site / ".git" / "HEAD").read_text() == "ref: refs/heads/gh-pages"
+    assert (site / ".git").stat().st_ino == inode
+    assert not find_own(site) & {".git", *BESIDE}
+    assert "index.html" in find_own(site)
+    write_site(make_report(), site)
+    assert [(site / name).read_text() for name in BESIDE] == BESIDE
+    assert os.listdir(tmp_path) == ["checkout"]
+
+
+@pytest.mark.parametrize("name", ["notes.txt", "index.html", "data/mine.csv", "cname"])
+def test_the_first_build_does_not_go_among_other_things(tmp_path, name):
+    site = tmp_path / "checkout"
+    (site / name).parent.mkdir(parents=True)
+    (site / name).write_text("mine")
+    (site / "CNAME").write_text("shapes.example.org")
+    with pytest.raises(SiteError, match="not a site of shapeviz-report"):
+        write_site(make_report(), site)
+    assert sorted(p.name for p in site.rglob("*") if p.is_file()) == sorted([Path(name).name, "CNAME"])
+
+
+def test_two_writers_of_one_folder_lose_nothing_and_leave_nothing(tmp_path):
+    site = tmp_path / "site"
+    assert write_dying(site, 0, "exchange") == 0
+    keep_things(site)
+    before = kept(site)
+    for _ in range(15):
+        writers = []
+        for _ in range(4):
+            writers.append(os.fork())
+            if writers[-1] == 0:
+                os._exit(write_dying(site, 0, "exchange"))
+        assert [os.waitstatus_to_exitcode(os.waitpid(writer, 0)[1]) for writer in writers] == [0] * 4
+        assert kept(site) == before
+    assert os.listdir(tmp_path) == ["site"]
+    assert find_own(site) == {"index.html", "data/summary.json", f"models/{20 * 'b'}.js", RECORD}
+
+
 def write_dying(site: Path, step: int, way: str) -> int:
     """Replace a folder in a process that kills itself before the given change of the file system (0: never).
 

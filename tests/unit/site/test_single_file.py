@@ -136,3 +136,26 @@ def test_only_a_site_is_replaced(file, tmp_path):
         check_destination(tmp_path / "site", single_file=True)
     with pytest.raises(SiteError, match="is a file"):
         check_destination(file)
+
+
+def test_a_file_that_was_changed_since_is_refused(report, tmp_path):
+    file = tmp_path / "shapes.html"
+    write_site(report, file, single_file=True)
+    content = file.read_bytes()
+    write_site(report, file, single_file=True)
+    assert file.read_bytes() == content
+    edits = [
+        content.replace(b"</title>", b" of mine</title>", 1),
+        content + b"<!-- mine -->\n",
+        content[:-1],
+        content.replace(b"\n", b"\r\n"),
+    ]
+    for edit in edits:
+        file.write_bytes(edit)
+        with pytest.raises(SiteError, match="was changed since it was written"):
+            write_site(report, file, single_file=True)
+        assert file.read_bytes() == edit
+    earlier, _, _ = content.rpartition(b"<!--")
+    file.write_bytes(earlier)  # as versions wrote it that did not seal
+    write_site(report, file, single_file=True)
+    assert file.read_bytes() == content
