@@ -285,7 +285,9 @@ def _check(options: argparse.Namespace) -> int:
     listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
     if options.list:
-        database = read_database(options.database, layout=config.layout, labeling=config.labeling)
+        database = read_database(
+            options.database, layout=config.layout, labeling=config.labeling, outside=config.outside
+        )
         _say(*(shape.id for shape in database.shapes))
         return 0
     result = check_database(options.database, config, TerminalProgress())

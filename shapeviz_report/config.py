@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import reprlib
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -22,8 +23,11 @@ from shapeviz_report.places import refuse_no_path
 FILE_NAME = "shapeviz.toml"
 """The options' file; it lies in the database's folder."""
 
-MOST_BYTES = 1024**2
-"""Size of the largest file of options."""
+MOST_BYTES = 16 * 1024
+"""Size of the largest file of options. Reading a key of n parts takes a time that grows with the cube of n."""
+
+MOST_LETTERS = 5_000
+"""Letters of a text, which may stand on every page."""
 
 PRESETS = ("default", "paper")
 PUBLICATION = (
@@ -278,7 +282,7 @@ def _read_file(file: Path) -> dict[str, Any]:
         return tomllib.loads(read_regular(file, MOST_BYTES).decode("utf-8-sig"))
     except OSError as error:
         raise ConfigError(f"the options in {file} cannot be read: {error.strerror}") from error
-    except (UnicodeDecodeError, RecursionError, tomllib.TOMLDecodeError) as error:
+    except (ValueError, RecursionError) as error:  # of text, of TOML, of a number of thousands of digits
         raise ConfigError(f"{file} cannot be read as TOML: {error}") from error
 
 
@@ -286,8 +290,10 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
     """A value as the field wants it; relative paths start at ``folder``."""
     fields = {f.name: str(f.type) for f in dataclasses.fields(Config)}
     if key not in fields:
-        raise ConfigError(f"there is no option {key!r} ({where}); there are: {', '.join(fields)}")
+        raise ConfigError(f"there is no option {key[:60]!r} ({where}); there are: {', '.join(fields)}")
     kind = fields[key]
+    if isinstance(value, str) and len(value) > MOST_LETTERS:
+        raise ConfigError(f"{key} has {len(value):,} letters; shorten it to {MOST_LETTERS:,} ({where})")
     if kind.startswith("tuple"):
         paths = value if isinstance(value, list | tuple) else [value]
         if all(isinstance(path, str | os.PathLike) for path in paths):
@@ -302,7 +308,7 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
         return value
     wanted = {"t": "a list of file names", "P": "a path", "s": "text", "i": "a whole number", "f": "a number"}
     wanted["b"] = "true or false"
-    raise ConfigError(f"{key} must be {wanted[kind[0]]}, not {value!r} ({where})")
+    raise ConfigError(f"{key} must be {wanted[kind[0]]}, not {reprlib.repr(value)} ({where})")
 
 
 def _path(key: str, value: str | os.PathLike[str], where: str, folder: Path) -> Path:

@@ -14,7 +14,8 @@ class TooLargeError(OSError):
     """A file has more bytes than its reader takes."""
 
     def __init__(self, path: Path, most: int) -> None:
-        super().__init__(0, f"it is larger than {most / 2**20:,.0f} MiB", str(path))
+        size = f"{most / 2**20:,.0f} MiB" if most >= 2**20 else f"{most / 2**10:,.0f} KiB"
+        super().__init__(0, f"it is larger than {size}", str(path))
 
 
 def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:

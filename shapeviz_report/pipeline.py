@@ -1023,7 +1023,9 @@ def _paint(
 
 def _read_database(path: Path, config: Config, publication: Publication) -> Database:
     """The database, with what its owner should know before it is published."""
-    database = read_database(path, layout=config.layout, labeling=config.labeling, name=config.title)
+    database = read_database(
+        path, layout=config.layout, labeling=config.labeling, name=config.title, outside=config.outside
+    )
     warning = licence_warning(publication, database.shapes)
     return database if warning is None else replace(database, warnings=(*database.warnings, warning))
 

@@ -24,7 +24,12 @@ LAYOUTS: tuple[Layout, ...] = (Princeton(), Table(), ModelNet(), ClassFolders(),
 
 
 def read_database(
-    path: Path, *, layout: str | None = None, labeling: str | None = None, name: str | None = None
+    path: Path,
+    *,
+    layout: str | None = None,
+    labeling: str | None = None,
+    name: str | None = None,
+    outside: bool = True,
 ) -> Database:
     """Read a shape database.
 
@@ -38,6 +43,8 @@ def read_database(
         The labeling to put first, that is to use.
     name : str, optional
         Title of the database; by default the name of its folder.
+    outside : bool, optional
+        Whether links in the database are followed to folders, tables and classifications that are not in it.
 
     Returns
     -------
@@ -52,9 +59,9 @@ def read_database(
     path = Path(path)
     if not os.path.exists(path):
         raise DatabaseError(f"There is no shape database at {path}: no such file or folder.")
-    database = _choose_layout(path, layout).read(path)
+    database = _choose_layout(path, layout, outside).read(path, outside)
     if database.layout != Table.name and path.is_dir():
-        database = replace(database, warnings=(*database.warnings, *passed_over(path)))
+        database = replace(database, warnings=(*database.warnings, *passed_over(path, outside)))
     if not database.shapes and not database.failures:
         raise DatabaseError(*_nothing_found(path))
     if labeling is not None:
@@ -68,7 +75,7 @@ def read_database(
     return database if name is None else replace(database, name=name)
 
 
-def _choose_layout(path: Path, name: str | None) -> Layout:
+def _choose_layout(path: Path, name: str | None, outside: bool) -> Layout:
     if name is not None:
         for layout in LAYOUTS:
             if layout.name == name:
@@ -76,7 +83,7 @@ def _choose_layout(path: Path, name: str | None) -> Layout:
         names = ", ".join(f"'{layout.name}'" for layout in LAYOUTS)
         raise DatabaseError(f"There is no layout '{name}'. The layouts: {names}.")
     for layout in LAYOUTS:
-        if layout.recognises(path):
+        if layout.recognises(path, outside):
             return layout
     raise DatabaseError(*_nothing_found(path))
 

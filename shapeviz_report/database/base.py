@@ -24,12 +24,12 @@ class Layout(ABC):
     description: ClassVar[str]
 
     @abstractmethod
-    def recognises(self, path: Path) -> bool:
+    def recognises(self, path: Path, outside: bool) -> bool:
         """Whether this existing file or folder is arranged so. Never raises for what is in it."""
 
     @abstractmethod
-    def read(self, path: Path) -> Database:
-        """Read it.
+    def read(self, path: Path, outside: bool) -> Database:
+        """Read it, with what links in it lead to ``outside`` of its folder or without.
 
         Raises
         ------

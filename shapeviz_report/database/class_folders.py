@@ -22,11 +22,11 @@ class ClassFolders(Layout):
     name = "class-folders"
     description = "one folder a class: CLASS/*.off"
 
-    def recognises(self, path: Path) -> bool:
-        return path.is_dir() and any("/" in found for found in scan_folder(path).paths)
+    def recognises(self, path: Path, outside: bool) -> bool:
+        return path.is_dir() and any("/" in found for found in scan_folder(path, outside).paths)
 
-    def read(self, path: Path) -> Database:
-        found = scan_folder(path)
+    def read(self, path: Path, outside: bool) -> Database:
+        found = scan_folder(path, outside)
         folders = [tuple(clean(folder) for folder in file.folders) for file in found.files]
         labels = [{"class": parts[0]} if parts and parts[0] else {} for parts in folders]
         parents: dict[str, str] = {}

@@ -15,12 +15,12 @@ class FlatFolder(Layout):
     name = "flat"
     description = "a folder of meshes without labels: *.off"
 
-    def recognises(self, path: Path) -> bool:
-        return path.is_dir() and bool(scan_folder(path).paths)
+    def recognises(self, path: Path, outside: bool) -> bool:
+        return path.is_dir() and bool(scan_folder(path, outside).paths)
 
-    def read(self, path: Path) -> Database:
+    def read(self, path: Path, outside: bool) -> Database:
         """Read it. Chosen by name, it also takes meshes in deeper folders, whatever those are called."""
-        found = scan_folder(path)
+        found = scan_folder(path, outside)
         ids = shape_ids([file.relative for file in found.files])
         return Database(
             name=database_name(path),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter, deque
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,6 +12,9 @@ from shapeviz_report.database.text import readable
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.order import natural
 from shapeviz_report.types import Failure
+
+MOST_WAYS = 10
+"""Links that lead to one folder. Folders with links to one another have more ways through them than can be gone."""
 
 _NEVER_SHAPES = ("__MACOSX",)
 
@@ -64,11 +68,18 @@ def _begins_with(name: str, stems: set[str]) -> bool:
     return any(".".join(parts[:end]) in stems for end in range(1, len(parts)))
 
 
-def scan_folder(root: Path) -> Found:
+def leads_outside(path: str | Path, folder: str | Path) -> bool:
+    """Whether a path is not in a folder, links resolved."""
+    real, base = os.path.realpath(path), os.path.realpath(folder)
+    return os.path.commonpath((real, base)) != base
+
+
+def scan_folder(root: Path, outside: bool) -> Found:
     """Every mesh below a folder, and whatever looks like one and cannot be taken.
 
-    Links are followed, to files and to folders; a link back to a folder above it is a failure, so that a loop
-    ends. Hidden files and folders and files that are no meshes are passed over in silence.
+    Links are followed, to files and to folders. Failures are a link back to a folder above it, so that a loop ends; a
+    link to a folder that ``MOST_WAYS`` others have led to; and, unless ``outside`` ones are wanted, a link to a folder
+    that is not below the root. Hidden files and folders and files that are no meshes are passed over in silence.
 
     Raises
     ------
@@ -82,9 +93,11 @@ def scan_folder(root: Path) -> Found:
         failures.append(Failure(relative, "read", reason))
 
     # a folder waits with the identities of the folders above it, by which a loop of links is seen
-    waiting: list[tuple[str, str, frozenset[tuple[int, int]]]] = [(os.fspath(root), "", frozenset())]
+    ways: Counter[tuple[int, int]] = Counter()
+    waiting: deque[tuple[str, str, frozenset[tuple[int, int]]]] = deque([(os.fspath(root), "", frozenset())])
     while waiting:
-        folder, prefix, above = waiting.pop()
+        # short ways first, so that it is no link that leads to a folder before its own name does
+        folder, prefix, above = waiting.popleft()
         try:
             status = os.stat(folder)
             identity = (status.st_dev, status.st_ino)
@@ -94,8 +107,14 @@ def scan_folder(root: Path) -> Found:
                     "this folder is a link to a folder that contains it; it was not followed",
                 )
                 continue
+            ways[identity] += 1
+            if ways[identity] > MOST_WAYS:
+                fail(
+                    prefix.rstrip("/"), f"{MOST_WAYS} links lead to this folder already; it was not followed"
+                )
+                continue
             with os.scandir(folder) as listing:
-                entries = list(listing)
+                entries = sorted(listing, key=lambda entry: entry.name)
         except OSError as error:
             if not prefix:
                 raise DatabaseError(f"The folder {root} cannot be opened: {error.strerror}.") from error
@@ -112,7 +131,14 @@ def scan_folder(root: Path) -> Found:
             except OSError as error:
                 fail(relative, f"this link leads nowhere: {error.strerror}")
                 continue
-            if is_folder:
+            if is_folder and not outside and entry.is_symlink() and leads_outside(entry.path, root):
+                place = os.path.realpath(entry.path)
+                fail(
+                    relative,
+                    f"it lies outside the database's folder, at {place}; copy it into the folder, or have such folders "
+                    "read by --outside",
+                )
+            elif is_folder:
                 waiting.append((entry.path, relative + "/", above | {identity}))
             elif not is_read(entry.name):
                 if is_unread_mesh(entry.name) and not _begins_with(entry.name, stems):

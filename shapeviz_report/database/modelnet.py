@@ -19,14 +19,14 @@ class ModelNet(Layout):
     name = "modelnet"
     description = "class folders split into training and test shapes: CLASS/train/*.off, CLASS/test/*.off"
 
-    def recognises(self, path: Path) -> bool:
+    def recognises(self, path: Path, outside: bool) -> bool:
         if not path.is_dir():
             return False
-        files = scan_folder(path).files
+        files = scan_folder(path, outside).files
         return bool(files) and all(_is_split(file) for file in files)
 
-    def read(self, path: Path) -> Database:
-        found = scan_folder(path)
+    def read(self, path: Path, outside: bool) -> Database:
+        found = scan_folder(path, outside)
         for file in found.files:
             if not _is_split(file):
                 raise DatabaseError(

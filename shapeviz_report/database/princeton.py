@@ -24,7 +24,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
-from shapeviz_report.database.folder import MeshFile, scan_folder
+from shapeviz_report.database.folder import MeshFile, leads_outside, scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, suffix_of
 from shapeviz_report.database.text import clean, decode
 from shapeviz_report.errors import DatabaseError
@@ -91,10 +91,10 @@ class Princeton(Layout):
         "Princeton classification files: *.cla, or classification/**/*.cla, and models m123.off below"
     )
 
-    def recognises(self, path: Path) -> bool:
+    def recognises(self, path: Path, outside: bool) -> bool:
         return bool(_classification_files(path))
 
-    def read(self, path: Path) -> Database:
+    def read(self, path: Path, outside: bool) -> Database:
         files = _classification_files(path)
         if not files:
             raise DatabaseError(
@@ -102,6 +102,12 @@ class Princeton(Layout):
             )
         root = _root_of(path)
         warnings: list[str] = []
+        for file in files:
+            if path.is_dir() and not outside and leads_outside(file, path):
+                raise DatabaseError(
+                    f"{file} is a link to {os.path.realpath(file)}, outside the database's folder, and is not read. "
+                    "Copy it into the folder, or use --outside."
+                )
         categories = {file: _read_cla(file, warnings) for file in files}
         classifications = _combine(categories, root, warnings)
         listed_in: dict[str, Path] = {}
@@ -111,7 +117,7 @@ class Princeton(Layout):
                 listed_in.setdefault(model, file)
                 if split := _split_of(file)[1]:
                     splits.setdefault(model, split)
-        meshes, unlisted = _find_models(listed_in, root)
+        meshes, unlisted = _find_models(listed_in, root, outside)
         if unlisted:
             warnings.append(f"{unlisted} mesh files below {root} are in no .cla file and are left out.")
         models = sorted(meshes, key=lambda model: (meshes[model].relative, model))
@@ -309,7 +315,7 @@ def _parents_of(classification: Classification, labels: set[str]) -> dict[str, s
     return {low: high for chain in chains for high, low in pairwise(chain)}
 
 
-def _find_models(models: Mapping[str, Path], root: Path) -> tuple[dict[str, MeshFile], int]:
+def _find_models(models: Mapping[str, Path], root: Path, outside: bool) -> tuple[dict[str, MeshFile], int]:
     """The mesh of every model that has one, and how many meshes belong to no model.
 
     The model 123 is the file ``m123.off`` as in the benchmark, or else ``123.off``, or else the only one whose
@@ -317,7 +323,7 @@ def _find_models(models: Mapping[str, Path], root: Path) -> tuple[dict[str, Mesh
     one with the first suffix in ``MESH_FORMATS`` is taken, then the first path.
     """
     suffixes = list(MESH_FORMATS)
-    files = scan_folder(root).files
+    files = scan_folder(root, outside).files
     by_stem: dict[str, MeshFile] = {}
     for file in sorted(files, key=lambda file: (suffixes.index(suffix_of(file.relative)), file.relative)):
         by_stem.setdefault(file.stem, file)

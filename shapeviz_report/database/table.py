@@ -16,7 +16,7 @@ from itertools import zip_longest
 from pathlib import Path
 
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
-from shapeviz_report.database.folder import scan_folder
+from shapeviz_report.database.folder import leads_outside, scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, is_read, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
 from shapeviz_report.errors import DatabaseError
@@ -111,13 +111,13 @@ class Table(Layout):
         "a CSV or JSON table with the columns file, label and any metadata, or the folder it lies in"
     )
 
-    def recognises(self, path: Path) -> bool:
+    def recognises(self, path: Path, outside: bool) -> bool:
         if path.is_dir():
-            return bool(_tables_in(path))
+            return bool(_tables_in(path, outside))
         return suffix_of(path.name) in TABLE_SUFFIXES
 
-    def read(self, path: Path) -> Database:
-        table = _the_table(path)
+    def read(self, path: Path, outside: bool) -> Database:
+        table = _the_table(path, outside)
         content = _read(table)
         rows, warnings = content.rows, content.warnings
         if not rows:
@@ -141,12 +141,12 @@ class Table(Layout):
             warnings.append(
                 f"{table.name} has no labels; the shapes are grouped by its column '{groups[0]}'."
             )
-        if left_out := _count_unlisted(root, rows, finder):
+        if left_out := _count_unlisted(root, rows, finder, outside):
             files = "1 mesh file" if left_out == 1 else f"{left_out} mesh files"
             verb = "is" if left_out == 1 else "are"
             warnings.append(f"{files} below {root} {verb} not in {table.name} and {verb} left out.")
         if path.is_dir():
-            warnings += passed_over(path, table)
+            warnings += passed_over(path, outside, table)
         return Database(
             name=database_name(root),
             root=root,
@@ -170,10 +170,10 @@ class Table(Layout):
         )
 
 
-def _the_table(path: Path) -> Path:
+def _the_table(path: Path, outside: bool) -> Path:
     if not path.is_dir():
         return path
-    tables = _tables_in(path)
+    tables = _tables_in(path, outside)
     if len(tables) == 1:
         return tables[0]
     if tables:
@@ -186,14 +186,14 @@ def _the_table(path: Path) -> Path:
     )
 
 
-def _tables_in(folder: Path) -> list[Path]:
+def _tables_in(folder: Path, outside: bool) -> list[Path]:
     """The tables of a folder: those that list meshes that are there, else those that at least say that they do."""
-    judged = {table: _judge(table) for table in _candidates(folder)}
+    judged = {table: _judge(table, outside) for table in _candidates(folder)}
     found = [table for table, verdict in judged.items() if verdict.finds]
     return found or [table for table, verdict in judged.items() if verdict.plain]
 
 
-def passed_over(folder: Path, read: Path | None = None) -> list[str]:
+def passed_over(folder: Path, outside: bool, read: Path | None = None) -> list[str]:
     """What to tell of the tables in a folder other than the one that was ``read``, if they look meant for it.
 
     That is: they list meshes, have a column of classes, or have a slip, so that nobody can say what they are.
@@ -204,7 +204,9 @@ def passed_over(folder: Path, read: Path | None = None) -> list[str]:
     except OSError:
         return []
     judged = {
-        table: _judge(table) for table in _candidates(folder) if table.stem not in stems and table != read
+        table: _judge(table, outside)
+        for table in _candidates(folder)
+        if table.stem not in stems and table != read
     }
     return [
         f"{table.name} lies in the folder and is not used. {verdict.reason}"
@@ -232,12 +234,15 @@ class Verdict:
     reason: str
 
 
-def _judge(table: Path) -> Verdict:
+def _judge(table: Path, outside: bool) -> Verdict:
     """Judge a file of unknown content.
 
     A mesh that is there makes it a table of shapes, or else a column ``file``. Other names of that column do not: many
     tables of other things have a ``model`` or an ``id``.
     """
+    if not outside and leads_outside(table, table.parent):
+        told = f"It is a link to {os.path.realpath(table)}, outside the folder; copy it, or use --outside."
+        return Verdict(False, False, told)
     try:
         content = _read(table)
     except OtherContentError:
@@ -540,11 +545,11 @@ def _as_number(name: str) -> str:
     return _COUNTED.sub(r"\1\2", _any_case(name))
 
 
-def _count_unlisted(root: Path, rows: Sequence[Row], finder: _Finder) -> int:
+def _count_unlisted(root: Path, rows: Sequence[Row], finder: _Finder, outside: bool) -> int:
     """How many meshes below the table's folder none of its rows names; 0 for a folder that cannot be looked into."""
     named = {os.path.realpath(path) for row in rows if row.file and (path := finder.find(row.file))}
     try:
-        return sum(os.path.realpath(file.location) not in named for file in scan_folder(root).files)
+        return sum(os.path.realpath(file.location) not in named for file in scan_folder(root, outside).files)
     except DatabaseError:
         return 0
 

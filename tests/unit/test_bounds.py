@@ -17,8 +17,9 @@ import pytest
 
 from shapeviz_report.bins import read_bins
 from shapeviz_report.cells import write_cell
-from shapeviz_report.config import Config
+from shapeviz_report.config import Config, load_config
 from shapeviz_report.database import read_database
+from shapeviz_report.database.folder import MOST_WAYS
 from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
 from shapeviz_report.features import BLOCKS, MOST_EXTERNAL_COLUMNS, load_external
 from shapeviz_report.mesh.read import collect_files, parse_mesh
@@ -116,7 +117,7 @@ def test_a_3mf_of_many_objects(tmp_path) -> None:
 
 
 def test_a_ply_of_many_elements() -> None:
-    header = "ply\nformat ascii 1.0\n" + "".join(f"element e{n} 0\n" for n in range(60_000)) + "end_header\n"
+    header = "ply\nformat ascii 1.0\n" + "".join(f"element e{n} 0\n" for n in range(12_000)) + "end_header\n"
     assert "no vertices" in refused(parse_mesh, {"mesh.ply": header.encode()})
 
 
@@ -151,6 +152,54 @@ def test_a_polygon_of_too_many_corners() -> None:
     points = b"".join(b"v %d %d 0\n" % (n % 199, n) for n in range(MOST_CORNERS + 1))
     said = refused(parse_mesh, {"mesh.obj": points + b"f " + corners + b"\n"})
     assert f"a polygon of {MOST_CORNERS + 1:,} corners" in said
+
+
+# folders and links
+
+
+def test_folders_that_link_to_one_another(tmp_path) -> None:
+    """There are millions of ways through ten such folders."""
+    names = [f"f{n}" for n in range(10)]
+    for name in names:
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "a.off").write_text("OFF")
+        for other in names:
+            (tmp_path / name / f"to-{other}").symlink_to(tmp_path / other)
+    database = read_database(tmp_path)
+    found = {shape.id for shape in database.shapes}
+    assert {f"{name}/a" for name in names} <= found
+    assert len(found) <= 10 * MOST_WAYS
+    assert any("10 links lead to this folder already" in failure.reason for failure in database.failures)
+
+
+@pytest.mark.parametrize("name", ["shapes.csv", "all.cla", "inside"])
+def test_links_that_lead_outside_are_followed_only_when_asked(tmp_path, name) -> None:
+    secret, root = tmp_path / "secret", tmp_path / "database"
+    (secret / "inside").mkdir(parents=True)
+    root.mkdir()
+    for folder in (root, secret / "inside"):
+        (folder / "m1.off").write_text("OFF")
+    (secret / "shapes.csv").write_text("file,label\nm1.off,secret\n")
+    (secret / "all.cla").write_text("PSB 1\n1 1\nsecret 0 1\n1\n")
+    (root / name).symlink_to(secret / name)
+
+    def told(outside: bool) -> str:
+        try:
+            return repr(read_database(root, outside=outside))
+        except DatabaseError as error:
+            return str(error)
+
+    assert "--outside" in told(False)
+    hidden = "inside/m1" if name == "inside" else "'secret'"
+    assert hidden not in told(False)
+    assert hidden in told(True)
+    assert "--outside" not in told(True)
+    # within the database links are followed
+    (root / name).unlink()
+    (root / ".kept").mkdir()
+    (secret / name).rename(root / ".kept" / name)
+    (root / name).symlink_to(root / ".kept" / name)
+    assert "--outside" not in told(False)
 
 
 # tables, lists of bins, features
@@ -242,6 +291,23 @@ def test_a_file_of_bins_that_is_none(tmp_path, name, content) -> None:
 
 
 # what the owner says
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "seed = " + "9" * 12_000,
+        "title = " + "[" * 7_000 + "]" * 7_000,
+        'title = "' + "a" * 12_000 + '"',
+        f"title = [{'1,' * 7_000}]",
+        f"{'a' * 12_000} = 1",
+        ".".join("a" * 3_000) + " = 1",
+        "a" * 2_000_000,
+    ],
+)
+def test_options_of_any_length(tmp_path, content) -> None:
+    (tmp_path / "shapeviz.toml").write_text(content)
+    assert len(refused(load_config, tmp_path, {})) < 1000
 
 
 @pytest.mark.parametrize("option", ["introduction", "logo"])
