@@ -54,6 +54,7 @@ from shapeviz_report.types import (
     Retrieval,
     ShapeEntry,
     ShapeFacts,
+    distinct_rows,
     group_copies,
 )
 
@@ -184,7 +185,9 @@ def with_publication(report: Report) -> Report:
 def with_search(report: Report, *, limit: int = 1000) -> Report:
     """The report with a real search of two rounds over its features, of ``limit`` shapes at most."""
     space = make_space(report.features, report.features.values, report.labels, limit=limit)
-    return replace(report, search=search_features(space, report.labels, "tsne", rounds=2))
+    return replace(
+        report, search=search_features(space, report.labels, "tsne", rounds=2, groups=_groups(report))
+    )
 
 
 def with_scores(report: Report) -> Report:
@@ -211,11 +214,15 @@ def with_bin_search(report: Report) -> Report:
     if (sizes > 1).sum() < 2:
         return report
     everything = squared_distances(scale(report.features, preset)[space.rows])
-    folds = deal_folds(codes, 0)[:2]
+    groups = _groups(report)[space.rows]
+    distinct = distinct_rows(groups, codes >= 0)
+    folds = deal_folds(codes, 0, groups)[:2]
     shuffled = shuffle_labels(space, report.labels, 0)
     found = BinSearch(
         automatic=select_bins(space, report.labels, limit=6),
-        held_out=tuple(hold_out(space, report.labels, fold, everything, limit=2) for fold in folds),
+        held_out=tuple(
+            hold_out(space, report.labels, fold, everything, limit=2, distinct=distinct) for fold in folds
+        ),
         shuffled=(
             hold_out(space, shuffled, deal_folds(encode(space, shuffled)[1], 0)[0], everything, limit=2),
         ),
@@ -267,22 +274,33 @@ def with_retrieval(report: Report) -> Report:
 
 
 def with_copies(report: Report, pairs: Sequence[tuple[int, int]]) -> Report:
-    """The report with some shapes, by row, as copies of others, and its figures without them."""
+    """The report with some shapes, by row, as copies of others, its searches as if this had been known, and its figures
+    without them."""
     ids = [shape.id for shape in report.shapes]
     copies = tuple(Copy(ids[a], ids[b], Match("identical geometry", mirrored=True)) for a, b in pairs)
     space = make_space(report.features, scale(report.features, PRESETS["default"]), report.labels)
+    report = replace(report, copies=copies)
+    if report.search is not None:
+        report = with_search(report)
+    if report.bins is not None:
+        report = with_bin_search(report)
     return replace(
         report,
-        copies=copies,
         without_copies=rate_without_copies(
-            group_copies(copies, ids),
+            _groups(report),
             report.labels,
             {method: projection.xy for method, (projection, _) in report.projections.items()},
             quality.NEIGHBOURS,
             space.rows,
             {"everything": space.squared.sum(axis=0, dtype=np.float64)},
+            report.search,
+            None if report.bins is None else report.bins.automatic,
         ),
     )
+
+
+def _groups(report: Report) -> np.ndarray:
+    return group_copies(report.copies, [shape.id for shape in report.shapes])
 
 
 def with_paintings(report: Report) -> Report:

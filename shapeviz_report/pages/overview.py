@@ -163,7 +163,7 @@ def _details(report: Report) -> dict[str, object]:
                 # Pairs, because a column may have any name, "__proto__" included.
                 "metadata": [[key, value] for key, value in shape.metadata.items()],
                 "copies": [
-                    [row[other], f"as {name[row[found]]}" if isinstance(found, str) else found.words]
+                    [row[other], f"by way of {name[row[found]]}" if isinstance(found, str) else found.words]
                     for other, found in copies_of(report.copies, shape.id)
                 ],
                 "repairs": [[repair, count] for repair, count in facts.repairs.items()],

@@ -111,7 +111,10 @@ SITES = {
             "inventory": [f"K-{row:04}" for row in range(144)],
         },
     ),
-    "copied": lambda: with_copies(make_report(["ant", "bird"], 8), [(0, 3), (8, 9)]),
+    "copied": lambda: with_copies(
+        with_bin_search(with_search(with_retrieval(make_report(["ant", "bird"], 8)))),
+        [(0, 3), (3, 5), (8, 9)],
+    ),
     "large": lambda: make_report([f"class {number}" for number in range(8)], 250, methods=("tsne", "pca")),
 }
 

@@ -104,10 +104,13 @@ class TestCopies:
     def test_the_filter_of_copies_leaves_them(self, open_page):
         page = open_page("copied", "shapes.html")
         value(page, "Copies", "has copies").locator("input").check()
-        assert shown(page) == 4
+        assert shown(page) == 5
         addressed(page, "is.copies=has+copies")
         assert names(open_page("copied", "shapes.html#is.copies=has+copies")) == names(page)
-        assert set(names(page)) == {"ant 0", "ant 3", "bird 0", "bird 1"}
+        assert set(names(page)) == {"ant 0", "ant 3", "ant 5", "bird 0", "bird 1"}
+        value(page, "Copies", "has copies").locator("input").uncheck()
+        value(page, "Copies", "no copies").locator("input").check()
+        assert shown(page) == 11
 
 
 class TestManyShapes:

@@ -411,11 +411,13 @@ def test_a_shape_is_selected_and_stays_so(shape):
 def test_copies_are_told_with_what_says_so_and_lead_to_each_other(shape, reports):
     page = shape("copied", "#id=class000/0003")
     told = page.locator("#facts section", has=page.locator("h2", has_text="The same shape as"))
-    assert told.locator("dt").all_inner_texts() == ["ant 0"]
-    assert told.locator("dd").all_inner_texts() == [reports("copied").copies[0].match.words]
-    told.locator("a").click()
+    words = reports("copied").copies[0].match.words
+    assert told.locator("dt").all_inner_texts() == ["ant 0", "ant 5"]
+    assert told.locator("dd").all_inner_texts() == [words, words]
+    told.locator("a").first.click()
     eventually(page, lambda: title(page) == "ant 0")
-    eventually(page, lambda: told.locator("dt").all_inner_texts() == ["ant 3"])
+    eventually(page, lambda: told.locator("dt").all_inner_texts() == ["ant 3", "ant 5"])
+    assert told.locator("dd").all_inner_texts() == [words, "by way of ant 3"]
 
 
 def test_everything_stands_in_tables(shape):

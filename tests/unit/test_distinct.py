@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from reports import make_report, with_copies, with_retrieval
+from reports import make_report, with_bin_search, with_copies, with_retrieval, with_search
 
 from shapeviz_report.distinct import rate_without_copies
+from shapeviz_report.pages.bins import BinsPage
 from shapeviz_report.pages.features import FeaturesPage
 from shapeviz_report.pages.overview import OverviewPage
 from shapeviz_report.quality import hits_among, neighbour_weights, neighbourhood_hits, score
@@ -83,6 +84,30 @@ def test_the_data_and_the_pages_give_both_figures(report: Report) -> None:
     said = FeaturesPage().content(report).context["retrieval"]["without_copies"]
     assert said["copies"] == 2
     assert said["nearest"] == report.without_copies.retrieval["everything"][0]
+
+
+def test_what_was_chosen_and_what_was_held_out_is_given_without_copies_too() -> None:
+    report = with_copies(with_bin_search(with_search(make_report(["ant", "bird"], 8))), [(0, 1), (8, 9)])
+    assert report.bins is not None
+    assert report.search is not None
+    assert report.without_copies is not None
+    kept = np.array([0, *range(2, 9), *range(10, 16)])
+    chosen = report.bins.automatic.path[-1].xy[kept]
+    assert report.without_copies.bins == score(chosen, [report.labels[row] for row in kept]).nh_s
+    best = report.search.subsets.xy[report.search.subsets.nh_s.argmax()][kept]
+    assert report.without_copies.best == score(best, [report.labels[row] for row in kept]).nh_s
+    data = summary(report, "1")
+    assert data["without_copies"]["bins"]["nh_s"] == report.without_copies.bins
+    for page, place in ((BinsPage(), "selection"), (FeaturesPage(), "search")):
+        said = page.content(report).context[place]
+        said = said if place == "selection" else said["held_out"]
+        assert 0 <= said["distinct"]["nh_s"] <= 1
+        assert said["distinct"]["gain"].mean == pytest.approx(
+            said["distinct"]["nh_s"] - said["distinct"]["all"]
+        )
+    gain = data["bins"]["automatic"]["held_out"]["gain_without_copies"]
+    assert gain["mean"] == BinsPage().content(report).context["selection"]["distinct"]["gain"].mean
+    assert data["search"]["held_out_gain_without_copies"]["deals"] == 10
 
 
 def test_nothing_is_said_where_there_are_no_copies() -> None:

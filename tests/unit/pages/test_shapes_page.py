@@ -66,6 +66,22 @@ class TestNaturalOrder:
         names = ["cup 10", "Cup 2", "cup 1", "ant", "cup", "12", "cup 02"]
         assert sorted(names, key=natural) == ["12", "ant", "cup", "cup 1", "Cup 2", "cup 02", "cup 10"]
 
+    def test_decimals_go_by_value_and_parts_of_names_by_part(self) -> None:
+        assert sorted(["1.10", "10", "0.5", "1.9", "0.25", "2"], key=natural) == [
+            "0.25",
+            "0.5",
+            "1.10",
+            "1.9",
+            "2",
+            "10",
+        ]
+        assert sorted(["v1.10", "v1.9", "m 0.5", "m 0.25"], key=natural) == [
+            "m 0.5",
+            "m 0.25",
+            "v1.9",
+            "v1.10",
+        ]
+
     @given(st.lists(st.text(), max_size=6))
     def test_any_texts_can_be_sorted_and_only_equal_ones_are_equal(self, names) -> None:
         ordered = sorted(names, key=natural)
