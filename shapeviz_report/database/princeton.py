@@ -222,7 +222,7 @@ def _read_cla(file: Path, warnings: list[str]) -> tuple[Category, ...]:
 
     def take_count(what: str) -> int:
         token = take(what)
-        if not (token.isascii() and token.isdigit()):
+        if not (token.isascii() and token.isdigit() and len(token) < 16):
             raise wrong(f"'{token}' stands where {what} should")
         return int(token)
 

@@ -10,6 +10,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from itertools import zip_longest
@@ -57,7 +58,7 @@ FEWEST_SHAPES_A_CLASS = 3
 _EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
 _SECOND_OBJECT = re.compile(r"\s*\{.*\}[ \t\r]*\n\s*\{")
 """An object that ends on its line and another below, without a comma: JSON lines, whatever the file is called."""
-_COUNTED = re.compile(r"^0*(\d+)(?:\.0+)?(\.[a-z]\w*)?$", re.ASCII)
+_COUNTED = re.compile(r"^0*(0|[1-9]\d*)(?:\.0+)?(\.[a-z]\w*)?$", re.ASCII)
 """A name that is a whole number, with or without a suffix."""
 _csv_reader = partial(csv.reader, skipinitialspace=True)
 
@@ -483,7 +484,8 @@ class _Finder:
 
     def __init__(self, root: Path) -> None:
         self.root = os.fspath(root)
-        self.listings: dict[str, list[str]] = {}
+        self.listings: dict[tuple[str, Callable[[str], str]], dict[str, list[str]]] = {}
+        self.found: dict[str, Path | None] = {}
 
     def find(self, file: str) -> Path | None:
         """The file, or the folder, that a table means; None if nothing is there, or it cannot be said which.
@@ -492,6 +494,11 @@ class _Finder:
         normal forms, which tables and file systems exchange behind their users' backs, then in another case, then as a
         number that a spreadsheet has written its own way; each also with the suffixes of meshes.
         """
+        if file not in self.found:
+            self.found[file] = self._find(file)
+        return self.found[file]
+
+    def _find(self, file: str) -> Path | None:
         spellings = list(dict.fromkeys((file, file.replace("\\", "/"))))
         for spelling in spellings:
             path = os.path.normpath(os.path.join(self.root, spelling))
@@ -512,24 +519,26 @@ class _Finder:
         for folder in folders:
             exact = os.path.normpath(os.path.join(path, folder))
             if not os.path.isdir(exact):
-                alike = [entry for entry in self._list(path) if like(entry) == like(folder)]
+                alike = self._list(path, like).get(like(folder), [])
                 if len(alike) != 1:
                     return None
                 exact = os.path.join(path, alike[0])
             path = exact
         for names in ({like(name)}, {like(name + suffix) for suffix in MESH_FORMATS}):
-            alike = [entry for entry in self._list(path) if like(entry) in names]
+            alike = [entry for known in names for entry in self._list(path, like).get(known, [])]
             if alike:
                 return Path(path, alike[0]) if len(alike) == 1 else None
         return None
 
-    def _list(self, folder: str) -> list[str]:
-        if folder not in self.listings:
-            try:
-                self.listings[folder] = os.listdir(folder)
-            except (OSError, ValueError):
-                self.listings[folder] = []
-        return self.listings[folder]
+    def _list(self, folder: str, like: Callable[[str], str]) -> dict[str, list[str]]:
+        """The names in a folder by what they are like; none if it cannot be opened."""
+        if (folder, like) not in self.listings:
+            listing: dict[str, list[str]] = {}
+            with suppress(OSError, ValueError):
+                for name in os.listdir(folder):
+                    listing.setdefault(like(name), []).append(name)
+            self.listings[folder, like] = listing
+        return self.listings[folder, like]
 
 
 def _composed(name: str) -> str:

@@ -205,11 +205,32 @@ def test_links_that_lead_outside_are_followed_only_when_asked(tmp_path, name) ->
 # tables, lists of bins, features
 
 
-def test_a_table_of_more_columns_than_cells(tmp_path) -> None:
+def test_a_table_of_more_columns_than_cells(tmp_path, monkeypatch) -> None:
     """Rows of one cell under a header of thousands: each has all of its columns, empty."""
+    monkeypatch.setattr("shapeviz_report.database.table.MOST_CELLS", 50_000)
     path = tmp_path / "shapes.csv"
-    path.write_text("file," + ",".join(f"c{n}" for n in range(3000)) + "\n" + "a.off\n" * 2000)
-    assert "more than 5,000,000 cells" in refused(read_database, path)
+    path.write_text("file," + ",".join(f"c{n}" for n in range(1000)) + "\n" + "a.off\n" * 1000)
+    assert "more than 50,000 cells" in refused(read_database, path)
+
+
+def test_a_table_of_files_that_are_not_there(tmp_path) -> None:
+    """Each is looked for among all files of the folder, in other spellings too."""
+    for n in range(1000):
+        (tmp_path / f"{n}.off").touch()
+    (tmp_path / "shapes.csv").write_text("file\n" + "".join(f"{n}.OFF\nno-{n}\n" for n in range(1000)))
+    database = read_database(tmp_path)
+    assert (len(database.shapes), len(database.failures)) == (1000, 1000)
+
+
+def test_a_cell_of_zeros(tmp_path) -> None:
+    (tmp_path / "a.off").touch()
+    (tmp_path / "shapes.csv").write_text("file\na.off\n" + "0" * 60_000 + "x\n")
+    assert [shape.id for shape in read_database(tmp_path).shapes] == ["a"]
+
+
+def test_a_count_of_thousands_of_digits(tmp_path) -> None:
+    (tmp_path / "all.cla").write_text(f"PSB 1\n1 1\nc 0 {'9' * 5000}\n1\n")
+    assert "stands where the number of models" in refused(read_database, tmp_path)
 
 
 def test_a_table_of_millions_of_values(tmp_path) -> None:
