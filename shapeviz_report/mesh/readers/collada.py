@@ -43,7 +43,7 @@ def read_collada(data: bytes) -> PolygonMesh:
 
     Raises
     ------
-    MeshError, lxml.etree.XMLSyntaxError
+    MeshError
         If it is anything else, or holds a surface that is not read.
     """
     return _Reader(_parse(data)).read()
@@ -69,7 +69,10 @@ def _parse(data: bytes) -> Element:
         remove_comments=True,
         remove_pis=True,
     )
-    root = etree.fromstring(text, parser)
+    try:
+        root = etree.fromstring(text, parser)
+    except etree.XMLSyntaxError as error:
+        raise MeshError(f"its XML is broken ({error.msg})") from error
     for element in root.iter(etree.Element):
         element.tag = etree.QName(element).localname
     if root.tag != "COLLADA":
@@ -81,7 +84,7 @@ def _in_utf8(data: bytes) -> bytes:
     """By what its first bytes tell. What is not UTF-8 then is taken for Latin-1, of which only names can be wrong."""
     for start, encoding in _FIRST_BYTES.items():
         if data.startswith(start):
-            return data.decode(encoding).encode()
+            return data.decode(encoding, "replace").encode()
     data = data.removeprefix(b"\xef\xbb\xbf")
     try:
         data.decode()
@@ -335,11 +338,14 @@ class _Reader:
         offset = _whole(accessor, "offset", 0)
         params = accessor.findall("param")
         width = stride if stride in (9, 16) or not params else len(params)
-        if stride < max(width, 1) or offset + stride * (count - 1) + width > len(values):
+        if stride < max(width, 1) or (count and offset + stride * (count - 1) + width > len(values)):
             raise MeshError(
                 f"a source announces {count:,} elements of {stride} numbers, but has {len(values):,} numbers"
             )
-        padded = np.concatenate([values[offset:], np.zeros(stride)])[: count * stride].reshape(count, stride)
+        if not count:
+            return np.empty((0, width))
+        step = stride if count > 1 else width  # a single element may announce any stride
+        padded = np.concatenate([values[offset:], np.zeros(step)])[: count * step].reshape(count, step)
         names = [(param.get("name") or "").upper() for param in params]
         if {"X", "Y", "Z"} <= set(names):
             return padded[:, [names.index(axis) for axis in "XYZ"]]

@@ -101,9 +101,10 @@ def _read_lines(lines: list[str], vertex_count: int, face_count: int) -> Polygon
     corners: list[str] = []
     for line in lines[vertex_count:]:
         size, *fields = line.split()
-        sizes.append(int(float(size)))
-        if float(size) != sizes[-1] or not 0 <= sizes[-1] <= len(fields):
+        number = float(size)
+        if not (number.is_integer() and 0 <= number <= len(fields)):
             raise MeshError(f"a face announces {size} corners, but its line has {len(fields)}")
+        sizes.append(int(number))
         corners.extend(fields[: sizes[-1]])
     return PolygonMesh(
         vertices=parse_columns("".join(f"{line}\n" for line in lines[:vertex_count]), 3),

@@ -20,6 +20,8 @@ Triangle = tuple[int, int, int]
 
 _LEAST_HEIGHT = 1e-6
 """A triangle as flat as this, as a fraction of its longest side, has its corners on a line but for rounding."""
+_ONLY_FANS = 5
+"""Corners of the largest polygon of which every cut into triangles is a fan."""
 _MOST_FANS = 64
 """Corners of the largest polygon of which all fans are tried: they have s^2 triangles."""
 
@@ -198,29 +200,28 @@ def _cut_piece(points: FloatArray, polygons: Indices) -> Indices:
         normals = np.cross(points, np.roll(points, -1, axis=1)).sum(axis=1)
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
         flatness = _least_height(points, normals, cuts)
-        for index in np.flatnonzero(flatness < _LEAST_HEIGHT):
-            corners, normal = points[index], normals[index]
-            cuts[index] = _cut_one(corners, normal, cuts[index], float(flatness[index]))
+        folded = np.flatnonzero(flatness < _LEAST_HEIGHT)
+        points, normals, flatness = points[folded], normals[folded], flatness[folded]
+        for first in range(1, size) if size <= _MOST_FANS else ():
+            turned = np.broadcast_to((fan + first) % size, (len(folded), size - 2, 3))
+            heights = _least_height(points, normals, turned)
+            better = heights > flatness
+            cuts[folded[better]], flatness[better] = turned[better], heights[better]
+        if size > _ONLY_FANS:
+            for place in np.flatnonzero(flatness < _LEAST_HEIGHT):
+                cut = _cut_in_plane(points[place], normals[place], float(flatness[place]))
+                if cut is not None:
+                    cuts[folded[place]] = cut
     return np.take_along_axis(polygons, cuts.reshape(len(polygons), -1), axis=1).reshape(cuts.shape)
 
 
-def _cut_one(points: FloatArray, normal: FloatArray, fan: Indices, least: float) -> Indices:
-    """The best cut (s - 2, 3) of one polygon (s, 3) whose fan (s - 2, 3) has a triangle as flat as ``least``."""
-    size = len(points)
-    best = fan
-    if size <= _MOST_FANS:
-        fans = (fan + np.arange(size)[:, None, None]) % size
-        heights = _least_height(points, normal, fans)
-        first = int(np.argmax(heights))
-        if heights[first] > least:
-            best, least = fans[first], float(heights[first])
-    if least < _LEAST_HEIGHT:
-        planar = np.asarray(manifold3d.triangulate([_project(points, normal)]), np.int64)
-        if len(planar) == size - 2:
-            planar = _flip_flat(points, normal, planar)
-            if _least_height(points, normal, planar) > least:
-                best = planar
-    return best
+def _cut_in_plane(points: FloatArray, normal: FloatArray, least: float) -> Indices | None:
+    """Triangles (s - 2, 3) of one polygon (s, 3), if the flattest is less flat than ``least``."""
+    planar = np.asarray(manifold3d.triangulate([_project(points, normal)]), np.int64)
+    if len(planar) != len(points) - 2:
+        return None
+    planar = _flip_flat(points, normal, planar)
+    return planar if _least_height(points, normal, planar) > least else None
 
 
 def _least_height(points: FloatArray, normal: FloatArray, cuts: Indices) -> FloatArray:

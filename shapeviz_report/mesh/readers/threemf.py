@@ -7,6 +7,8 @@ number in different parts; so 3MF is read here.
 from __future__ import annotations
 
 import graphlib
+import lzma
+import zlib
 from array import array
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -124,13 +126,16 @@ class Package:
             raise MeshError("it is encrypted")
         check_unpacked(self._unpacked + entry.file_size)
         try:
-            file = self._archive.open(entry)
+            with self._archive.open(entry) as file:
+                self._feed(file, parser)
         except NotImplementedError as error:
             raise MeshError(
                 f"it is compressed in a way that is not read (method {entry.compress_type}); save it anew"
             ) from error
-        with file:
-            self._feed(file, parser)
+        except LookupError as error:
+            raise MeshError(f"the XML of {path[:100]!r} is in an encoding that is not known") from error
+        except (zlib.error, lzma.LZMAError, EOFError, OSError, ValueError) as error:
+            raise MeshError(f"it is damaged: {path[:100]!r} cannot be unpacked from it") from error
 
     def _feed(self, file: IO[bytes], parser: expat.XMLParserType) -> None:
         while piece := file.read(_CHUNK):
