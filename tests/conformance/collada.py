@@ -184,7 +184,7 @@ def primitives() -> list[Case]:
         bad(
             "corners that are not complete",
             of(triangles(corners=BOX_TRIANGLES.ravel()[:-1])),
-            "announces 12 elements",
+            "35 corners, which is no multiple of three",
         ),
         bad(
             "more triangles than announced",
@@ -440,7 +440,7 @@ def documents() -> list[Case]:
         ),
         bad("zipped COLLADA", archive.getvalue(), "ZIP archive; unpack it"),
         bad("an unknown up_axis", document(asset="<up_axis>W_UP</up_axis>"), "none of X_UP"),
-        bad("a file that is cut off", plain[:-40], "damaged, cut off"),
+        bad("a file that is cut off", plain[:-40], "XML is broken, or cut off"),
     ]
 
 

@@ -72,7 +72,7 @@ def _parse(data: bytes) -> Element:
     try:
         root = etree.fromstring(text, parser)
     except etree.XMLSyntaxError as error:
-        raise MeshError(f"its XML is broken ({error.msg})") from error
+        raise MeshError(f"its XML is broken, or cut off ({error.msg})") from error
     for element in root.iter(etree.Element):
         element.tag = etree.QName(element).localname
     if root.tag != "COLLADA":
@@ -462,8 +462,10 @@ def _faces_of(
         cut: Callable[[Indices], Indices] = cut_strip if primitive.tag == "tristrips" else cut_fan
         faces = np.concatenate([np.empty((0, 3), np.int64), *(cut(run) for run in corners if len(run) > 2)])
     elif primitive.tag == "triangles":
-        found = len(together) // 3 if len(together) % 3 == 0 else -1
-        faces = together[: 3 * found].reshape(-1, 3) if found >= 0 else np.empty((0, 3), np.int64)
+        if len(together) % 3:
+            raise MeshError(f"<triangles> has {len(together)} corners, which is no multiple of three")
+        faces = together.reshape(-1, 3)
+        found = len(faces)
     else:
         sizes = np.array([len(run) for run in corners], np.int64)
         if primitive.tag == "polylist":
@@ -476,7 +478,7 @@ def _faces_of(
             found += len(holed)
             faces = np.concatenate([faces, *(cut_with_holes(points, loops) for loops in holed)])
     if found != declared:
-        raise MeshError(f"<{primitive.tag}> announces {declared:,} elements, and has {max(found, 0):,}")
+        raise MeshError(f"<{primitive.tag}> announces {declared:,} elements, and has {found:,}")
     return faces
 
 

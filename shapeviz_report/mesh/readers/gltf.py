@@ -188,9 +188,13 @@ class _Reader:
     def read(self) -> PolygonMesh:
         for extension in self.document.get("extensionsRequired", []):
             if extension in _COMPRESSIONS:
-                raise MeshError(f"its geometry is compressed with {extension}, which is not read")
+                raise MeshError(
+                    f"its geometry is compressed with {extension}, which is not read; export it without"
+                )
             if extension not in _READ_EXTENSIONS and not _SURFACE_UNTOUCHED.fullmatch(extension):
-                raise MeshError(f"it requires the extension {extension[:60]}, which is not read")
+                raise MeshError(
+                    f"it requires the extension {extension[:60]}, which is not read; export it without"
+                )
         meshes = self.document.get("meshes", [])
         self.triangles = [sum(map(self.count_triangles, mesh["primitives"])) for mesh in meshes]
         if "nodes" not in self.document:
@@ -325,7 +329,7 @@ class _Reader:
     def compression(self, described: Document) -> str:
         for name in described.get("extensions", {}):
             if name in _COMPRESSIONS:
-                return f": it is compressed with {name}, which is not read"
+                return f": it is compressed with {name}, which is not read; export it without"
         return ""
 
     def read_mesh(

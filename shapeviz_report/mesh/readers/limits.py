@@ -25,8 +25,9 @@ MOST_JSON_VALUES = 5_000_000
 def check_faces(count: int) -> None:
     """Refuse a mesh of too many triangles. Raises ``MeshError``."""
     if count > MOST_FACES:
+        stated = f"{count:,}" if count < 10**12 else "more than 10^12"
         raise MeshError(
-            f"it has {count:,} triangles, all copies of its parts counted, more than {MOST_FACES:,}; simplify it "
+            f"it has {stated} triangles, all copies of its parts counted, more than {MOST_FACES:,}; simplify it "
             "before it is exported"
         )
 

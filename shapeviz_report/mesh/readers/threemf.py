@@ -98,7 +98,7 @@ def read_3mf(data: bytes) -> PolygonMesh:
     except BadZipFile as error:
         raise MeshError(f"it is not 3MF, or damaged: {error}") from error
     except expat.ExpatError as error:
-        raise MeshError(f"its XML is broken ({error})") from error
+        raise MeshError(f"its XML is broken, or cut off ({error})") from error
 
 
 class Package:
@@ -294,13 +294,17 @@ class PartReader:
         elif name == _ITEM:
             self.part.build.children.append(self._placed(attributes))
         elif parent in (_OBJECT, _MESH) and name not in _WITHIN:
-            raise MeshError(f"an object of it has a <{name.rpartition(' ')[2][:40]}>, which is not read")
+            raise MeshError(
+                f"an object of it has a <{name.rpartition(' ')[2][:40]}>, which is not read; export it as a mesh"
+            )
 
     def _begin_model(self, attributes: dict[str, str]) -> None:
         for prefix in attributes.get("requiredextensions", "").split():
             namespace = self._namespaces.get(prefix, prefix)
             if namespace not in _READ_EXTENSIONS:
-                raise MeshError(f"it requires an extension that is not read: {namespace[:100]}")
+                raise MeshError(
+                    f"it requires an extension that is not read: {namespace[:100]}; export it without"
+                )
         unit = attributes.get("unit", "millimeter")
         if unit not in _MILLIMETRES:
             raise MeshError(f"its unit means nothing: {unit[:40]!r}")
