@@ -115,6 +115,9 @@ class Cache:
             The cache takes no results at all, or more than :data:`MOST_HELD` bytes cannot be put in their places.
         """
         path = self.path(stage, key)
+        if os.path.isdir(path):
+            # all else is replaced by what is written
+            discard(path)
         try:
             write_atomically(path, _head(stage, key, content) + content)
         except OSError as error:

@@ -7,10 +7,14 @@ compared with the features that the site holds for download. ``docs/retrieval.md
 from __future__ import annotations
 
 import csv
+import io
 import json
+import struct
 import zipfile
+import zlib
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -21,9 +25,11 @@ from shapeviz_report import __version__, stages
 from shapeviz_report.bins import read_bins
 from shapeviz_report.cache import Cache
 from shapeviz_report.cells import read_cell
+from shapeviz_report.config import Config
 from shapeviz_report.errors import ConfigError, MeshError, SiteError
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import BLOCKS, PRESETS, Preset
+from shapeviz_report.files import read_regular
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.pipeline import Progress, QuietProgress, check_cache
 from shapeviz_report.similarity import rank_similar, typical_distance
@@ -203,11 +209,12 @@ def _open_site(folder: Path) -> _Site:
     """Read the ``data`` folder of a site, and check that its parts fit together and are of this version."""
     data = folder / "data"
     try:
-        summary = json.loads((data / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        summary = json.loads(read_regular(data / "summary.json"))
+    except (OSError, ValueError, RecursionError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is no JSON"
         raise SiteError(
             f"{folder} is not a folder that `shapeviz-report build` has written: {data / 'summary.json'} cannot be "
-            f"read ({error})"
+            f"read ({reason})"
         ) from error
     if not isinstance(summary, dict) or summary.get("generator") != GENERATOR:
         raise SiteError(f"{folder} is not a site of shapeviz-report: {data / 'summary.json'} does not say so")
@@ -217,25 +224,78 @@ def _open_site(folder: Path) -> _Site:
             f"{__version__}, which may measure shapes differently: build the site again, or query it with its version"
         )
     try:
-        with (data / "shapes.csv").open(encoding="utf-8", newline="") as file:
-            header, *rows = ([read_cell(cell) for cell in row] for row in csv.reader(file, strict=True))
-        shapes = [dict(zip(header, row, strict=True)) for row in rows]
-        with np.load(data / "features.npz", allow_pickle=False) as archive:
-            values, edges = archive["values"], archive["edges"]
-            columns, ids = archive["columns"].tolist(), tuple(archive["shape_ids"].tolist())
-        blocks = tuple(FeatureBlock(**block) for block in summary["features"])
-        PRESETS[summary["parameters"]["preset"]], float(summary["parameters"]["edge_length"])
-        if [shape["id"] for shape in shapes] != list(ids):
-            raise ValueError("shapes.csv and features.npz are of different builds")
-        if [column for block in blocks for column in block.columns] != columns:
-            raise ValueError("summary.json and features.npz are of different builds")
-    except (OSError, ValueError, KeyError, TypeError, csv.Error, zipfile.BadZipFile) as error:
+        with _reading("shapes.csv"):
+            text = read_regular(data / "shapes.csv").decode()
+            header, *rows = (
+                [read_cell(cell) for cell in row]
+                for row in csv.reader(io.StringIO(text, newline=""), strict=True)
+            )
+            shapes = [dict(zip(header, row, strict=True)) for row in rows]
+            _require(bool(shapes) and {"id", "name", "class", "file"} <= {*header}, "its columns are others")
+        with _reading("features.npz"):
+            content = io.BytesIO(read_regular(data / "features.npz"))
+            with np.load(content, allow_pickle=False) as archive:
+                values, edges = (
+                    archive[name].astype(np.float64, casting="safe") for name in ("values", "edges")
+                )
+                columns, ids = archive["columns"].tolist(), tuple(archive["shape_ids"].tolist())
+            _require(values.shape == (len(ids), len(columns)), "its arrays do not fit together")
+            _require(bool(np.isfinite(values).all() and np.isfinite(edges).all()), "a value is not finite")
+            _require(
+                [shape["id"] for shape in shapes] == list(ids), "it and shapes.csv are of different builds"
+            )
+        with _reading("summary.json"):
+            blocks = tuple(FeatureBlock(**block) for block in summary["features"])
+            widths = [block.dimensions * block.bins for block in blocks]
+            _require(
+                min(widths) > 0 and sum(widths) == len(columns), "it and features.npz are of different builds"
+            )
+            _require(
+                [column for block in blocks for column in block.columns] == columns,
+                "it and features.npz are of different builds",
+            )
+            dimensions = sum(block.dimensions for block in blocks if block.bins > 1)
+            _require(edges.shape == (dimensions, 11), "its features do not fit the edges")
+            PRESETS[summary["parameters"]["preset"]]
+            edge_length = summary["parameters"]["edge_length"]
+            _require(isinstance(edge_length, float), "the length of an edge is no number")
+            Config(edge_length=edge_length)
+            _require(isinstance(summary["database"], str), "the database has no name")
+            bins = next(iter(summary["projections"].values()))["bins"]
+            _require(bins is None or (bool(bins) and {*bins} <= {*columns}), "its bins are not there")
+    except ValueError as error:
         raise SiteError(f"the site {folder} is not complete, build it again: {error}") from error
     if blocks[: len(BLOCKS)] != BLOCKS:
         raise SiteError(f"the site {folder} has other features than this version measures: build it again")
     width = sum(block.width for block in BLOCKS)
     table = FeatureTable(ids, BLOCKS, values[:, :width])
     return _Site(folder, summary, shapes, table, blocks[len(BLOCKS) :], edges)
+
+
+@contextmanager
+def _reading(file: str) -> Iterator[None]:
+    """Inside, whatever is wrong with a file of a site becomes a ``ValueError`` that names the file."""
+    try:
+        yield
+    except OSError as error:
+        raise ValueError(f"{file} cannot be read ({error.strerror or error})") from error
+    except ConfigError as error:
+        raise ValueError(f"{file} says what no build does: {error}") from error
+    except (
+        ValueError, LookupError, TypeError, AttributeError, RuntimeError, StopIteration, OverflowError, EOFError,
+        MemoryError, csv.Error, zipfile.BadZipFile, zlib.error, struct.error,
+    ) as error:  # fmt: skip
+        reason = str(error) if isinstance(error, _Misfit) else "it was damaged or changed"
+        raise ValueError(f"{file}: {reason}") from error
+
+
+class _Misfit(ValueError):
+    """What :func:`_require` says."""
+
+
+def _require(holds: bool, what: str) -> None:
+    if not holds:
+        raise _Misfit(what)
 
 
 def _choose(

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -37,6 +38,34 @@ def test_machine_code_follows_a_change_in_a_called_module(tmp_path) -> None:
     assert (package / "outer.py").stat() == stamp
     assert run(package, cache) == "8.0 0"
     assert run(package, cache) == "8.0 1"
+
+
+def _spoil(file: Path, how: str) -> None:
+    content = file.read_bytes()
+    if how == "folder":
+        file.unlink()
+        file.mkdir()
+    else:
+        file.write_bytes({"cut": content[:-7], "flipped": content[:-1] + bytes([content[-1] ^ 1])}[how])
+
+
+def test_damaged_machine_code_is_compiled_anew_and_what_cannot_be_kept_is_compiled(tmp_path) -> None:
+    package, cache = tmp_path / "loops", tmp_path / "cache"
+    package.mkdir()
+    (package / "__init__.py").write_text("")
+    (package / "outer.py").write_text(
+        "from shapeviz_report.compilation import kernel\n@kernel()\ndef outer(x): return x + 1\n"
+    )
+    assert run(package, cache) == "2.0 0"
+    for ways in (("folder", "cut"), ("flipped", "folder")):
+        # the index of a function, and its code
+        for file, how in zip(sorted(p for p in cache.rglob("*") if p.is_file()), ways, strict=True):
+            _spoil(file, how)
+        assert run(package, cache) == "2.0 0"
+        assert run(package, cache) == "2.0 1"
+    shutil.rmtree(cache)
+    cache.write_text("a file where the folder would be")
+    assert run(package, cache) == "2.0 0"
 
 
 def test_settings_of_numba_are_left_as_they_are() -> None:
