@@ -176,8 +176,8 @@ def _said(how: str) -> str:
 def test_more_than_can_be_held_is_told_at_once(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(shapeviz_report.cache, "MOST_HELD", 10)
     cache = Cache(tmp_path)
-    for key in ("abcdef", "abcdf0"):
-        (cache.path("stage", key) / "in the way").mkdir(parents=True)
+    (tmp_path / "stage").mkdir()
+    (tmp_path / "stage" / "ab").write_text("in the way")
     cache.store("stage", "abcdef", bytes(6))
     with pytest.raises(CacheError, match="Make room there"):
         cache.store("stage", "abcdf0", bytes(6))
