@@ -395,6 +395,9 @@ def _print_summary(report: Report, destination: Path) -> None:
             beside = f"random labels: {quality.null_mean:.3f}"
             if quality.range.highest is not None and quality.range.highest < 1:
                 beside += f", at most {quality.range.highest:.3f}"
+            without = report.without_copies
+            if without is not None and (distinct := without.nh_s[name]) is not None:
+                beside += f", without {_count(without.copies, 'copy', 'copies')}: {distinct:.3f}"
             rows.append((f"NH_s {name}", f"{quality.nh_s:.3f}  ({beside})"))
     total, total_cpu = sum(report.seconds.values()), sum(report.cpu_seconds.values())
     stages = "  ".join(f"{name} {seconds:.1f}" for name, seconds in report.seconds.items())
