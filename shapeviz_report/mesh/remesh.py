@@ -54,8 +54,9 @@ def surface_size(mesh: Mesh) -> float:
 def affordable_edge_length(mesh: Mesh, edge_length: float) -> float:
     """The wanted edge length, or the one at which a mesh takes ``MAX_VERTICES`` if that is longer.
 
-    Only a surface folded or stacked many times over, such as a book of hundreds of leaves, needs it. What it takes
-    to describe a shape is then bounded as well.
+    Only a surface folded or stacked many times over, such as a book of hundreds of leaves, needs it, or thousands of
+    strips and needles, whose rims take vertices though they have hardly an area. What it takes to describe a shape is
+    then bounded as well.
 
     Parameters
     ----------
@@ -65,8 +66,12 @@ def affordable_edge_length(mesh: Mesh, edge_length: float) -> float:
     """
     a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
     area = float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
-    # Euler: an even triangulation has 2 faces a vertex, each of sqrt(3) / 4 squared edges.
-    return max(edge_length, float(np.sqrt(area / (MAX_VERTICES * np.sqrt(3) / 2))))
+    edges = np.sort(mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1).astype(np.int64)
+    edges, times = np.unique(edges[:, 0] * len(mesh.vertices) + edges[:, 1], return_counts=True)
+    starts, ends = np.divmod(edges[times == 1], len(mesh.vertices))
+    rim = float(np.linalg.norm(mesh.vertices[ends] - mesh.vertices[starts], axis=1).sum())
+    # Euler: an even triangulation has 2 faces a vertex, each of sqrt(3) / 4 squared edges. A rim has a vertex an edge.
+    return max(edge_length, float(np.sqrt(area / (MAX_VERTICES * np.sqrt(3) / 2))), rim / MAX_VERTICES)
 
 
 def remesh(mesh: Mesh, edge_length: float) -> Mesh:

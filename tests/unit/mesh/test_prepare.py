@@ -171,3 +171,15 @@ def test_specks_are_refused_with_a_reason() -> None:
     faces = np.concatenate([ball(0).faces + 12 * i for i in range(3)])
     with pytest.raises(MeshError, match="specks"):
         remesh(Mesh(np.concatenate(specks), faces), 0.02)
+
+
+def test_needles_that_have_no_area_get_longer_edges() -> None:
+    """Each a tenth of the shape long: at the wanted length they would take a million vertices."""
+    random = np.random.default_rng(0)
+    starts, ways = random.random((50_000, 3)), random.normal(size=(50_000, 3)) / 20
+    corners = np.stack([starts, starts + ways, starts + ways + 1e-6], axis=1)
+    needles = Mesh(corners.reshape(-1, 3), np.arange(150_000, dtype=np.int32).reshape(-1, 3))
+    rim = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).sum()
+    length = affordable_edge_length(needles, 0.001)
+    assert length == pytest.approx(rim / MAX_VERTICES, rel=1e-3)
+    assert affordable_edge_length(needles, 2 * length) == 2 * length

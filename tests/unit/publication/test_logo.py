@@ -82,3 +82,25 @@ def test_what_is_no_logo_is_refused(tmp_path, name, content, reason):
 def test_a_logo_that_is_not_there_is_refused(tmp_path):
     with pytest.raises(ConfigError, match="cannot be read"):
         read_logo(tmp_path / "logo.png")
+
+
+def test_what_drawing_programs_write_is_taken(tmp_path):
+    """Inkscape writes out every property that it knows, with its default."""
+    style = (
+        "color:#000000;font-style:normal;font-variant:normal;font-weight:normal;font-stretch:normal;font-size:medium;"
+        "line-height:normal;font-family:sans-serif;font-variant-ligatures:normal;font-variant-position:normal;"
+        "font-variant-caps:normal;font-variant-numeric:normal;font-variant-alternates:normal;"
+        "font-feature-settings:normal;text-indent:0;text-align:start;text-decoration:none;text-decoration-line:none;"
+        "text-decoration-style:solid;text-decoration-color:#000000;letter-spacing:normal;word-spacing:normal;"
+        "text-transform:none;writing-mode:lr-tb;direction:ltr;text-orientation:mixed;dominant-baseline:auto;"
+        "baseline-shift:baseline;text-anchor:start;white-space:normal;shape-padding:0;clip-rule:nonzero;"
+        "display:inline;overflow:visible;visibility:visible;isolation:auto;mix-blend-mode:normal;"
+        "color-interpolation:sRGB;color-interpolation-filters:linearRGB;solid-color:#000000;solid-opacity:1;"
+        "vector-effect:none;fill:url(#lg2);fill-opacity:1;fill-rule:nonzero;stroke:none;stroke-width:0.26;"
+        "stroke-linecap:butt;stroke-linejoin:miter;stroke-miterlimit:4;stroke-dasharray:none;stroke-dashoffset:0;"
+        "stroke-opacity:1;marker:none;color-rendering:auto;image-rendering:auto;shape-rendering:auto;"
+        "text-rendering:auto;enable-background:accumulate;stop-color:#000000;-inkscape-stroke:none"
+    )
+    path = tmp_path / "logo.svg"
+    path.write_text(DRAWING.format(f'<path d="M0 0" style="{style}"/>'))
+    assert style.encode() in read_logo(path).content
