@@ -42,7 +42,6 @@ def written(shape: trimesh.Trimesh) -> Iterator[tuple[str, str, bytes]]:
     """The surface in every format: what it is, its file's name, its content."""
     for title, suffix, options in (
         ("STL, binary", "stl", {}),
-        ("STL, text", "stl", {"file_type": "stl_ascii"}),
         ("PLY, binary", "ply", {"vertex_normal": False}),
         ("PLY, text", "ply", {"encoding": "ascii", "vertex_normal": False}),
         ("OFF", "off", {}),
@@ -51,6 +50,7 @@ def written(shape: trimesh.Trimesh) -> Iterator[tuple[str, str, bytes]]:
         ("glTF, binary", "glb", {}),
         ("3MF", "3mf", {}),
         ("COLLADA", "dae", {}),
+        ("STL, text", "stl", {"file_type": "stl_ascii"}),
     ):
         content = shape.export(**({"file_type": suffix} | options))
         yield title, f"ball.{suffix}", content.encode() if isinstance(content, str) else content

@@ -156,6 +156,11 @@ def primitives() -> list[Case]:
             "holes that do not lie within",
         ),
         bad(
+            "holes without a value",
+            with_holes("<h>4 5 6 7</h>", "<h>12 13 14 15</h>").replace(b" 3 1 0 ", b" 3 nan 0 "),
+            "corners without a value",
+        ),
+        bad(
             "holes without an outline",
             of("<polygons count='1'>{inputs}<ph><h>0 1 2</h></ph></polygons>"),
             "0 outlines",

@@ -83,20 +83,26 @@ def cut_with_holes(vertices: FloatArray, loops: list[Indices]) -> Indices:
     loops = [loop[loop != np.roll(loop, -1)] for loop in loops]
     if len(loops[0]) < 3:
         return np.empty((0, 3), np.int64)
-    points = vertices[loops[0]]
-    normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
+    places = [vertices[loop] - vertices[loops[0][0]] for loop in loops]
+    size = float(np.abs(np.concatenate(places)).max(initial=0))
+    if not size < np.inf:
+        raise MeshError("a polygon of it with holes has corners without a value")
+    normal = np.cross(places[0] / (size or 1), np.roll(places[0], -1, axis=0) / (size or 1)).sum(axis=0)
     length = np.linalg.norm(normal)
-    if not 0 < length < np.inf:
+    if not length:
         return np.empty((0, 3), np.int64)
-    turned, outlines, areas = [], [], []
-    for loop in loops:
-        flat = _project(vertices[loop] - points[0], normal / length)
-        (x, y), (next_x, next_y) = flat.T, np.roll(flat, -1, axis=0).T
-        area = float((x * next_y - y * next_x).sum()) / 2
-        if len(loop) > 2 and np.isfinite(area):
-            inside = bool(turned) and area > 0
-            turned.append(loop[::-1] if inside else loop)
-            outlines.append(flat[::-1] if inside else flat)
+    turned: list[Indices] = []
+    outlines: list[FloatArray] = []
+    areas: list[float] = []
+    for loop, place in zip(loops, places, strict=True):
+        if len(loop) > 2:
+            flat = _project(place / size, normal / length)
+            (x, y), (next_x, next_y) = flat.T, np.roll(flat, -1, axis=0).T
+            area = float((x * next_y - y * next_x).sum()) / 2
+            # an outline is counter-clockwise, a hole clockwise
+            backward = bool(turned) and area > 0
+            turned.append(loop[::-1] if backward else loop)
+            outlines.append(flat[::-1] if backward else flat)
             areas.append(abs(area))
     cut = np.asarray(manifold3d.triangulate(outlines), np.int64).reshape(-1, 3)
     a, b, c = (np.concatenate(outlines)[cut[:, corner]] for corner in range(3))

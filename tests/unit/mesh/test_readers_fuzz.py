@@ -78,7 +78,7 @@ CHANGES = st.lists(
 @seed(12)
 @settings(
     max_examples=60,
-    deadline=2000,
+    deadline=10_000,
     database=None,
     phases=[Phase.generate, Phase.shrink],
     suppress_health_check=list(HealthCheck),
