@@ -12,7 +12,7 @@ import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numba
 from numba import config, njit
@@ -83,7 +83,7 @@ class _Place(UserProvidedCacheLocator):  # type: ignore[misc]
 
 
 class _Content(CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes = (_Place,)
+    _locator_classes: ClassVar[list[type[object]]] = [_Place]
 
 
 class _Files(IndexDataCacheFile):  # type: ignore[misc]
