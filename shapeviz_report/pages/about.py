@@ -90,6 +90,7 @@ def _projections(report: Report) -> list[dict[str, object]]:
             "null_mean": quality.null_mean,
             "null_std": quality.null_std,
             "highest": quality.range.highest,
+            "without_copies": None if report.without_copies is None else report.without_copies.nh_s[method],
         }
         for method, (projection, quality) in report.projections.items()
     ]

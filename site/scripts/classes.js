@@ -151,7 +151,7 @@ export class ClassList {
         model.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
           : this.#best(method),
-        withoutCopies && ` It is ${figure(withoutCopies.hitOfAll)}${ofAtMost(withoutCopies.highest)} without ${count(withoutCopies.copies, "copy", "copies")} of other shapes.`,
+        withoutCopies && ` Without ${count(withoutCopies.copies, "copy", "copies")} of other shapes the map has ${figure(withoutCopies.hitOfAll)}${ofAtMost(withoutCopies.highest)}.`,
         base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone.", this.#chosen(features)],
       ),
     ];
