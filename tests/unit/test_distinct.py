@@ -7,6 +7,7 @@ import pytest
 from reports import make_report, with_bin_search, with_copies, with_retrieval, with_search
 
 from shapeviz_report.distinct import rate_without_copies
+from shapeviz_report.pages.about import AboutPage
 from shapeviz_report.pages.bins import BinsPage
 from shapeviz_report.pages.features import FeaturesPage
 from shapeviz_report.pages.overview import OverviewPage
@@ -84,6 +85,8 @@ def test_the_data_and_the_pages_give_both_figures(report: Report) -> None:
     said = FeaturesPage().content(report).context["retrieval"]["without_copies"]
     assert said["copies"] == 2
     assert said["nearest"] == report.without_copies.retrieval["everything"][0]
+    about = AboutPage().content(report).context["projections"]
+    assert [row["without_copies"] for row in about] == list(report.without_copies.nh_s.values())
 
 
 def test_what_was_chosen_and_what_was_held_out_is_given_without_copies_too() -> None:
