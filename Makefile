@@ -20,6 +20,7 @@ test: drawing-library browser $(INSTALLED) ## run every check and every test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
+	$(BIN)/mypy
 	$(BIN)/pytest
 
 .PHONY: wheel

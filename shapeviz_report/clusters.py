@@ -124,7 +124,7 @@ def part(scaled: FloatArray, *, seed: int = 0, limit: int = SAMPLE_LIMIT) -> Par
     of = np.empty(len(scaled), np.int32)
     of[order] = joined[np.cumsum(is_new) - 1]
     sizes = np.bincount(of)
-    first = [int((of == code).argmax()) for code in range(len(sizes))]
+    first = np.array([(of == code).argmax() for code in range(len(sizes))])
     rank = np.argsort(np.lexsort((first, -sizes))).astype(np.int32)
     return Partition(rank[of], silhouette, steadiness)
 

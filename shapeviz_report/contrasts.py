@@ -107,7 +107,9 @@ def choose_contrasts(
     means = {label: table.values[[other == label for other in labels]].mean(axis=0) for label in centres}
     for column in found.automatic.bins:
         amounts = {label: values[columns[column]] for label, values in means.items()}
-        pairs.setdefault(column, []).extend((max(amounts, key=amounts.get), min(amounts, key=amounts.get)))
+        pairs.setdefault(column, []).extend(
+            (max(amounts, key=amounts.__getitem__), min(amounts, key=amounts.__getitem__))
+        )
     histograms = {column for block in table.blocks if block.bins > 1 for column in block.columns}
     return {
         column: tuple(sorted({centres[label] for label in pairs[column]}))

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -133,7 +134,7 @@ def _smallest(squared: FloatArray, count: int) -> FloatArray:
     return np.partition(squared, count - 1, axis=1)[:, :count]
 
 
-def _squared_blocks(points: FloatArray):
+def _squared_blocks(points: FloatArray) -> Iterator[tuple[slice, FloatArray]]:
     """Squared distances of a slice of rows to all rows at a time, infinite to themselves."""
     centred = points - points.mean(axis=0)
     norms = np.einsum("ij,ij->i", centred, centred)

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report import demo, stages
 from shapeviz_report.bins import features_of, read_bins, scale_bins
@@ -365,9 +366,10 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
     progress = progress or QuietProgress()
     cache = Cache((config.cache or default_root()).absolute())
     root = cache.root / "demo" / f"{stages.GENERATE.version}-{config.seed}"
-    shapes = {(c.name, i, config.seed): None for c in demo.CLASSES for i in range(demo.PER_CLASS)}
-    made = {task: cache.load("generated", stages.GENERATE.key(*task)) for task in shapes}
-    tasks = [task for task, content in made.items() if content is None]
+    shapes = [(c.name, i, config.seed) for c in demo.CLASSES for i in range(demo.PER_CLASS)]
+    kept = {task: cache.load("generated", stages.GENERATE.key(*task)) for task in shapes}
+    made = {task: content for task, content in kept.items() if content is not None}
+    tasks = [task for task in shapes if task not in made]
     if tasks:
         with open_executor(config) as executor, progress.stage("generate", len(tasks)) as advance:
             for outcome in executor.run(stages.generate_shape, tasks):
@@ -796,7 +798,7 @@ def _search(
             def take(chunk: tuple[int, ...], _: str, content: bytes, cpu_seconds: float) -> None:
                 made[chunk] = stages.read_maps(content)
                 step(cpu_seconds)
-                for _ in chunk[1:]:
+                for _other in chunk[1:]:
                     step(0.0)
 
             def drop(_: tuple[int, ...], reason: str, __: float) -> None:
@@ -829,7 +831,7 @@ def _score_bins(
     if len(classes) < 2:
         return None
     content = sha256(compared.tobytes()).hexdigest()
-    found: dict[str, FloatArray] = {}
+    found: dict[str, npt.NDArray[np.float32]] = {}
     with run.clock.stage("bins", len(classes)) as step:
 
         def plan(name: str) -> _Task:
@@ -942,7 +944,7 @@ def _rate_retrieval(
     features = range(len(space.features))
     searched = () if search is None else (search.subsets.members @ [1 << f for f in features]).tolist()
     subsets = sorted({*searched, *(1 << f for f in features), space.everything})
-    distances = {"subsets": (space.key, space.squared)}
+    distances: dict[str, tuple[str, npt.NDArray[np.floating]]] = {"subsets": (space.key, space.squared)}
     questions = [
         ("subsets", tuple(subsets[i : i + RATINGS_A_TASK])) for i in range(0, len(subsets), RATINGS_A_TASK)
     ]

@@ -180,7 +180,8 @@ def find_similar(
     with LocalExecutor(1, time_limit, memory_limit or memory_share(1)) as executor:
         facts, values = _measure(opened, mesh, Cache(cache), executor, progress or QuietProgress())
     table, preset = opened.table, opened.preset
-    similar = rank_similar(table, preset, values, **{chosen: names}, count=count)
+    compared: dict[str, Any] = {chosen: names}
+    similar = rank_similar(table, preset, values, **compared, count=count)
     blocks = [block.name for block in table.blocks]
     found = (
         FoundShape(
@@ -200,7 +201,7 @@ def find_similar(
         features=names if chosen == "features" else None,
         bins=names if chosen == "bins" else None,
         left_out=left_out,
-        typical=typical_distance(table, preset, **{chosen: names}),
+        typical=typical_distance(table, preset, **compared),
         found=tuple(found),
     )
 

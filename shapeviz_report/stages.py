@@ -149,7 +149,7 @@ def read_model(described: bytes) -> bytes:
     return _read_arrays(described)["model"].tobytes()
 
 
-def read_array(content: bytes) -> FloatArray:
+def read_array(content: bytes) -> npt.NDArray[Any]:
     """The array in a result of :func:`sample_shape`, :func:`measure_shape`, :func:`project_features` or
     :func:`score_bins`."""
     return np.load(io.BytesIO(content), allow_pickle=False)
@@ -237,7 +237,7 @@ def read_partition(content: bytes) -> Partition | None:
     return Partition(arrays["of"], *arrays["quality"].tolist()) if arrays else None
 
 
-def map_features(squared: FloatArray, method: str, seed: int, subsets: tuple[int, ...]) -> bytes:
+def map_features(squared: npt.NDArray[np.float32], method: str, seed: int, subsets: tuple[int, ...]) -> bytes:
     """Maps of some subsets of the features, for :func:`read_maps`; see :func:`~shapeviz_report.search.map_subsets`."""
     maps = map_subsets(squared, method, seed, subsets)
     return _pack_arrays(xy=maps.xy, cpu_seconds=maps.cpu_seconds)
@@ -379,7 +379,7 @@ def _unpack(prepared: bytes) -> Mesh:
 
 def _pack_arrays(**arrays: np.ndarray) -> bytes:
     buffer = io.BytesIO()
-    np.savez(buffer, **arrays)
+    np.savez(buffer, allow_pickle=False, **arrays)
     return buffer.getvalue()
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import zip_longest
 from pathlib import Path
+from typing import TypeGuard
 
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import leads_outside, scan_folder
@@ -368,26 +369,21 @@ def _json_entries(text: str, table: Path) -> list[tuple[str, dict[str, object]]]
             raise ValueError(f"an object has the key '{twice[0]}' twice")
         return found
 
+    whole: object
     if suffix_of(table.name) in LINES_SUFFIXES or _SECOND_OBJECT.match(text):
         lines = [(f"line {number}", line) for number, line in enumerate(text.split("\n"), 1) if line.strip()]
-        entries = [(place, parse(line, f", {place},")) for place, line in lines]
+        places, whole = [place for place, _ in lines], [parse(line, f", {place},") for place, line in lines]
     else:
         whole = parse(text)
         if isinstance(whole, dict):
-            lists = [
-                value for value in whole.values() if isinstance(value, list) and value and _objects(value)
-            ]
+            lists = [value for value in whole.values() if value and _is_list_of_objects(value)]
             whole = lists[0] if len(lists) == 1 else None
-        entries = (
-            [(f"entry {number}", entry) for number, entry in enumerate(whole, 1)]
-            if isinstance(whole, list)
-            else None
-        )
-    if entries is None or not _objects([entry for _, entry in entries]):
+        places = [f"entry {number}" for number in range(1, len(whole) + 1)] if isinstance(whole, list) else []
+    if not _is_list_of_objects(whole):
         raise OtherContentError(
             f'The table {table} is not a list of objects: [{{"file": "a.off", "label": "cup"}}, ...].'
         )
-    return entries
+    return list(zip(places, whole, strict=True))
 
 
 def _check_cells(table: Path, count: int) -> None:
@@ -398,8 +394,8 @@ def _check_cells(table: Path, count: int) -> None:
         )
 
 
-def _objects(values: Sequence[object]) -> bool:
-    return all(isinstance(value, dict) for value in values)
+def _is_list_of_objects(value: object) -> TypeGuard[list[dict[str, object]]]:
+    return isinstance(value, list) and all(isinstance(entry, dict) for entry in value)
 
 
 def _plain(name: str) -> str:

@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 from scipy.ndimage import label, map_coordinates
 from scipy.sparse import coo_array
 
@@ -35,9 +34,7 @@ from shapeviz_report.demo.solids import (
     REVOLUTION,
     Solid,
 )
-from shapeviz_report.types import FloatArray, IntArray, Mesh
-
-BoolArray = npt.NDArray[np.bool_]
+from shapeviz_report.types import BoolArray, FloatArray, IntArray, Mesh
 
 SPACING = 0.0105
 """Grid spacing as a fraction of the bounding-box diagonal; the edges of the mesh are about as long."""
@@ -54,7 +51,7 @@ _TETRAHEDRON = np.array([[1, -1, -1], [-1, -1, 1], [-1, 1, -1], [1, 1, 1]], dtyp
 
 
 @kernel()
-def _outline_distance(x, y, outline):
+def _outline_distance(x: float, y: float, outline: FloatArray) -> float:
     """Signed distance to a closed polygon (n, 2), negative inside: nearest edge, sign by crossings."""
     nearest = np.inf
     inside = False
@@ -73,7 +70,9 @@ def _outline_distance(x, y, outline):
 
 
 @kernel()
-def _round_cone(radial, z, length, start, end):
+def _round_cone(
+    radial: float, z: float, length: float, start: float, end: float
+) -> tuple[float, float, float]:
     """Signed distance to a round cone about the z axis, and its gradient (radial, z)."""
     slope = (start - end) / length if length > 0.0 else 0.0
     cosine = np.sqrt(1.0 - slope * slope)
@@ -91,7 +90,9 @@ def _round_cone(radial, z, length, start, end):
 
 
 @kernel()
-def _primitive_distance(px, py, pz, rows, i, outlines):
+def _primitive_distance(
+    px: float, py: float, pz: float, rows: FloatArray, i: int, outlines: FloatArray
+) -> float:
     """Signed distance to the primitive in row ``i``."""
     row = rows[i]
     x, y, z = px - row[ORIGIN], py - row[ORIGIN + 1], pz - row[ORIGIN + 2]
@@ -131,7 +132,7 @@ def _primitive_distance(px, py, pz, rows, i, outlines):
 
 
 @kernel()
-def _smooth_minimum(a, b, radius):
+def _smooth_minimum(a: float, b: float, radius: float) -> float:
     """Cubic polynomial minimum: as ``min`` where the two differ by more than ``radius``."""
     overlap = max(radius - abs(a - b), 0.0)
     if overlap == 0.0:
@@ -140,7 +141,7 @@ def _smooth_minimum(a, b, radius):
 
 
 @kernel()
-def _distances(points, rows, outlines, reach):
+def _distances(points: FloatArray, rows: FloatArray, outlines: FloatArray, reach: float) -> FloatArray:
     """Run a program at every point (n, 3).
 
     Guards pass over parts that cannot change the result: an operator of radius r leaves ``a`` alone if ``b`` is

@@ -60,7 +60,7 @@ class Surface:
         """(n,) area of each vertex: a third of that of its faces."""
         a, b, c = (self.vertices[self.faces[:, i]] for i in range(3))
         third = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 6
-        return np.bincount(self.faces.ravel(), np.repeat(third, 3), len(self.vertices))
+        return np.bincount(self.faces.ravel(), np.repeat(third, 3), len(self.vertices)).astype(np.float64)
 
     @cached_property
     def _sides(self) -> tuple[IntArray, IntArray, IntArray]:

@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
-from typing import Any
+from typing import Any, cast
 
 from shapeviz_report.ending import ASKING
 from shapeviz_report.errors import ShapevizError, WorkerError
@@ -68,7 +68,9 @@ class LocalExecutor:
                 if not busy:
                     return
                 soonest = min(deadline for _, _, deadline in busy.values())
-                ready = wait(list(busy), timeout=max(0.0, soonest - time.monotonic()))
+                ready = cast(
+                    "list[Connection]", wait(list(busy), timeout=max(0.0, soonest - time.monotonic()))
+                )
                 now = time.monotonic()
                 late = [c for c, (_, _, deadline) in busy.items() if deadline <= now and c not in ready]
                 for connection in [*ready, *late]:
@@ -82,7 +84,8 @@ class LocalExecutor:
                         yield Outcome(index, None, reason, 0.0)
                         continue
                     try:
-                        value, error, cpu = connection.recv()
+                        answer: tuple[Any, BaseException | None, float] = connection.recv()
+                        value, error, cpu = answer
                     except (EOFError, ConnectionError):
                         worker.stop()
                         self._workers.remove(worker)

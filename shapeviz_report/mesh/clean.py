@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from shapeviz_report.compilation import kernel
 from shapeviz_report.errors import MeshError
-from shapeviz_report.types import FloatArray, IntArray, Mesh
+from shapeviz_report.types import BoolArray, FloatArray, Int64Array, IntArray, Mesh
 
 WELD_DISTANCE = 1e-6
 """Vertices closer than this fraction of the bounding-box diagonal become one."""
@@ -55,7 +55,8 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
 
     vertices = np.asarray(mesh.vertices, dtype=np.float64)
     faces = np.asarray(mesh.faces, dtype=np.int64)
-    usable = np.isfinite(vertices).all(axis=1)
+    finite: BoolArray = np.isfinite(vertices)
+    usable = np.all(finite, axis=1)
     kept = usable[faces].all(axis=1)
     note("faces with non-finite coordinates dropped", (~kept).sum())
     faces = faces[kept]
@@ -95,9 +96,9 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
     starts = faces.ravel()[pairs]
     agree = starts[:, 0] != starts[:, 1]
     note("edges of one-sided surfaces cut", (~agree).sum())
-    faces, origin = _split_corners(faces, pairs[agree])
+    parted, origin = _split_corners(faces, pairs[agree])
     note("touching vertices parted", len(origin) - len(np.unique(origin)))
-    return Mesh(scaled[origin], faces), repairs
+    return Mesh(scaled[origin], parted), repairs
 
 
 def is_watertight(faces: IntArray) -> bool:
@@ -109,14 +110,14 @@ def is_watertight(faces: IntArray) -> bool:
 
 def count_components(vertex_count: int, faces: IntArray) -> int:
     """Number of connected parts among ``vertex_count`` vertices joined by ``faces`` (m, 3)."""
-    edges = _sorted_edges(faces)
+    edges = _sorted_edges(faces.astype(np.int64))
     graph = coo_matrix(
         (np.ones(len(edges), np.int8), (edges[:, 0], edges[:, 1])), (vertex_count, vertex_count)
     )
     return int(connected_components(graph, directed=False)[0])
 
 
-def _sorted_edges(faces: IntArray) -> IntArray:
+def _sorted_edges(faces: Int64Array) -> Int64Array:
     return np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
 
 
@@ -153,7 +154,7 @@ def _in_diagonals(vertices: FloatArray) -> FloatArray:
     return scaled / np.linalg.norm(extent / longest)
 
 
-def _weld(scaled: FloatArray, faces: IntArray, used: np.ndarray) -> tuple[IntArray, int]:
+def _weld(scaled: FloatArray, faces: Int64Array, used: BoolArray) -> tuple[Int64Array, int]:
     """Point faces at one representative of each cluster of close vertices; how many vertices that saved."""
     index = np.flatnonzero(used)
     place, first = _find_copies(scaled[index])
@@ -170,7 +171,7 @@ def _weld(scaled: FloatArray, faces: IntArray, used: np.ndarray) -> tuple[IntArr
     return target[faces], len(index) - count
 
 
-def _find_copies(rows: np.ndarray) -> tuple[IntArray, IntArray]:
+def _find_copies(rows: np.ndarray) -> tuple[IntArray, Int64Array]:
     """Which rows (n, 3) are the same: a number for each row, and for each number the first row that has it."""
     order = np.lexsort(rows.T)
     ordered = rows[order]
@@ -180,7 +181,7 @@ def _find_copies(rows: np.ndarray) -> tuple[IntArray, IntArray]:
     return number, order[new]
 
 
-def _manifold_pairs(faces: IntArray) -> tuple[IntArray, int]:
+def _manifold_pairs(faces: Int64Array) -> tuple[IntArray, int]:
     """Half-edge pairs of edges with exactly two faces.
 
     Returns
@@ -200,7 +201,7 @@ def _manifold_pairs(faces: IntArray) -> tuple[IntArray, int]:
 
 
 @kernel()
-def _orient(faces, pairs):  # pragma: no cover - compiled
+def _orient(faces: IntArray, pairs: IntArray) -> tuple[BoolArray, IntArray]:
     """Give neighbours a common winding by a breadth-first walk over manifold edges.
 
     Returns which faces to flip and the part of each face. On one-sided surfaces some neighbours must differ.
@@ -251,7 +252,7 @@ def _orient(faces, pairs):  # pragma: no cover - compiled
 
 
 def _face_outward(
-    points: FloatArray, faces: IntArray, flips: np.ndarray, parts: IntArray, pairs: IntArray
+    points: FloatArray, faces: Int64Array, flips: BoolArray, parts: IntArray, pairs: IntArray
 ) -> np.ndarray:
     """Choose, part by part, the winding that faces outward.
 
@@ -278,7 +279,7 @@ def _face_outward(
     return flips ^ reverse[parts]
 
 
-def _split_corners(faces: IntArray, pairs: IntArray) -> tuple[IntArray, IntArray]:
+def _split_corners(faces: Int64Array, pairs: IntArray) -> tuple[IntArray, Int64Array]:
     """Rebuild the vertices so that corners are one vertex only where ``pairs`` joins them.
 
     Cuts non-manifold edges and vertices alike: a corner is reached from another only by walking over edges

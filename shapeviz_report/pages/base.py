@@ -67,10 +67,14 @@ class Page(Protocol):
         Name of the page through which this one is reached; None for a page that the navigation lists.
     """
 
-    name: str
-    title: str
-    file: str
-    within: str | None
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def file(self) -> str: ...
+    @property
+    def within(self) -> str | None: ...
 
     def content(self, report: Report) -> PageContent:
         """Compute everything the page shows; the template only lays it out."""

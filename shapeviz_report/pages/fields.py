@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from typing import Any, TypedDict
 
 from shapeviz_report.order import natural
 from shapeviz_report.types import Clusters, Report, ShapeFacts
@@ -41,28 +42,42 @@ _FACTS: tuple[tuple[str, str, str, Callable[[ShapeFacts], float | None]], ...] =
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
-def describe_fields(report: Report) -> list[dict[str, object]]:
-    """Everything that shapes can be grouped, filtered or sorted by.
+class Field(TypedDict):
+    """What shapes can be grouped, filtered or sorted by.
 
-    Returns
-    -------
-    list of dict
-        One a field: the labelings, the active one first; the columns of metadata; what was measured. Its keys:
-
-        key : str
-            Names the field in an address.
-        title, unit : str
-        active : bool
-            Whether it is the active labeling.
-        names, of
-            The values in their order, and the number of each shape's value, -1 without one; None for a field that has
-            no few values.
-        notes
-            A sentence on each of the values, or None.
-        numbers, edges
-            The number of each shape, None without one, and the edges of intervals, which rise and hold all of them;
-            None for a field that is no number, and for one of a few numbers ``edges`` alone.
+    Attributes
+    ----------
+    key : str
+        Names the field in an address.
+    title, unit : str
+    active : bool
+        Whether it is the active labeling.
+    names : list of str, or None
+        The values in their order; None for a field that has no few values.
+    of : list of int, or None
+        The number of each shape's value, -1 without one; None as with ``names``.
+    notes : list of str, or None
+        A sentence on each of the values.
+    numbers : list of float or None, or None
+        The number of each shape, None without one; None for a field that is no number.
+    edges : list of float, or None
+        Of intervals, which rise and hold all numbers; None also for a field of a few numbers.
     """
+
+    key: str
+    title: str
+    unit: str
+    active: bool
+    names: list[str] | None
+    of: list[int] | None
+    notes: list[str] | None
+    numbers: list[float | None] | None
+    edges: list[float] | None
+
+
+def describe_fields(report: Report) -> list[Field]:
+    """Everything that shapes can be grouped, filtered or sorted by: the labelings, the active one first; the columns of
+    metadata; what was measured."""
     labelings = report.database.labelings
     columns = {name: [shape.labels.get(name) for shape in report.shapes] for name in labelings}
     if report.labeling is not None:
@@ -79,7 +94,7 @@ def describe_fields(report: Report) -> list[dict[str, object]]:
     if report.copies:
         copied = {shape for copy in report.copies for shape in (copy.first, copy.second)}
         has = ["has copies" if shape.id in copied else "no copies" for shape in report.shapes]
-        found.append(_field("copies", "Copies") | _values(has, natural))
+        found.append(_choices("copies", "Copies", has))
     for key, title, unit, measure in _FACTS:
         found.append(_numbers(f"fact:{key}", title, [measure(facts) for facts in report.facts], unit))
     tight = ["watertight" if facts.watertight else "open" for facts in report.facts]
@@ -87,25 +102,25 @@ def describe_fields(report: Report) -> list[dict[str, object]]:
     return [field for field in found if field is not None]
 
 
-def _active(report: Report) -> dict[str, object]:
+def _active(report: Report) -> Field:
     """The active labels: classes, or the clusters that stand in for them; always a field, whatever they are."""
     stand_in = report.clusters is not None and report.clusters.stand_in
-    field = _field(f"label:{report.labeling}", "Cluster" if stand_in else "Class") | {"active": True}
-    field |= _values(report.labels, natural)
+    field = _choices(f"label:{report.labeling}", "Cluster" if stand_in else "Class", report.labels)
+    field["active"] = True
     if report.clusters is not None and stand_in:
         notes = _notes(report.clusters)
-        field["notes"] = [notes[name] for name in field["names"]]
+        field["notes"] = [notes[name] for name in field["names"] or ()]
     return field
 
 
-def _clusters(clusters: Clusters) -> dict[str, object]:
+def _clusters(clusters: Clusters) -> Field:
     """The clusters of a database with labels of its own, the largest first as they come."""
     notes = _notes(clusters)
-    return _field("cluster", "Cluster") | {
-        "names": list(notes),
-        "of": [int(number) for number in clusters.of],
-        "notes": list(notes.values()),
-    }
+    field = _field("cluster", "Cluster")
+    field["names"] = list(notes)
+    field["of"] = [int(number) for number in clusters.of]
+    field["notes"] = list(notes.values())
+    return field
 
 
 def _notes(clusters: Clusters) -> dict[str, str]:
@@ -113,13 +128,19 @@ def _notes(clusters: Clusters) -> dict[str, str]:
     return {cluster.name: next(iter(cluster.typical), "") for cluster in clusters.clusters}
 
 
-def _values(values: Sequence[str | None], order: Callable[[str], object]) -> dict[str, object]:
+def _choices(
+    key: str, title: str, values: Sequence[str | None], order: Callable[[str], tuple[Any, ...]] = natural
+) -> Field:
+    """A field of few values."""
+    field = _field(key, title)
     names = sorted({value for value in values if value}, key=order)
     number = {name: index for index, name in enumerate(names)}
-    return {"names": names, "of": [number[value] if value else -1 for value in values]}
+    field["names"] = names
+    field["of"] = [number[value] if value else -1 for value in values]
+    return field
 
 
-def _column(key: str, title: str, values: Sequence[str | None]) -> dict[str, object] | None:
+def _column(key: str, title: str, values: Sequence[str | None]) -> Field | None:
     """A column of text as a field; None where it tells no shapes apart, or every shape from all others."""
     counts = Counter(value for value in values if value)
     differs = len(counts) > 1 or (len(counts) == 1 and counts.total() < len(values))
@@ -127,26 +148,42 @@ def _column(key: str, title: str, values: Sequence[str | None]) -> dict[str, obj
     numbers = None if len(counts) < 2 else _as_numbers(values)
     if not differs or not (few or numbers is not None):
         return None
-    field = _field(key, title)
+    order = natural if numbers is None else _as_number
+    field = _choices(key, title, values, order) if few else _field(key, title)
     if numbers is not None:
         edges = _edges([number for number in numbers if number is not None])
-        field |= {"numbers": _rounded(numbers), "edges": edges if len(counts) > FEW_NUMBERS else None}
-    if few:
-        field |= _values(values, natural if numbers is None else lambda name: (float(name), name))
+        field["numbers"] = _rounded(numbers)
+        field["edges"] = edges if len(counts) > FEW_NUMBERS else None
     return field
 
 
-def _numbers(key: str, title: str, values: Sequence[float | None], unit: str) -> dict[str, object] | None:
+def _numbers(key: str, title: str, values: Sequence[float | None], unit: str) -> Field | None:
     """A measured number as a field; None where it is the same for all shapes."""
     different = {value for value in values if value is not None}
     if len(different) < 2:
         return None
-    return _field(key, title, unit) | {"numbers": _rounded(values), "edges": _edges(sorted(different))}
+    field = _field(key, title, unit)
+    field["numbers"], field["edges"] = _rounded(values), _edges(sorted(different))
+    return field
 
 
-def _field(key: str, title: str, unit: str = "") -> dict[str, object]:
-    nothing = dict.fromkeys(("names", "of", "notes", "numbers", "edges"))
-    return {"key": key, "title": title, "unit": unit, "active": False, **nothing}
+def _field(key: str, title: str, unit: str = "") -> Field:
+    return Field(
+        key=key,
+        title=title,
+        unit=unit,
+        active=False,
+        names=None,
+        of=None,
+        notes=None,
+        numbers=None,
+        edges=None,
+    )
+
+
+def _as_number(value: str) -> tuple[float, str]:
+    """A key that sorts texts of numbers by the numbers."""
+    return float(value), value
 
 
 def _as_numbers(values: Sequence[str | None]) -> list[float | None] | None:
@@ -158,7 +195,11 @@ def _as_numbers(values: Sequence[str | None]) -> list[float | None] | None:
 
 
 def _rounded(numbers: Sequence[float | None]) -> list[float | None]:
-    return [None if number is None else float(f"{number:.{DIGITS}g}") for number in numbers]
+    return [None if number is None else _round(number) for number in numbers]
+
+
+def _round(number: float) -> float:
+    return float(f"{number:.{DIGITS}g}")
 
 
 def _edges(numbers: Sequence[float]) -> list[float] | None:
@@ -170,7 +211,7 @@ def _edges(numbers: Sequence[float]) -> list[float] | None:
         They rise, and the first and last enclose all numbers as they are rounded. None where no round numbers do:
         far from 0, and close together.
     """
-    rounded = _rounded(numbers)
+    rounded = [_round(number) for number in numbers]
     low, high = min(rounded), max(rounded)
     edges = _factors(low, high) if low > 0 and high / WIDE >= low else _steps(low, high)
     rises = all(left < right for left, right in pairwise(edges))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from shapeviz_report.order import natural
+from shapeviz_report.pages.fields import Field
 from shapeviz_report.types import Report
 
 #: What stands between a class and its parent in a value that names both.
@@ -20,15 +21,15 @@ FEWEST_SHAPES_A_FOLDER = 2
 Chain = tuple[str, ...] | None
 
 
-def describe_hierarchy(report: Report, fields: Sequence[Mapping[str, object]]) -> dict[str, object]:
+def describe_hierarchy(report: Report, fields: Sequence[Field]) -> dict[str, object]:
     """The trees of a database: its active classes, with all above them, and whatever else is ordered in levels.
 
     Parameters
     ----------
     report : Report
-    fields : sequence of dict
-        As :func:`shapeviz_report.pages.fields.describe_fields` makes them: a column that is one of them, and whose
-        values name their parents (``animal/biped``), is a tree too.
+    fields : sequence of Field
+        All of the report. A column that is one of them, and whose values name their parents (``animal/biped``), is a
+        tree too.
 
     Returns
     -------
@@ -50,19 +51,19 @@ def describe_hierarchy(report: Report, fields: Sequence[Mapping[str, object]]) -
             continue
         deep = any(chain is not None and len(chain) > 1 for chain in chains)
         if field["active"] or (deep and not any(_is_level(chains, finer) for finer in known)):
-            add(str(field["key"]), str(field["title"]), chains, active=bool(field["active"]))
+            add(field["key"], field["title"], chains, active=field["active"])
     folders = _folders([shape.id for shape in report.shapes])
     if folders is not None and not any(_is_level(folders, finer) for finer in known):
         add("folders", "Folders", folders)
     return {"trees": trees}
 
 
-def _chains(report: Report, field: Mapping[str, object]) -> list[Chain] | None:
+def _chains(report: Report, field: Field) -> list[Chain] | None:
     """The class of every shape in a field of few values, with all above it; None for another field."""
     names, of = field["names"], field["of"]
-    if names is None:
+    if names is None or of is None:
         return None
-    kind, _, name = str(field["key"]).partition(":")
+    kind, _, name = field["key"].partition(":")
     parents = report.database.parents.get(name, {}) if kind == "label" else {}
     if field["notes"] is not None:
         # Clusters are named after a shape: what stands in its name are its folders, no classes above the cluster.

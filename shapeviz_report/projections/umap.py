@@ -7,6 +7,7 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from numba.core.dispatcher import Dispatcher
 
 from shapeviz_report.compilation import kept_for
@@ -40,7 +41,7 @@ def _neighbours(count: int) -> int:
     return min(NEIGHBOURS, count - 1)
 
 
-def _fit(values: FloatArray, seed: int, **options: Any) -> FloatArray:
+def _fit(values: npt.NDArray[np.floating], seed: int, **options: Any) -> FloatArray:
     with warnings.catch_warnings():
         # It warns that TensorFlow is missing, that a seed means one thread, and that new points cannot be added
         # to the map; all are meant to be so.

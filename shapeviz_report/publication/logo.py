@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from pathlib import Path
+from typing import Any
 
 from lxml import etree
 from PIL import Image
@@ -311,7 +312,7 @@ def _safe_drawing(content: bytes, path: Path) -> bytes:
         raise ConfigError(f"the logo {path} is not well-formed XML: {error}") from error
     if root.tag != f"{{{_SVG}}}svg":
         raise ConfigError(f"the logo {path} is XML, but not an SVG drawing")
-    document = root.getroottree().docinfo
+    document: Any = root.getroottree().docinfo
     if document.internalDTD is not None and any(document.internalDTD.iterentities()):
         raise ConfigError(f"the logo {path} declares entities, which are not taken; save it without them")
     if document.system_url is not None and not document.system_url.startswith("http://www.w3.org/"):
@@ -340,7 +341,8 @@ def _strip(node: etree._Element, depth: int) -> str | None:
     name = etree.QName(node).localname
     if name not in _ELEMENTS:
         return f"<{name[:60]}>"
-    for attribute, value in list(node.attrib.items()):
+    attributes: dict[str, str] = dict(node.attrib)  # type: ignore[arg-type]  # its types allow for bytes
+    for attribute, value in attributes.items():
         reason = _danger(attribute, value)
         if reason is not None:
             return reason

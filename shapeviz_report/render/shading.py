@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from shapeviz_report.compilation import kernel
 from shapeviz_report.render.camera import Camera
+from shapeviz_report.types import Float32Array, Int64Array
 
 CLAY = (0.56, 0.505, 0.44)  # linear reflectance
 
@@ -84,13 +85,25 @@ def _spiral(radius: float) -> npt.NDArray[np.int64]:
 
 
 @kernel()
-def _position(column: int, row: int, z: float, focal_length: float, centre_x: float, centre_y: float):
+def _position(
+    column: int, row: int, z: float, focal_length: float, centre_x: float, centre_y: float
+) -> tuple[float, float, float]:
     """The point seen in the middle of a pixel at distance ``z``, in camera axes."""
     return (column + 0.5 - centre_x) * z / focal_length, (centre_y - row - 0.5) * z / focal_length, -z
 
 
 @kernel()
-def _openness(depth, spiral, row, column, point, normal, focal_length, centre_x, centre_y):
+def _openness(
+    depth: Float32Array,
+    spiral: Int64Array,
+    row: int,
+    column: int,
+    point: tuple[float, float, float],
+    normal: Float32Array,
+    focal_length: float,
+    centre_x: float,
+    centre_y: float,
+) -> float:
     """Ambient light that reaches a point, from the depths around it, in [0, 1].
 
     The estimator of McGuire, Osman, Bukowski and Hennessy, "The Alchemy screen-space ambient obscurance
@@ -121,7 +134,15 @@ def _openness(depth, spiral, row, column, point, normal, focal_length, centre_x,
 
 
 @kernel()
-def _light_pixels(depth, normals, albedo, spiral, focal_length, centre_x, centre_y):
+def _light_pixels(
+    depth: Float32Array,
+    normals: Float32Array,
+    albedo: Float32Array,
+    spiral: Int64Array,
+    focal_length: float,
+    centre_x: float,
+    centre_y: float,
+) -> Float32Array:
     height, width = depth.shape
     picture = np.zeros((height, width, 4), np.float32)
     for row in range(height):

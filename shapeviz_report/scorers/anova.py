@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from shapeviz_report.scorers.base import BoolArray, Scorer
-from shapeviz_report.types import FloatArray
+from shapeviz_report.scorers.base import Scorer
+from shapeviz_report.types import BoolArray, FloatArray
 
 
 def measure(values: FloatArray, positive: BoolArray, seed: int) -> FloatArray:

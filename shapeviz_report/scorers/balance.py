@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from shapeviz_report.scorers.base import BoolArray
-from shapeviz_report.types import FloatArray
+from shapeviz_report.types import BoolArray, FloatArray
 
 
 def balanced_weights(positive: BoolArray) -> FloatArray:

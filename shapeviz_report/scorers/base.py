@@ -8,9 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.types import FloatArray
-
-BoolArray = npt.NDArray[np.bool_]
+from shapeviz_report.types import BoolArray, FloatArray
 
 
 @dataclass(frozen=True)

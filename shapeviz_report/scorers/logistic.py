@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from shapeviz_report.scorers.balance import balanced_weights, standardise
-from shapeviz_report.scorers.base import BoolArray, Scorer
-from shapeviz_report.types import FloatArray
+from shapeviz_report.scorers.base import Scorer
+from shapeviz_report.types import BoolArray, FloatArray
 
 PAIRS = 50
 """Random cuts of the rows into two halves: twice as many runs."""

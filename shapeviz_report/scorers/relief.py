@@ -6,8 +6,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import expit
 
-from shapeviz_report.scorers.base import BoolArray, Scorer
-from shapeviz_report.types import FloatArray
+from shapeviz_report.scorers.base import Scorer
+from shapeviz_report.types import BoolArray, FloatArray
 
 KERNEL = 0.1
 """Width of the kernel that says how likely a row is the nearest, as a fraction of the mean distance of two rows."""

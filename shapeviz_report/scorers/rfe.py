@@ -6,8 +6,8 @@ import numpy as np
 import scipy.linalg
 
 from shapeviz_report.scorers.balance import balanced_weights, standardise
-from shapeviz_report.scorers.base import BoolArray, Scorer
-from shapeviz_report.types import FloatArray
+from shapeviz_report.scorers.base import Scorer
+from shapeviz_report.types import BoolArray, FloatArray
 
 PENALTY = 10.0
 """On squared coefficients, in units of the mean eigenvalue of the rows' matrix of scalar products. docs/scorers.md

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from shapeviz_report.scorers.base import BoolArray, Scorer
-from shapeviz_report.types import FloatArray
+from shapeviz_report.scorers.base import Scorer
+from shapeviz_report.types import BoolArray, FloatArray
 
 COUNT = 1000
 """A second in a browser, for a class of 280 shapes against the rest; another seed shares three quarters of the best 30

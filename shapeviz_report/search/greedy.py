@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+from shapeviz_report.types import FloatArray
+
 
 @dataclass(frozen=True)
 class Trace:
@@ -29,7 +31,7 @@ class Trace:
 def climb(
     feature_count: int,
     s: int,
-    scores_of: Callable[[Sequence[int]], Sequence[float]],
+    scores_of: Callable[[Sequence[int]], Sequence[float] | FloatArray],
     highest: float = float("inf"),
 ) -> Trace:
     """Change up to ``s`` features at a time, always to the best neighbour, until none is better, or none can be.

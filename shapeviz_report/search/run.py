@@ -147,7 +147,11 @@ class _Search:
             )
         subsets = range(1, 1 << count) if refusal is None else [1 << i for i in range(count)]
         self.need(self.seed, [self.space.everything, *subsets])
-        greedy, table, spread, held_out, effects = (), (), (), (), ()
+        greedy: tuple[GreedySearch, ...] = ()
+        table: tuple[SearchRow, ...] = ()
+        spread: tuple[SeedSpread, ...] = ()
+        held_out: tuple[HeldOutFold, ...] = ()
+        effects: tuple[FeatureEffect, ...] = ()
         null_best = np.empty(0)
         if self.scored:
             held_out = self.hold_out_all(rounds) if refusal is None else self.hold_out_climbing()

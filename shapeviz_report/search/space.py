@@ -124,7 +124,9 @@ def stratified_sample(labels: Sequence[str | None], size: int, seed: int) -> npt
     return np.sort(np.argsort(place, kind="stable")[:size])
 
 
-def map_subsets(squared: FloatArray, method: str, seed: int, subsets: Sequence[int]) -> SubsetMaps:
+def map_subsets(
+    squared: npt.NDArray[np.float32], method: str, seed: int, subsets: Sequence[int]
+) -> SubsetMaps:
     """Lay out some subsets of the features: the work of a search, in pieces of any size.
 
     Neither labels nor k have part in it. Needs 12 m^2 bytes for m shapes besides the distances.

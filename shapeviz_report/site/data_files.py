@@ -292,7 +292,7 @@ def json_text(value: object, indent: int | None = None) -> str:
 
 def _archive(**arrays: np.ndarray) -> bytes:
     file = io.BytesIO()
-    np.savez_compressed(file, **arrays)
+    np.savez_compressed(file, allow_pickle=False, **arrays)
     return file.getvalue()
 
 
@@ -334,7 +334,7 @@ def _shape_rows(report: Report) -> list[list[str]]:
                 *(shape.labels.get(labeling, "") for labeling in labelings),
                 *(shape.metadata.get(column, "") for column in columns),
                 *(_number(report.projections[method][1].nh[index]) for method in methods),
-                _number(highest.get(label)),
+                _number(None if label is None else highest.get(label)),
                 *map(
                     str,
                     (facts.faces_read, facts.vertices_read, facts.faces, facts.vertices, facts.components),

@@ -114,7 +114,7 @@ def _model(
 
 
 def _address(licence: Licence | None) -> str | None:
-    return licence and (licence.url or licence.text)
+    return None if licence is None else licence.url or licence.text
 
 
 def _told(values: Mapping[str, object]) -> dict[str, object]:

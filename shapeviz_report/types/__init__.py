@@ -4,7 +4,7 @@
 -> ``Quality`` -> pages. A ``Failure`` travels beside them to the About page.
 """
 
-from shapeviz_report.types.arrays import FloatArray, IntArray
+from shapeviz_report.types.arrays import BoolArray, Float32Array, FloatArray, Int64Array, IntArray
 from shapeviz_report.types.bins import (
     BinScores,
     BinSearch,
@@ -50,6 +50,7 @@ __all__ = [
     "BinSearch",
     "BinSelection",
     "BinStep",
+    "BoolArray",
     "Cluster",
     "Clusters",
     "Copy",
@@ -59,6 +60,7 @@ __all__ = [
     "FeatureEffect",
     "FeatureSearch",
     "FeatureTable",
+    "Float32Array",
     "FloatArray",
     "Gain",
     "GreedySearch",
@@ -66,6 +68,7 @@ __all__ = [
     "HeldOutBins",
     "HeldOutFold",
     "HitRange",
+    "Int64Array",
     "IntArray",
     "Licence",
     "Logo",

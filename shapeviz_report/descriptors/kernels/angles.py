@@ -3,10 +3,11 @@
 import numpy as np
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import FloatArray, IntArray
 
 
 @kernel()
-def gather_angles(vertices, faces):  # pragma: no cover - compiled
+def gather_angles(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, FloatArray]:
     """Per vertex: the sum of its corner angles (n,), and its unit normal (n, 3).
 
     The normal is the sum of unit face normals weighted by corner angle (paper, Eq. 3). Where that sum
@@ -45,7 +46,7 @@ def gather_angles(vertices, faces):  # pragma: no cover - compiled
 
 
 @kernel()
-def _spread(vertices, origin, left, right):  # pragma: no cover - compiled
+def _spread(vertices: FloatArray, origin: int, left: int, right: int) -> tuple[float, float, float, float]:
     """Cross product (three numbers) and dot product of the ways from ``origin`` to two vertices."""
     lx = vertices[left, 0] - vertices[origin, 0]
     ly = vertices[left, 1] - vertices[origin, 1]

@@ -3,13 +3,16 @@
 import numpy as np
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import Float32Array, FloatArray, IntArray
 
 BESIDE = np.float32(1e-5)
 """What is less than this in front of a plane counts as behind it, lest rounding decide on flat surfaces."""
 
 
 @kernel()
-def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover - compiled
+def frame_vertices(
+    vertices: FloatArray, normals: FloatArray, neighbours: IntArray, centre: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """A local frame a vertex: two tangents (n, 3) each; the third axis is the normal.
 
     The first tangent is the dominant eigenvector of the covariance of the neighbourhood within the tangent
@@ -58,7 +61,14 @@ def frame_vertices(vertices, normals, neighbours, centre):  # pragma: no cover -
 
 
 @kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: no cover - compiled
+def count_contexts(
+    vertices: Float32Array,
+    first: Float32Array,
+    second: Float32Array,
+    normals: Float32Array,
+    seen: Float32Array,
+    limits: Float32Array,
+) -> Float32Array:
     """Share of the points ``seen`` in each octant and distance shell around each vertex.
 
     Column ``8 * shell + octant``; an octant is 1 if in front along the first tangent, plus 2 along the second,
@@ -87,8 +97,7 @@ def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: n
             code += np.uint8(squared > inner) << np.uint8(3)
             code += np.uint8(squared > outer) << np.uint8(3)
             codes[j] = code + (np.uint8(squared == zero) << np.uint8(5))
-        for code in range(256):
-            tally[0, code] = tally[1, code] = tally[2, code] = tally[3, code] = 0
+        tally[:] = 0
         # Four tallies in turn: consecutive equal codes would wait for each other in one.
         for j in range(0, size - 3, 4):
             tally[0, codes[j]] += 1
@@ -98,10 +107,10 @@ def count_contexts(vertices, first, second, normals, seen, limits):  # pragma: n
         for j in range(size - size % 4, size):
             tally[0, codes[j]] += 1
         others = 0
-        for code in range(24):
-            tally[0, code] += tally[1, code] + tally[2, code] + tally[3, code]
-            others += tally[0, code]
+        for cell in range(24):
+            tally[0, cell] += tally[1, cell] + tally[2, cell] + tally[3, cell]
+            others += tally[0, cell]
         share = 1.0 / others if others > 0 else 0.0
-        for code in range(24):
-            result[i, code] = tally[0, code] * share
+        for cell in range(24):
+            result[i, cell] = tally[0, cell] * share
     return result

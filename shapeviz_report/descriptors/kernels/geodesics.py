@@ -3,10 +3,11 @@
 import numpy as np
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import BoolArray, Float32Array, FloatArray, IntArray
 
 
 @kernel()
-def _place(vertices, near, far, tip):  # pragma: no cover - compiled
+def _place(vertices: FloatArray, near: int, far: int, tip: int) -> tuple[float, float, float]:
     """Where a triangle's tip lies in its plane: how far along the side from near to far, and how far beside it."""
     along = square = across = 0.0
     for axis in range(3):
@@ -21,7 +22,7 @@ def _place(vertices, near, far, tip):  # pragma: no cover - compiled
 
 
 @kernel()
-def _cross(px, py, qx, qy, ax, ay, bx, by):  # pragma: no cover - compiled
+def _cross(px: float, py: float, qx: float, qy: float, ax: float, ay: float, bx: float, by: float) -> bool:
     """Whether two segments in the plane, from p to q and from a to b, meet."""
     wx, wy, sx, sy = qx - px, qy - py, bx - ax, by - ay
     apart = (wx * (ay - py) - wy * (ax - px)) * (wx * (by - py) - wy * (bx - px))
@@ -30,7 +31,7 @@ def _cross(px, py, qx, qy, ax, ay, bx, by):  # pragma: no cover - compiled
 
 
 @kernel()
-def draw_lines(vertices, faces, twins):  # pragma: no cover - compiled
+def draw_lines(vertices: FloatArray, faces: IntArray, twins: IntArray) -> tuple[IntArray, FloatArray]:
     """Straight lines across one edge or two, where two or three faces in a row are laid flat.
 
     A line goes between the outermost vertices of such a strip, and is left out where it would leave the strip.
@@ -95,7 +96,7 @@ def draw_lines(vertices, faces, twins):  # pragma: no cover - compiled
 
 
 @kernel()
-def pack_rows(ends, lengths, count):  # pragma: no cover - compiled
+def pack_rows(ends: IntArray, lengths: FloatArray, count: int) -> tuple[IntArray, IntArray, FloatArray]:
     """Lines between ``count`` vertices in compressed rows: offsets, neighbours and lengths, each line both ways."""
     offsets = np.zeros(count + 2, np.int32)
     for line in range(len(ends)):
@@ -113,8 +114,15 @@ def pack_rows(ends, lengths, count):  # pragma: no cover - compiled
 
 @kernel()
 def add_source(
-    offsets, neighbours, lengths, source, distances, owners, queue, waiting
-):  # pragma: no cover - compiled
+    offsets: IntArray,
+    neighbours: IntArray,
+    lengths: FloatArray,
+    source: int,
+    distances: FloatArray,
+    owners: IntArray,
+    queue: IntArray,
+    waiting: BoolArray,
+) -> None:
     """Carry distances on from one more source along the lines of a graph, to all that it is nearest to.
 
     First in, first out: on meshes of even edges hardly a vertex is visited twice, and there is no heap to keep.
@@ -157,7 +165,9 @@ def add_source(
 
 
 @kernel(error_model="numpy")
-def measure_all(offsets, neighbours, lengths, orders, distances):  # pragma: no cover - compiled
+def measure_all(
+    offsets: IntArray, neighbours: IntArray, lengths: Float32Array, orders: IntArray, distances: Float32Array
+) -> None:
     """Carry distances from many sources at once on along the lines of a graph, until no line shortens any.
 
     Sweeps over the vertices, forth and back in each of several orders in turn, visit those of which a neighbour has

@@ -3,10 +3,13 @@
 import numpy as np
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import FloatArray, Int64Array, IntArray
 
 
 @kernel(error_model="numpy")
-def find_nearest(points, cells, starts, width, order, wanted):  # pragma: no cover - compiled
+def find_nearest(
+    points: FloatArray, cells: IntArray, starts: Int64Array, width: float, order: IntArray, wanted: int
+) -> tuple[FloatArray, IntArray]:
     """The ``wanted`` points nearest to each, itself excluded.
 
     Parameters
@@ -55,7 +58,7 @@ def find_nearest(points, cells, starts, width, order, wanted):  # pragma: no cov
             beyond = (reach * width) ** 2
             within = 0
             for q in range(size):
-                within += np.int64(squared[q] <= beyond)
+                within += int(squared[q] <= beyond)
             if within > wanted:
                 break
             if size == count:
@@ -72,7 +75,7 @@ def find_nearest(points, cells, starts, width, order, wanted):  # pragma: no cov
                 break
             within = 0
             for q in range(size):
-                within += np.int64(squared[q] <= middle)
+                within += int(squared[q] <= middle)
             if within > wanted:
                 beyond = middle
                 if within == wanted + 1:

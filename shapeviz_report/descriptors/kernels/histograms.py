@@ -1,10 +1,11 @@
 """Histograms of values at vertices."""
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import Float32Array, FloatArray
 
 
 @kernel()
-def add_up(values, limits, weights, totals):  # pragma: no cover - compiled
+def add_up(values: Float32Array, limits: Float32Array, weights: FloatArray, totals: FloatArray) -> None:
     """Add the weight of every vertex to its bin of each dimension of ``totals``, (d, b + 1) float64.
 
     ``values`` are (n, d) float32, ``limits`` the (d, b) rising limits between bins, float32; a value at a limit

@@ -8,6 +8,7 @@ bin next to it.
 import numpy as np
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import Float32Array, FloatArray, IntArray
 
 WIDTH = 16
 """Pairs are treated in rows of a multiple of this many, which fill vector registers."""
@@ -25,7 +26,17 @@ ELEVENTH = np.tan(np.pi * np.arange(1, 11, 2) / 11).astype(np.float32)
 
 
 @kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def _relate(dx, dy, dz, mx, my, mz, nx, ny, nz):  # pragma: no cover - compiled
+def _relate(
+    dx: np.float32,
+    dy: np.float32,
+    dz: np.float32,
+    mx: np.float32,
+    my: np.float32,
+    mz: np.float32,
+    nx: np.float32,
+    ny: np.float32,
+    nz: np.float32,
+) -> tuple[np.float32, np.float32, np.float32, np.float32, np.float32, np.float32]:
     """What the angles of a pair are made of, from d between its points and their normals m and n.
 
     With d of length one, or zero: m . d, n . d, m . n, (d x m) . n, |d x m|, |d x n|. With u = m,
@@ -53,7 +64,7 @@ def _relate(dx, dy, dz, mx, my, mz, nx, ny, nz):  # pragma: no cover - compiled
 
 
 @kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def _fifth(value, whole):  # pragma: no cover - compiled
+def _fifth(value: np.float32, whole: np.float32) -> np.int32:
     """Which fifth of [-whole, whole] a value lies in, 0 to 4."""
     outer, inner = np.float32(0.6) * whole, np.float32(0.2) * whole
     return (
@@ -65,7 +76,9 @@ def _fifth(value, whole):  # pragma: no cover - compiled
 
 
 @kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def _cell(along_m, along_n, agreement, volume, sine):  # pragma: no cover - compiled
+def _cell(
+    along_m: np.float32, along_n: np.float32, agreement: np.float32, volume: np.float32, sine: np.float32
+) -> np.int32:
     """The cell of PFH for one direction of a pair: ``25 * alpha + 5 * phi + theta``, fifths of each."""
     y, x = along_n - along_m * agreement, agreement * sine
     beyond = np.int32(abs(y) >= x * FIFTH[0]) + np.int32(abs(y) <= x * FIFTH[1])
@@ -76,7 +89,7 @@ def _cell(along_m, along_n, agreement, volume, sine):  # pragma: no cover - comp
 
 
 @kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
+def count_pfh(vertices: Float32Array, normals: Float32Array, neighbours: IntArray) -> Float32Array:
     """Share of the ordered pairs of each neighbourhood in 5 x 5 x 5 cells of (alpha, phi, theta).
 
     Alpha and phi over [-1, 1], theta over [-pi, pi]. (n, 125) float32.
@@ -134,7 +147,7 @@ def count_pfh(vertices, normals, neighbours):  # pragma: no cover - compiled
 
 
 @kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
+def count_spfh(vertices: Float32Array, normals: Float32Array, neighbours: IntArray) -> Float32Array:
     """Share of the pairs (vertex, neighbour) in 11 bins each of alpha, phi and theta: (n, 33) float32."""
     count, size = neighbours.shape
     result = np.empty((count, 33), np.float32)
@@ -174,7 +187,9 @@ def count_spfh(vertices, normals, neighbours):  # pragma: no cover - compiled
 
 
 @kernel(error_model="numpy", fastmath={"contract", "nsz", "arcp"})
-def average_spfh(spfh, neighbours, distances, floor):  # pragma: no cover - compiled
+def average_spfh(
+    spfh: Float32Array, neighbours: IntArray, distances: FloatArray, floor: float
+) -> Float32Array:
     """Eq. 6: each SPFH plus the mean of its neighbours', weighted by one over their distance.
 
     Distances below ``floor`` count as ``floor``.

@@ -3,6 +3,7 @@
 import numpy as np
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import FloatArray, IntArray
 
 DEPTH = 64
 """Deeper than any tree gets: its boxes are numbered by 32 bits."""
@@ -21,14 +22,16 @@ GRAZING = 1e-10
 
 
 @kernel(error_model="numpy")
-def _cross(near, far, origin, inverse):  # pragma: no cover - compiled
+def _cross(near: float, far: float, origin: float, inverse: float) -> tuple[float, float]:
     """Where along one axis a ray enters a box and leaves it; ``near`` is the side that it meets first."""
     margin = MARGIN if inverse > 0.0 else -MARGIN
     return (near - margin - origin) * inverse, (far + margin - origin) * inverse
 
 
 @kernel(error_model="numpy")
-def _enter(boxes, node, ox, oy, oz, ix, iy, iz):  # pragma: no cover - compiled
+def _enter(
+    boxes: FloatArray, node: int, ox: float, oy: float, oz: float, ix: float, iy: float, iz: float
+) -> float:
     """Where on a ray from o, with the inverse direction i, a box begins; infinite where it is not met."""
     near_x, near_y, near_z = 0 if ix > 0.0 else 3, 1 if iy > 0.0 else 4, 2 if iz > 0.0 else 5
     enter_x, leave_x = _cross(boxes[node, near_x], boxes[node, 3 - near_x], ox, ix)
@@ -41,8 +44,15 @@ def _enter(boxes, node, ox, oy, oz, ix, iy, iz):  # pragma: no cover - compiled
 
 @kernel(error_model="numpy")
 def cast_inward(
-    vertices, normals, rays, faces, corners, boxes, leaf, tolerance
-):  # pragma: no cover - compiled
+    vertices: FloatArray,
+    normals: FloatArray,
+    rays: IntArray,
+    faces: IntArray,
+    corners: FloatArray,
+    boxes: FloatArray,
+    leaf: int,
+    tolerance: float,
+) -> FloatArray:
     """Distance from each vertex along its reversed normal to the first face that does not contain it.
 
     Edges count as part of a face, so that a ray cannot slip between two faces. Faces nearer than

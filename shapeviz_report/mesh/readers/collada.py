@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator
+from itertools import islice
 from urllib.parse import unquote
 
 import numpy as np
@@ -100,8 +101,8 @@ class _Reader:
         self.root = root
         self.by_id: dict[tuple[str, str], list[Element]] = {}
         for element in root.iter(etree.Element):
-            if element.get("id") is not None:
-                self.by_id.setdefault((element.tag, element.get("id")), []).append(element)
+            if (name := element.get("id")) is not None:
+                self.by_id.setdefault((element.tag, name), []).append(element)
 
     def read(self) -> PolygonMesh:
         up = _UP_AXES.get((self.root.findtext("asset/up_axis") or "Y_UP").strip())
@@ -160,9 +161,8 @@ class _Reader:
             raise MeshError(f"it refers to geometry in another file ({url[:60]!r}), which is not read")
         name = unquote(url[1:])
         found = [one for tag in tags for one in self.by_id.get((tag, name), [])]
-        within = [
-            one for one in found if element.getparent() in (one.getparent(), one.getparent().getparent())
-        ]
+        parent = element.getparent()
+        within = [one for one in found if parent in tuple(islice(one.iterancestors(), 2))]
         if len(within or found) != 1:
             many = f"which stands {len(found)} times in the file" if found else "which is not in the file"
             raise MeshError(f"<{element.tag}> refers to {tags[0]} {name[:60]!r}, {many}")
@@ -236,7 +236,7 @@ class _Reader:
             raise MeshError(f"a skin has {len(names)} joints, and {inverse.size / 16:g} bind matrices")
         inverse = inverse.reshape(-1, 4, 4)
         roots = [self.target(_with_url(one), "node") for one in instance.findall("skeleton") if one.text]
-        joints = {}
+        joints: dict[str, Element] = {}
         for root in roots or self.root.findall("library_visual_scenes/visual_scene"):
             for node in root.iter("node"):
                 for name in (node.get("sid"), node.get("id")):

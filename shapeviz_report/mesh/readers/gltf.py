@@ -34,7 +34,7 @@ _SURFACE_UNTOUCHED = re.compile(
 )
 """Extensions of looks, sound and meaning, or of other levels of detail than the one that is read."""
 
-_COMPONENTS = {
+_COMPONENTS: dict[int, np.dtype[Any]] = {
     5120: np.dtype("<i1"),
     5121: np.dtype("<u1"),
     5122: np.dtype("<i2"),

@@ -73,7 +73,8 @@ def _read_stream(numbers: FloatArray, vertex_count: int, face_count: int) -> Pol
         return None
     rest = numbers[3 * vertex_count :]
     values = rest.tolist()
-    sizes, position = [], 0
+    sizes: list[int] = []
+    position = 0
     while len(sizes) < face_count and position < len(values):
         size = values[position]
         if not 0 <= size <= len(values) or size != int(size):

@@ -7,11 +7,9 @@ inner loop over them compiles to vector instructions. Arrays in, arrays out; inp
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from shapeviz_report.compilation import kernel
-
-Float32Array = npt.NDArray[np.float32]
+from shapeviz_report.types import Float32Array
 
 EARLY_STEPS, LATE_STEPS = 250, 500
 """Steps with and without exaggeration; 250 more lower the KL divergence by less than one percent."""
@@ -151,7 +149,7 @@ def descend(
                 kernel *= kernel
                 repel_x += kernel * to_x
                 repel_y += kernel * to_y
-            normaliser += similarity
+            normaliser += float(similarity)
             pull_x[i], pull_y[i] = attract_x, attract_y
             push_x[i], push_y[i] = repel_x, repel_y
         scale = np.float32(1 / max(normaliser - count, 1e-12))
@@ -179,7 +177,17 @@ def _extent(x: Float32Array, y: Float32Array) -> np.float32:
 
 
 @kernel(error_model="numpy", fastmath=True)
-def _move(position, speed, gain, pull, push, exaggeration, scale, momentum, rate) -> None:
+def _move(
+    position: Float32Array,
+    speed: Float32Array,
+    gain: Float32Array,
+    pull: Float32Array,
+    push: Float32Array,
+    exaggeration: np.float32,
+    scale: np.float32,
+    momentum: np.float32,
+    rate: np.float32,
+) -> None:
     """One step of all points along one axis, in place."""
     for i in range(len(position)):
         gradient = np.float32(4) * (exaggeration * pull[i] - push[i] * scale)

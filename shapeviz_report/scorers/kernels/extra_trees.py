@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from shapeviz_report.compilation import kernel
 from shapeviz_report.scorers.kernels import random
+from shapeviz_report.types import Float32Array
 
-Float32Array = npt.NDArray[np.float32]
 _NO_NAN = {"nnan", "nsz"}
 """What the compiler may assume so that extremes become vector instructions; no sum is reordered."""
 

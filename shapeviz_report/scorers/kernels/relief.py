@@ -6,11 +6,10 @@ Vector instructions of single precision take 280 rows of 1870 columns in a few h
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.types import Float32Array
 
-Float32Array = npt.NDArray[np.float32]
 _REORDERED = {"nnan", "nsz", "reassoc", "contract"}
 """What the compiler may assume so that sums become vector instructions; the last digits follow from it."""
 

@@ -10,8 +10,8 @@ import numpy.typing as npt
 
 from shapeviz_report.compilation import kernel
 from shapeviz_report.scorers.kernels import random
+from shapeviz_report.types import FloatArray
 
-FloatArray = npt.NDArray[np.float64]
 _SUMS = {"nnan", "ninf", "nsz", "reassoc", "contract"}
 """What the compiler may assume so that sums become vector instructions."""
 

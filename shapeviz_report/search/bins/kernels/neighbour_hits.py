@@ -11,8 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.compilation import kernel
-
-FloatArray = npt.NDArray[np.float64]
+from shapeviz_report.types import FloatArray
 
 
 @kernel(error_model="numpy")
