@@ -30,6 +30,7 @@ from reports import (
     with_scores,
     with_search,
 )
+from together import alone
 
 from shapeviz_report.site import write_site
 from shapeviz_report.types import Report
@@ -158,26 +159,30 @@ def reports() -> Callable[[str], Report]:
 
 
 @pytest.fixture(scope="session")
-def site(tmp_path_factory, reports) -> Callable[[str], Path]:
+def site(shared_folder, reports) -> Callable[[str], Path]:
     """The folder of a site of ``SITES``, written when first asked for."""
 
     @functools.cache
     def folder(name: str) -> Path:
-        destination = tmp_path_factory.mktemp("sites") / name.replace(" ", "-")
-        write_site(reports(name), destination)
+        destination = shared_folder / "sites" / name.replace(" ", "-")
+        with alone(destination):
+            if not destination.exists():
+                write_site(reports(name), destination)
         return destination
 
     return folder
 
 
 @pytest.fixture(scope="session")
-def single_file(tmp_path_factory) -> Callable[[str], Path]:
+def single_file(shared_folder, reports) -> Callable[[str], Path]:
     """A site of ``SITES`` in one file, written when first asked for."""
 
     @functools.cache
     def file(name: str) -> Path:
-        destination = tmp_path_factory.mktemp("single") / f"{name.replace(' ', '-')}.html"
-        write_site(SITES[name](), destination, single_file=True)
+        destination = shared_folder / "single" / f"{name.replace(' ', '-')}.html"
+        with alone(destination):
+            if not destination.exists():
+                write_site(reports(name), destination, single_file=True)
         return destination
 
     return file

@@ -11,8 +11,8 @@ import shapeviz_report
 
 
 @pytest.fixture(scope="session")
-def cache(tmp_path_factory) -> Path:
-    return tmp_path_factory.mktemp("cache")
+def cache(shared_folder) -> Path:
+    return shared_folder / "cache"
 
 
 @pytest.fixture(scope="session")
