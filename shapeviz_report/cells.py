@@ -7,7 +7,7 @@ import re
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _FORMULA = re.compile(r"'*[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
 """How a formula begins, also in full-width characters, and after apostrophes, so that one more can be taken off again.
-``site/scripts/export.js`` has the same."""
+``site/scripts/tray/export.js`` has the same."""
 
 
 def write_cell(text: str) -> str:

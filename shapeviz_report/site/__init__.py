@@ -25,7 +25,7 @@ from shapeviz_report.places import explain
 from shapeviz_report.site import preview
 from shapeviz_report.site.data_files import data_files, json_text
 from shapeviz_report.site.destination import check_destination
-from shapeviz_report.site.joiner import join
+from shapeviz_report.site.joiner import join, join_pages
 from shapeviz_report.site.linked_data import catalogue, dataset, describe
 from shapeviz_report.site.markdown import first_paragraph, render_markdown
 from shapeviz_report.site.record import RECORD, find_own, record_text, sealed
@@ -46,7 +46,7 @@ __all__ = ["check_destination", "write_site"]
 
 #: Nothing but the site's own files. ``file:`` stands beside ``'self'`` because a page opened by double-click has no
 #: origin that ``'self'`` could mean. Trusted Types, where a browser knows them, make it impossible that a script
-#: turns text from a database into markup; the one policy allowed is that of scripts/trusted.js.
+#: turns text from a database into markup; the one policy allowed is that of scripts/opening/trusted.js.
 CONTENT_SECURITY_POLICY = "; ".join(
     (
         "default-src 'none'",
@@ -166,7 +166,7 @@ def _whole(report: Report) -> bytes:
         (
             scripts.pop("first.js"),
             *(handed_over(f"assets/{name}", text) for name, text in scripts.items()),
-            join(site_folder() / "scripts" / "single-file.js"),
+            join(site_folder() / "scripts" / "opening" / "single-file.js"),
         ),
     )
     assets = {f"assets/{name}": content for name, content in _other_assets(report).items()}
@@ -277,18 +277,16 @@ def _accent_style(accent: Accent) -> str:
 
 
 def _scripts() -> dict[str, str]:
-    """The scripts by their file below ``assets/``; ``first.js`` is the one that runs before anything is painted."""
+    """The scripts by their file below ``assets/``; ``first.js`` is the one that runs before anything is painted, and
+    ``shared.js`` before the script of a page."""
     source = site_folder()
-    scripts = {
-        "first.js": join(source / "scripts" / "first.js"),
+    entries = {f"{page.name}.js": source / "scripts" / "pages" / f"{page.name}.js" for page in PAGES}
+    return {
+        "first.js": join(source / "scripts" / "opening" / "first.js"),
         # Unwrapped, Vega would leave thousands of names on the window.
         "vega.js": f"(() => {{\n{(source / 'vendor' / 'vega.js').read_text(encoding='utf-8')}\n}})();\n",
+        **join_pages(entries, source / "scripts"),
     }
-    for page in PAGES:
-        entry = source / "scripts" / "pages" / f"{page.name}.js"
-        if entry.exists():
-            scripts[f"{page.name}.js"] = join(entry)
-    return scripts
 
 
 def _other_assets(report: Report) -> dict[str, bytes]:

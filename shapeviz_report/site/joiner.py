@@ -1,9 +1,9 @@
-"""Joins ES modules into one classic script.
+"""Joins ES modules into classic scripts.
 
 Browsers refuse ``<script type="module" src>`` on pages opened by double-click, so the modules of ``site/scripts``
-are joined when a site is built. Every module becomes a function with a scope of its own, run once and in the
-order of its imports. Only the plain forms that these modules use are accepted; everything else is an error that
-names the file and the line, instead of a script that fails in a reader's browser::
+are joined when a site is built. Every module becomes a function with a scope of its own, run once and before those
+that import it. Only the plain forms that these modules use are accepted; everything else is an error that names the
+file and the line, instead of a script that fails in a reader's browser::
 
     import { name, other } from "./module.js";
     export function name() {}          export async function name() {}          export function* name() {}
@@ -12,7 +12,11 @@ names the file and the line, instead of a script that fails in a reader's browse
 
 from __future__ import annotations
 
+import json
 import re
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 _IMPORT = re.compile(r'import \{ ?(?P<names>[\w$, ]+?),? ?\} from "(?P<source>\.{1,2}/[\w./-]+\.js)";')
@@ -21,6 +25,44 @@ _EXPORT = re.compile(
 )
 _ELSEWHERE = re.compile(r"^\s+(?:import|export)\b|\bimport\s*[(.]")
 
+#: Modules wait until they are used: a page reads what pages share, and runs only what it needs of it.
+_REGISTRY = """\
+const makers = new Map();
+const made = new Map();
+const use = (name) => {
+  if (!made.has(name)) made.set(name, makers.get(name)(use));
+  return made.get(name);
+};
+const define = (modules) => Object.entries(modules).forEach(([name, make]) => makers.set(name, make));
+window.shapeviz.modules = { define, use };
+"""
+
+
+@dataclass(frozen=True)
+class _Module:
+    """One module, as it is joined.
+
+    Attributes
+    ----------
+    path : Path
+    exports : tuple of str
+        The names that it gives to others.
+    lines : tuple of str or (str, Path)
+        Its text; a pair is an import: the names, and the module that gives them.
+    """
+
+    path: Path
+    exports: tuple[str, ...]
+    lines: tuple[str | tuple[str, Path], ...]
+
+    def function(self, source: Mapping[Path, str], parameter: str) -> str:
+        """The module as a function that returns what it exports; ``source`` are expressions for other modules."""
+        lines = [
+            line if isinstance(line, str) else f"const {{ {line[0]} }} = {source[line[1]]};"
+            for line in (*self.lines, f"return {{ {', '.join(self.exports)} }};")
+        ]
+        return f"({parameter}) => {{\n" + "\n".join(lines) + "\n}"
+
 
 def join(entry: Path) -> str:
     """Join the module ``entry`` and all it imports.
@@ -28,7 +70,7 @@ def join(entry: Path) -> str:
     Parameters
     ----------
     entry : Path
-        The module that starts the page.
+        The module that does what the script is for.
 
     Returns
     -------
@@ -42,17 +84,68 @@ def join(entry: Path) -> str:
     FileNotFoundError
         For an imported module that is not there.
     """
-    exports: dict[Path, tuple[str, ...]] = {}
-    variables: dict[Path, str] = {}
-    pieces: list[str] = []
+    modules = _read(entry)
+    variables = {path: f"module{number}" for number, path in enumerate(modules)}
+    return _script(
+        f"// {path.name}\nconst {variables[path]} = ({module.function(variables, '')})();\n"
+        for path, module in modules.items()
+    )
+
+
+def join_pages(entries: Mapping[str, Path], root: Path) -> dict[str, str]:
+    """Join the modules of several pages, each module into one script only.
+
+    Parameters
+    ----------
+    entries : mapping of str to Path
+        The modules that start the pages, by the names of their scripts.
+    root : Path
+        The folder of all modules.
+
+    Returns
+    -------
+    dict of str to str
+        Classic scripts that define no global name, ``shared.js`` with all that two pages or more import, and one for
+        each entry. A page runs ``shared.js`` before its own. They count on ``window.shapeviz``, an object.
+
+    Raises
+    ------
+    ValueError, FileNotFoundError
+        As :func:`join`.
+    """
+    modules = {name: _read(entry) for name, entry in entries.items()}
+    users = Counter(path for own in modules.values() for path in own)
+    names = {path: path.relative_to(root.resolve()).as_posix() for path in users}
+    used = {path: f"use({json.dumps(name)})" for path, name in names.items()}
+
+    def definition(found: Iterable[_Module]) -> str:
+        functions = (f"{json.dumps(names[module.path])}: {module.function(used, 'use')}," for module in found)
+        return "define({\n" + "\n".join(functions) + "\n});\n"
+
+    shared = {path: module for own in modules.values() for path, module in own.items() if users[path] > 1}
+    scripts = {"shared.js": _script([_REGISTRY, definition(shared[path] for path in sorted(shared))])}
+    for name, own in modules.items():
+        alone = definition(module for path, module in own.items() if path not in shared)
+        start = f"{used[entries[name].resolve()]};\n"
+        scripts[name] = _script(["const { define, use } = window.shapeviz.modules;\n", alone, start])
+    return scripts
+
+
+def _script(parts: Iterable[str]) -> str:
+    return '(() => {\n"use strict";\n' + "\n".join(parts) + "})();\n"
+
+
+def _read(entry: Path) -> dict[Path, _Module]:
+    """The module ``entry`` and all it imports, each after those that it imports."""
+    found: dict[Path, _Module] = {}
 
     def visit(path: Path, importers: tuple[Path, ...]) -> None:
         if path in importers:
             circle = " -> ".join(module.name for module in (*importers, path))
             raise ValueError(f"modules import in a circle: {circle}")
-        if path in exports:
+        if path in found:
             return
-        lines: list[str] = []
+        lines: list[str | tuple[str, Path]] = []
         names: list[str] = []
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
             place = f"{path.name}:{number}"
@@ -66,9 +159,9 @@ def join(entry: Path) -> str:
                 visit(source, (*importers, path))
                 wanted = [name.strip() for name in match["names"].split(",")]
                 for name in wanted:
-                    if name not in exports[source]:
+                    if name not in found[source].exports:
                         raise ValueError(f"{place}: {source.name} does not export {name!r}")
-                lines.append(f"const {{ {', '.join(wanted)} }} = {variables[source]};")
+                lines.append((", ".join(wanted), source))
             elif line.startswith("export"):
                 match = _EXPORT.match(line)
                 if match is None:
@@ -79,11 +172,7 @@ def join(entry: Path) -> str:
                 raise ValueError(f"{place}: imports and exports stand at the start of a line")
             else:
                 lines.append(line)
-        exports[path] = tuple(names)
-        variables[path] = f"module{len(variables)}"
-        lines.append(f"return {{ {', '.join(names)} }};")
-        body = "\n".join(lines)
-        pieces.append(f"// {path.name}\nconst {variables[path]} = (() => {{\n{body}\n}})();\n")
+        found[path] = _Module(path, tuple(names), tuple(lines))
 
     visit(entry.resolve(), ())
-    return '(() => {\n"use strict";\n' + "\n".join(pieces) + "})();\n"
+    return found

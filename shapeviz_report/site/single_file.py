@@ -1,6 +1,7 @@
 """A whole site in one HTML file, to be mailed: pages as templates, data and pictures as blocks of text.
 
-``site/scripts/single-file.js`` opens one of the pages; ``site/scripts/place.js`` knows where the parts are.
+``site/scripts/opening/single-file.js`` opens one of the pages; ``site/scripts/base/place.js`` knows where the parts
+are.
 """
 
 from __future__ import annotations

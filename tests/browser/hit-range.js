@@ -1,6 +1,6 @@
 // What NH can be, on `window.ranges`, with maps as pairs.
 
-import { hitRange, shareOfRange } from "../../site/scripts/hit-range.js";
+import { hitRange, shareOfRange } from "../../site/scripts/database/hit-range.js";
 
 window.ranges = {
   hitRange(groups, k) {

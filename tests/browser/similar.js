@@ -1,8 +1,8 @@
 // Similar shapes as the pages of a site find them, for tests.
 
-import { Bins } from "../../site/scripts/bins.js";
-import { chunk } from "../../site/scripts/chunks.js";
-import { Similarity } from "../../site/scripts/similar.js";
+import { Bins } from "../../site/scripts/database/bins.js";
+import { chunk } from "../../site/scripts/base/chunks.js";
+import { Similarity } from "../../site/scripts/shape/similar.js";
 
 /** The answers to cases of similar_cases.py, and the typical distance by each of their choices. */
 async function answer(cases) {

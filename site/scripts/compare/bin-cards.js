@@ -1,6 +1,6 @@
 // Bins as cards: what it says in a sentence, and how much of it both groups have.
 
-import { element } from "../dom.js";
+import { element } from "../base/dom.js";
 import { distribution, mean, toldAs } from "./distribution.js";
 import { called, meaning, pairs, statement } from "./words.js";
 

@@ -1,7 +1,7 @@
 // Where a reader chooses the two groups: a list of what there is on each side, and a field to find shapes by words.
 
-import { element } from "../dom.js";
-import { count } from "../words.js";
+import { element } from "../base/dom.js";
+import { count } from "../base/words.js";
 import { isSame, nameOf } from "./groups.js";
 
 const SIDES = ["a", "b"];

@@ -1,7 +1,7 @@
 // What sets two groups apart and what they share, worked out by the engine.
 
 import { startEngine } from "../engine/client.js";
-import { sampled } from "../workbench/sample.js";
+import { sampled } from "../database/sample.js";
 
 /** Of a larger group a sample speaks: enough to know a share to two parts in a hundred. */
 export const MOST_COMPARED = 500;

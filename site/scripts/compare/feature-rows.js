@@ -1,6 +1,6 @@
 // Feature by feature: how much of what the shapes differ in goes with the group, beside what chance would make of it.
 
-import { element } from "../dom.js";
+import { element } from "../base/dom.js";
 import { share } from "./words.js";
 
 export function featureRows(view) {

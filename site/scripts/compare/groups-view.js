@@ -1,12 +1,12 @@
 // Two groups beside each other: the answer in sentences, then bins, features and shapes.
 
-import { element, picture } from "../dom.js";
-import { writeSelection } from "../selection.js";
-import { galleryOf } from "../gallery/link.js";
-import { pageAddress } from "../place.js";
-import { shortNames } from "../workbench/bin-names.js";
-import { Inquiry } from "../workbench/inquiry.js";
-import { count, grouped } from "../words.js";
+import { element, picture } from "../base/dom.js";
+import { writeSelection } from "../database/selection.js";
+import { galleryOf } from "../addresses/shapes.js";
+import { pageAddress } from "../base/place.js";
+import { shortNames } from "../addresses/bin-names.js";
+import { Inquiry } from "../engine/inquiry.js";
+import { count, grouped } from "../base/words.js";
 import { answer, kinship } from "./answer.js";
 import { binCard } from "./bin-cards.js";
 import { Chooser } from "./chooser.js";

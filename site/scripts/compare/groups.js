@@ -1,8 +1,8 @@
 // The two groups: who belongs to them, what they are called, and how they are marked.
 
-import { swatch } from "../dom.js";
-import { findWords, searchTexts } from "../search.js";
-import { shortened } from "../words.js";
+import { swatch } from "../base/dom.js";
+import { findWords, searchTexts } from "../database/search.js";
+import { shortened } from "../base/words.js";
 
 const LONGEST = 40;
 

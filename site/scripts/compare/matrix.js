@@ -1,11 +1,11 @@
 // Which classes are alike: of the nearest neighbours of each class, how many belong to each other class.
 
-import { element, picture, swatch } from "../dom.js";
-import { galleryOf } from "../gallery/link.js";
-import { pageAddress } from "../place.js";
-import { writeSelection } from "../selection.js";
-import { count, shortened } from "../words.js";
-import { compareAddress } from "./address.js";
+import { element, picture, swatch } from "../base/dom.js";
+import { galleryOf } from "../addresses/shapes.js";
+import { pageAddress } from "../base/place.js";
+import { writeSelection } from "../database/selection.js";
+import { count, shortened } from "../base/words.js";
+import { compareAddress } from "../addresses/compare.js";
 
 const PAIRS = 8;
 const MOST_BEHIND = 24;

@@ -1,13 +1,13 @@
 // A bin on the most central shapes of both groups: pictures first, and 3D where a reader asks for it.
 
-import { percent } from "../bin-card.js";
-import { dimensionOf } from "../bins-page/look.js";
-import { Legend } from "../bins-page/legend.js";
-import { chunk, modelBytes } from "../chunks.js";
-import { element, picture } from "../dom.js";
-import { pageAddress, resource } from "../place.js";
+import { percent } from "../bins-kit/bin-card.js";
+import { dimensionOf } from "../bins-kit/look.js";
+import { Legend } from "../bins-kit/legend.js";
+import { chunk, modelBytes } from "../base/chunks.js";
+import { element, picture } from "../base/dom.js";
+import { pageAddress, resource } from "../base/place.js";
 import { Paint } from "../viewer/paint.js";
-import { Stage } from "../viewer/stage.js";
+import { Stage } from "../bins-kit/stage.js";
 
 const EXAMPLES = 6;
 const SIDES = ["a", "b"];

@@ -1,10 +1,10 @@
 // Shapes that fit their class least: where they would rather belong, and what sets them apart.
 
-import { element, picture, swatch } from "../dom.js";
-import { highestOf, ofAtMost } from "../hit-range.js";
-import { pageAddress } from "../place.js";
-import { count, figure } from "../words.js";
-import { compareAddress } from "./address.js";
+import { element, picture, swatch } from "../base/dom.js";
+import { highestOf, ofAtMost } from "../database/hit-range.js";
+import { pageAddress } from "../base/place.js";
+import { count, figure } from "../base/words.js";
+import { compareAddress } from "../addresses/compare.js";
 import { distribution, mean, toldAs } from "./distribution.js";
 
 const PAGE = 12;

@@ -1,7 +1,7 @@
 // What a comparison says, in sentences a stranger understands. Names of groups come in elements of their own.
 
-import { element } from "../dom.js";
-import { grouped } from "../words.js";
+import { element } from "../base/dom.js";
+import { grouped } from "../base/words.js";
 import { mean, toldAs } from "./distribution.js";
 
 /** The name of a group within a sentence. */

@@ -1,23 +1,23 @@
 // The Bins page (paper, 4.4 and Fig. 6, 7, 8): the few bins that separate a class, or all, and how they look on shapes.
 
-import { BinCard } from "../bin-card.js";
-import { Bins } from "../bins.js";
-import { readBinsAddress, workbenchAddress, writeBinsAddress } from "../bins-page/address.js";
-import { BinChips } from "../bins-page/bin-chip.js";
-import { binsTables } from "../bins-page/bins-tables.js";
-import { chooseSet, ClassCards } from "../bins-page/class-cards.js";
-import { Look } from "../bins-page/look.js";
-import { PathPlayer } from "../bins-page/path-player.js";
-import { Pointing } from "../bins-page/pointing.js";
-import { Turntable } from "../bins-page/turntable.js";
-import { carrySelection } from "../carry.js";
-import { chunk } from "../chunks.js";
-import { calm } from "../dom.js";
-import { Model } from "../model.js";
-import { State } from "../state.js";
-import { watchTables } from "../tables.js";
-import { currentTheme, watchTheme } from "../theme.js";
-import { Tray } from "../tray.js";
+import { BinCard } from "../bins-kit/bin-card.js";
+import { Bins } from "../database/bins.js";
+import { readBinsAddress, workbenchAddress, writeBinsAddress } from "../addresses/bins.js";
+import { BinChips } from "../bins/bin-chip.js";
+import { binsTables } from "../bins/tables.js";
+import { chooseSet, ClassCards } from "../bins/class-cards.js";
+import { Look } from "../bins-kit/look.js";
+import { PathPlayer } from "../bins/path-player.js";
+import { Pointing } from "../map/pointing.js";
+import { Turntable } from "../bins/turntable.js";
+import { carrySelection } from "../tray/carry.js";
+import { chunk } from "../base/chunks.js";
+import { calm } from "../base/dom.js";
+import { Model } from "../database/model.js";
+import { State } from "../base/state.js";
+import { watchTables } from "../base/tables.js";
+import { currentTheme, watchTheme } from "../base/theme.js";
+import { Tray } from "../tray/tray.js";
 
 async function main() {
   const [overview, selection, data, bytes] = await Promise.all(["overview", "selection", "workbench", "bins"].map(chunk));

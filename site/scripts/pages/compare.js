@@ -1,21 +1,21 @@
 // The Compare page: what sets two groups apart, what they share, outliers, and classes that are alike.
 
-import { Bins } from "../bins.js";
-import { carrySelection, follow } from "../carry.js";
-import { chunk } from "../chunks.js";
-import { readView, writeView } from "../compare/address.js";
-import { compareTables } from "../compare/compare-tables.js";
+import { Bins } from "../database/bins.js";
+import { carrySelection, follow } from "../tray/carry.js";
+import { chunk } from "../base/chunks.js";
+import { readView, writeView } from "../addresses/compare.js";
+import { compareTables } from "../compare/tables.js";
 import { GroupsView } from "../compare/groups-view.js";
 import { Matrix } from "../compare/matrix.js";
 import { Neighbours } from "../compare/neighbours.js";
 import { Outliers } from "../compare/outliers.js";
 import { Tabs } from "../compare/tabs.js";
-import { Model } from "../model.js";
-import { pageAddress } from "../place.js";
-import { State } from "../state.js";
-import { watchTables } from "../tables.js";
-import { currentTheme, watchTheme } from "../theme.js";
-import { Tray } from "../tray.js";
+import { Model } from "../database/model.js";
+import { pageAddress } from "../base/place.js";
+import { State } from "../base/state.js";
+import { watchTables } from "../base/tables.js";
+import { currentTheme, watchTheme } from "../base/theme.js";
+import { Tray } from "../tray/tray.js";
 
 async function main() {
   const [overview, data, bytes, clusters] = await Promise.all(["overview", "compare", "neighbours", "clusters"].map(chunk));

@@ -1,25 +1,26 @@
 // The Features page: all subsets of the features, the chosen one's map, and what is known of the features.
 
-import { overviewAddress, readFeaturesAddress, writeFeaturesAddress } from "../address.js";
-import { Boxes } from "../boxes.js";
-import { Card } from "../card.js";
-import { carryAddress, carrySelection } from "../carry.js";
-import { drawChart } from "../chart.js";
-import { chunk } from "../chunks.js";
-import { Gestures } from "../gestures.js";
-import { MapView } from "../map.js";
-import { Model } from "../model.js";
-import { Panel } from "../panel.js";
-import { Ranking } from "../ranking.js";
-import { RetrievalSection } from "../retrieval/section.js";
-import { Scene } from "../scene.js";
-import { State } from "../state.js";
-import { subsetTables } from "../subset-tables.js";
-import { Subsets } from "../subsets.js";
-import { watchTables } from "../tables.js";
-import { currentTheme, styleColor, watchTheme } from "../theme.js";
-import { Tray } from "../tray.js";
-import { figure } from "../words.js";
+import { readFeaturesAddress, writeFeaturesAddress } from "../addresses/features.js";
+import { overviewAddress } from "../addresses/overview.js";
+import { Boxes } from "../features/boxes.js";
+import { Card } from "../map/card.js";
+import { carryAddress, carrySelection } from "../tray/carry.js";
+import { drawChart } from "../base/chart.js";
+import { chunk } from "../base/chunks.js";
+import { Gestures } from "../map/gestures.js";
+import { MapView } from "../map/map.js";
+import { Model } from "../database/model.js";
+import { Panel } from "../features/panel.js";
+import { Ranking } from "../features/ranking.js";
+import { RetrievalSection } from "../features/retrieval.js";
+import { Scene } from "../map/scene.js";
+import { State } from "../base/state.js";
+import { subsetTables } from "../features/tables.js";
+import { Subsets } from "../database/subsets.js";
+import { watchTables } from "../base/tables.js";
+import { currentTheme, styleColor, watchTheme } from "../base/theme.js";
+import { Tray } from "../tray/tray.js";
+import { figure } from "../base/words.js";
 
 const ROW = 24;
 

@@ -1,24 +1,24 @@
 // The Overview: three linked maps, the classes, the tray, the card and the panel of one shape.
 
-import { readAddress, writeAddress } from "../address.js";
-import { Card } from "../card.js";
-import { carrySelection } from "../carry.js";
-import { ClassList } from "../classes.js";
-import { chunk } from "../chunks.js";
-import { Detail } from "../detail.js";
-import { calm, element } from "../dom.js";
-import { FeatureChoice, subsetMethod } from "../feature-choice.js";
-import { Gestures } from "../gestures.js";
-import { watchIntroduction } from "../introduction.js";
-import { MapView } from "../map.js";
-import { mapTables } from "../map-tables.js";
-import { Model } from "../model.js";
-import { Scene } from "../scene.js";
-import { Search } from "../search.js";
-import { State } from "../state.js";
-import { watchTables } from "../tables.js";
-import { currentTheme, watchTheme } from "../theme.js";
-import { Tray } from "../tray.js";
+import { readAddress, writeAddress } from "../addresses/overview.js";
+import { Card } from "../map/card.js";
+import { carrySelection } from "../tray/carry.js";
+import { ClassList } from "../overview/classes.js";
+import { chunk } from "../base/chunks.js";
+import { Detail } from "../overview/detail.js";
+import { calm, element } from "../base/dom.js";
+import { FeatureChoice, subsetMethod } from "../overview/feature-choice.js";
+import { Gestures } from "../map/gestures.js";
+import { watchIntroduction } from "../overview/introduction.js";
+import { MapView } from "../map/map.js";
+import { mapTables } from "../map/tables.js";
+import { Model } from "../database/model.js";
+import { Scene } from "../map/scene.js";
+import { Search } from "../database/search.js";
+import { State } from "../base/state.js";
+import { watchTables } from "../base/tables.js";
+import { currentTheme, watchTheme } from "../base/theme.js";
+import { Tray } from "../tray/tray.js";
 
 const VIEWS = ["class", "hit", "thumbnail"];
 

@@ -1,29 +1,29 @@
 // The page of one shape: what it is, where it lies, and which shapes are most like it.
 
-import { Pointing } from "../bins-page/pointing.js";
-import { Bins } from "../bins.js";
-import { carrySelection } from "../carry.js";
-import { chunk } from "../chunks.js";
-import { Model } from "../model.js";
-import { Similarity } from "../similar.js";
-import { Facts } from "../shape-page/facts.js";
-import { goToShape, readShapeAddress, writeShapeAddress } from "../shape-page/address.js";
-import { Comparison } from "../shape-page/comparison.js";
-import { Heading } from "../shape-page/heading.js";
-import { Histograms } from "../shape-page/histograms.js";
-import { kind } from "../shape-page/kind.js";
-import { ShapeLinks } from "../shape-page/links.js";
-import { Portrait } from "../shape-page/portrait.js";
-import { shapeTables } from "../shape-page/shape-tables.js";
-import { SimilarShapes } from "../shape-page/similar-shapes.js";
-import { Spread } from "../shape-page/spread.js";
-import { Surroundings } from "../shape-page/surroundings.js";
-import { ValueCard } from "../shape-page/value-card.js";
-import { State } from "../state.js";
-import { watchTables } from "../tables.js";
-import { currentTheme, watchTheme } from "../theme.js";
-import { Tray } from "../tray.js";
-import { grouped } from "../words.js";
+import { Pointing } from "../map/pointing.js";
+import { Bins } from "../database/bins.js";
+import { carrySelection } from "../tray/carry.js";
+import { chunk } from "../base/chunks.js";
+import { Model } from "../database/model.js";
+import { Similarity } from "../shape/similar.js";
+import { Facts } from "../shape/facts.js";
+import { goToShape, readShapeAddress, writeShapeAddress } from "../addresses/shape.js";
+import { Comparison } from "../shape/comparison.js";
+import { Heading } from "../shape/heading.js";
+import { Histograms } from "../shape/histograms.js";
+import { kind } from "../shape/kind.js";
+import { ShapeLinks } from "../shape/links.js";
+import { Portrait } from "../shape/portrait.js";
+import { shapeTables } from "../shape/tables.js";
+import { SimilarShapes } from "../shape/similar-shapes.js";
+import { Spread } from "../shape/spread.js";
+import { Surroundings } from "../shape/surroundings.js";
+import { ValueCard } from "../shape/value-card.js";
+import { State } from "../base/state.js";
+import { watchTables } from "../base/tables.js";
+import { currentTheme, watchTheme } from "../base/theme.js";
+import { Tray } from "../tray/tray.js";
+import { grouped } from "../base/words.js";
 
 /** How far below the window the features may be when they are loaded. */
 const AHEAD = "200px";

@@ -1,9 +1,10 @@
 // Maps and scores: the ones that travel with the site where they answer the question, else computed by the engine.
 
-import { chunk } from "../chunks.js";
+import { isSame } from "../addresses/workbench.js";
+import { chunk } from "../base/chunks.js";
 import { startEngine } from "../engine/client.js";
-import { Subsets } from "../subsets.js";
-import { sampled } from "./sample.js";
+import { Subsets } from "../database/subsets.js";
+import { sampled } from "../database/sample.js";
 import { contests } from "./separation.js";
 
 const SCORE_STEPS = 65535;
@@ -240,11 +241,6 @@ export class Answers {
       },
     };
   }
-}
-
-/** Whether a site of chosen bins is made from just these. */
-export function isSame(bins, ofSite) {
-  return ofSite !== null && bins.size === ofSite.length && ofSite.every((column) => bins.has(column));
 }
 
 function known(value) {

@@ -1,9 +1,9 @@
 // The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
 
-import { element, swatch } from "../dom.js";
-import { ofAtMost, rangeOf } from "../hit-range.js";
-import { figure } from "../words.js";
-import { difference } from "./figures.js";
+import { element, swatch } from "../base/dom.js";
+import { ofAtMost, rangeOf } from "../database/hit-range.js";
+import { figure } from "../base/words.js";
+import { difference } from "../base/figures.js";
 
 export class ClassTable {
   /** `change(hidden)` takes other classes into use, `separate(part, groups)` ticks others: part "from" or "against". */

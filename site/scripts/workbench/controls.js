@@ -1,8 +1,8 @@
 // The small controls: projection, colours, what dragging does, scorer and separation; and the keys of the page.
 
-import { element } from "../dom.js";
-import { count, grouped } from "../words.js";
-import { MOST_SHAPES } from "./sample.js";
+import { element } from "../base/dom.js";
+import { count, grouped } from "../base/words.js";
+import { MOST_SHAPES } from "../database/sample.js";
 import { contests, separationWords } from "./separation.js";
 
 export function watchControls(model, data, state, desk) {

@@ -1,12 +1,12 @@
 // What a reader does on the Workbench, in one place: every change of classes, features and bins is a step that can be
 // taken back; every change asks anew what it makes out of date.
 
-import { ranked } from "../bin-list.js";
-import { figure } from "../words.js";
+import { ranked } from "../bins-kit/bin-list.js";
+import { figure } from "../base/words.js";
 import { alike, History } from "./history.js";
-import { changeWords } from "./figures.js";
-import { Inquiry } from "./inquiry.js";
-import { MOST_SHAPES } from "./sample.js";
+import { changeWords } from "../base/figures.js";
+import { Inquiry } from "../engine/inquiry.js";
+import { MOST_SHAPES } from "../database/sample.js";
 import { contests, separationWords } from "./separation.js";
 
 /** Fewer shapes have no map worth the name. */

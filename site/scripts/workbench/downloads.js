@@ -1,10 +1,10 @@
 // What a reader takes away: the chosen bins, for a build of their own, and maps and scores for other programs.
 
-import { element } from "../dom.js";
-import { csvText, saveText } from "../export.js";
-import { highestOf, rangeOf } from "../hit-range.js";
-import { ranked } from "../bin-list.js";
-import { count, figure } from "../words.js";
+import { element } from "../base/dom.js";
+import { csvText, saveText } from "../tray/export.js";
+import { highestOf, rangeOf } from "../database/hit-range.js";
+import { ranked } from "../bins-kit/bin-list.js";
+import { count, figure } from "../base/words.js";
 
 const FILE = "bins.txt";
 

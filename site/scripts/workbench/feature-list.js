@@ -1,6 +1,6 @@
 // The feature types in use, in their colours.
 
-import { element } from "../dom.js";
+import { element } from "../base/dom.js";
 
 export class FeatureList {
   /** `change(features)` takes others into use. */

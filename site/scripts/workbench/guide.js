@@ -1,12 +1,11 @@
 // A short example on the reader's own data: two classes that mix, and the bins that tell them apart.
 
-import { ranked } from "../bin-list.js";
-import { element, swatch } from "../dom.js";
-import { readHash } from "../place.js";
-import { count, figure } from "../words.js";
-import { DEFAULT_SCORER } from "./address.js";
-import { difference } from "./figures.js";
-import { EVERY_CLASS } from "./separation.js";
+import { ranked } from "../bins-kit/bin-list.js";
+import { element, swatch } from "../base/dom.js";
+import { readHash } from "../base/place.js";
+import { count, figure } from "../base/words.js";
+import { DEFAULT_SCORER, EVERY_CLASS } from "../addresses/workbench.js";
+import { difference } from "../base/figures.js";
 
 const KEY = "shapeviz-guide";
 const FEW = 10;

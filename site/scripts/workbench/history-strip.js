@@ -1,8 +1,8 @@
 // The steps as small maps, each with its NH and what it added or removed (paper, Fig. 7). Click one to go back to it.
 
-import { element } from "../dom.js";
-import { bounds } from "../model.js";
-import { count, figure } from "../words.js";
+import { element } from "../base/dom.js";
+import { bounds } from "../database/model.js";
+import { count, figure } from "../base/words.js";
 import { changes } from "./history.js";
 
 const SIZE = 56;

@@ -1,9 +1,9 @@
 // What stands around a map: what it is made from, what it reaches, and how its work stands.
 
-import { element } from "../dom.js";
-import { isBelowOne, rangeOf } from "../hit-range.js";
-import { count, figure } from "../words.js";
-import { difference, symbol } from "./figures.js";
+import { element } from "../base/dom.js";
+import { isBelowOne, rangeOf } from "../database/hit-range.js";
+import { count, figure } from "../base/words.js";
+import { difference, symbol } from "../base/figures.js";
 import { StatusLine } from "./status-line.js";
 
 export class MapPanel {

@@ -3,12 +3,9 @@
 // A separation is { from, against, each }: the classes to set apart (null: all in use), the classes to set them apart
 // from (null: the rest), and whether each stands for itself or all together are one group.
 
-import { shortened } from "../words.js";
+import { shortened } from "../base/words.js";
 
 const MOST_NAMED = 3;
-
-/** All classes in use, each from the rest: what a reader who asks nothing in particular wants to know. */
-export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true });
 
 /** The classes of a separation among those in use. */
 export function sides({ from, against }, groups) {

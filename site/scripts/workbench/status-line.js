@@ -1,6 +1,6 @@
 // How a piece of work stands: after a moment a bar of progress and a way to stop it, and what went wrong.
 
-import { element } from "../dom.js";
+import { element } from "../base/dom.js";
 
 /** What is done sooner shows no progress. */
 const PATIENCE = 300;

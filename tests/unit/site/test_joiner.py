@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from shapeviz_report.site.joiner import join
+from shapeviz_report.site.joiner import join, join_pages
 
 
 @pytest.fixture
@@ -85,3 +85,39 @@ def test_a_circle_is_refused(modules):
 def test_a_missing_module_is_an_error(modules):
     with pytest.raises(FileNotFoundError):
         join(modules(main='import { a } from "./nowhere.js";'))
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_pages_share_modules_and_run_only_what_they_use(modules, tmp_path):
+    modules(
+        one='import { a } from "./a.js";\nconsole.log("one", a);',
+        two='import { a } from "./a.js";\nimport { b } from "./b.js";\nconsole.log("two", a, b);',
+        three='import { b } from "./b.js";\nconsole.log("three", b);',
+        a='import { c } from "./c.js";\nconsole.log("a runs");\nexport const a = c + 1;',
+        b='console.log("b runs");\nexport const b = 2;',
+        c="export const c = 40;",
+    )
+    entries = {f"{name}.js": tmp_path / f"{name}.js" for name in ("one", "two", "three")}
+    scripts = join_pages(entries, tmp_path)
+    assert set(scripts) == {"shared.js", *entries}
+    for text in ("const c = 40", "const a = c + 1", "const b = 2"):
+        assert sum(script.count(text) for script in scripts.values()) == 1
+        assert text in scripts["shared.js"]
+    said = {}
+    for name in entries:
+        page = "globalThis.window = { shapeviz: {} };\n" + scripts["shared.js"] + scripts[name]
+        (tmp_path / "page.cjs").write_text(page, encoding="utf-8")
+        ran = subprocess.run(["node", tmp_path / "page.cjs"], capture_output=True, text=True, check=True)
+        said[name] = ran.stdout.splitlines()
+    assert said == {
+        "one.js": ["a runs", "one 41"],
+        "two.js": ["a runs", "b runs", "two 41 2"],
+        "three.js": ["b runs", "three 2"],
+    }
+
+
+def test_a_module_of_one_page_stays_with_it(modules, tmp_path):
+    modules(one='import { a } from "./a.js";\na();', two="void 0;", a="export function a() {}")
+    scripts = join_pages({name: tmp_path / name for name in ("one.js", "two.js")}, tmp_path)
+    assert "function a()" in scripts["one.js"]
+    assert not any("function a()" in scripts[name] for name in ("shared.js", "two.js"))

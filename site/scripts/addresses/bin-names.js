@@ -1,0 +1,55 @@
+// Lists of bins as short text for the address: "FPFH[14]:1-3 Agd:6", a whole dimension as "FPFH[14]", a whole feature
+// as "FPFH".
+
+import { joinNames } from "./names.js";
+
+const REST = /^(?:\[(\d+)\])?(?::(\d+)(?:-(\d+))?)?$/;
+
+/** Columns as text; they may come in any order. */
+export function shortNames(columns, features) {
+  const words = [];
+  for (const feature of features) {
+    const { start, dimensions, bins } = feature;
+    const width = dimensions * bins;
+    const own = [...columns].filter((column) => column >= start && column < start + width).sort((a, b) => a - b);
+    const name = joinNames([feature.name]);
+    if (own.length === width) {
+      words.push(name);
+      continue;
+    }
+    for (let first = 0, next; first < own.length; first = next) {
+      const dimension = Math.floor((own[first] - start) / bins);
+      const end = start + (dimension + 1) * bins;
+      next = first + 1;
+      while (next < own.length && own[next] === own[next - 1] + 1 && own[next] < end) next += 1;
+      const [low, high] = [own[first], own[next - 1]].map((column) => ((column - start) % bins) + 1);
+      const place = dimensions === 1 ? name : `${name}[${dimension}]`;
+      if (high - low + 1 === bins) words.push(place);
+      else words.push(low === high ? `${place}:${low}` : `${place}:${low}-${high}`);
+    }
+  }
+  return words.join(" ");
+}
+
+/** The columns that such a text names; what it does not name is passed over. */
+export function readShortNames(text, features) {
+  const columns = new Set();
+  for (const word of (text ?? "").split(" ")) {
+    for (const feature of features) {
+      const name = joinNames([feature.name]);
+      const rest = word.startsWith(name) ? REST.exec(word.slice(name.length)) : null;
+      if (rest === null) continue;
+      for (const column of named(feature, rest)) columns.add(column);
+    }
+  }
+  return columns;
+}
+
+function named({ start, dimensions, bins }, [, dimension, low, high]) {
+  if (dimension === undefined && low !== undefined && dimensions > 1) return [];
+  if (Number(dimension ?? 0) >= dimensions || Number(high ?? low ?? 1) > bins || Number(low ?? 1) < 1) return [];
+  const from = start + Number(dimension ?? 0) * bins;
+  const whole = dimension === undefined && low === undefined ? dimensions * bins : bins;
+  const [first, last] = low === undefined ? [1, whole] : [Number(low), Number(high ?? low)];
+  return Array.from({ length: Math.max(last - first + 1, 0) }, (_, place) => from + first - 1 + place);
+}

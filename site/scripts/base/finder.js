@@ -1,0 +1,80 @@
+// A field that finds as one types, with a list to choose from below it: bins by name, shapes by name.
+
+import { element } from "./dom.js";
+
+const MOST = 12;
+
+export class Finder {
+  /** `find(text)` gives values, best first; `label(value)` the content of a line; `choose(value)` is told. */
+  constructor(name, { find, label, choose }) {
+    Object.assign(this, { find, label, choose });
+    this.field = document.getElementById(`${name}-search`);
+    this.list = document.getElementById(`${name}-found`);
+    this.found = [];
+    this.at = 0;
+    for (const [key, value] of Object.entries({ role: "combobox", "aria-autocomplete": "list", "aria-controls": this.list.id, "aria-expanded": "false" })) {
+      this.field.setAttribute(key, value);
+    }
+    this.field.addEventListener("input", () => this.#look());
+    this.field.addEventListener("focus", () => this.#look());
+    this.field.addEventListener("blur", () => this.#close());
+    this.field.addEventListener("keydown", (event) => this.#key(event));
+    // A press would take the focus, and with it the list.
+    this.list.addEventListener("pointerdown", (event) => event.preventDefault());
+    this.list.addEventListener("click", (event) => {
+      const line = event.target.closest("li[data-place]");
+      if (line) this.#choose(Number(line.dataset.place));
+    });
+  }
+
+  #look() {
+    const text = this.field.value.trim();
+    if (text === "") {
+      this.#close();
+      return;
+    }
+    const all = this.find(text);
+    this.found = all.slice(0, MOST);
+    this.at = 0;
+    this.more = all.length - this.found.length;
+    this.#render();
+  }
+
+  #render() {
+    const lines = this.found.map((value, place) =>
+      element("li", { role: "option", id: `${this.list.id}-${place}`, "data-place": place, "aria-selected": String(place === this.at) }, this.label(value)),
+    );
+    const rest = this.found.length === 0 ? "none found" : this.more > 0 ? `and ${this.more} more` : null;
+    this.list.replaceChildren(...lines, ...(rest ? [element("li", { class: "quiet", role: "presentation" }, rest)] : []));
+    this.list.hidden = false;
+    this.field.setAttribute("aria-expanded", "true");
+    if (this.found.length > 0) this.field.setAttribute("aria-activedescendant", `${this.list.id}-${this.at}`);
+    else this.field.removeAttribute("aria-activedescendant");
+  }
+
+  #close() {
+    this.list.hidden = true;
+    this.found = [];
+    this.field.setAttribute("aria-expanded", "false");
+    this.field.removeAttribute("aria-activedescendant");
+  }
+
+  #choose(place) {
+    const value = this.found[place];
+    if (value === undefined) return;
+    this.field.value = "";
+    this.#close();
+    this.choose(value);
+  }
+
+  #key(event) {
+    const open = this.found.length > 0;
+    if (event.key === "Enter") this.#choose(this.at);
+    else if (event.key === "Escape" && !this.list.hidden) this.#close();
+    else if (open && (event.key === "ArrowDown" || event.key === "ArrowUp")) {
+      this.at = (this.at + (event.key === "ArrowDown" ? 1 : this.found.length - 1)) % this.found.length;
+      this.#render();
+    } else return;
+    event.preventDefault();
+  }
+}

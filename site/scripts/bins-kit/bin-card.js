@@ -1,0 +1,173 @@
+// The card of a bin: what it is, how well it separates, and which classes have much of it.
+
+import { axisEnd } from "./bin-bars.js";
+import { element, swatch } from "../base/dom.js";
+import { styleColor } from "../base/theme.js";
+import { figure, grouped } from "../base/words.js";
+
+const WIDTH = 190;
+const ROW = 16;
+const MOST_ROWS = 20;
+/** Above so many shapes in a class, dots would only be a smear. */
+const MOST_DOTS = 60;
+const GAP = 8;
+const BESIDE = 24;
+/** Room for dots beyond the ends of the axis. */
+const MARGIN = 8;
+
+export class BinCard {
+  /** `bins` is a Bins, `model` the Model of the shapes, whose classes give names and colours. */
+  constructor(bins, model) {
+    this.bins = bins;
+    this.model = model;
+    this.node = element("div", { class: "card bin-card", hidden: true });
+    document.getElementById("content").append(this.node);
+    // It stands where its bar stood.
+    window.addEventListener("scroll", () => this.hide(), { passive: true });
+    this.members = new Map();
+    model.groups.forEach((group, row) => {
+      if (!this.members.has(group)) this.members.set(group, []);
+      this.members.get(group).push(row);
+    });
+  }
+
+  /**
+   * What is to be said of a bin besides itself: relative scores a column (NaN where not in use), the scorer's title,
+   * and the classes in use by their numbers, those that are to be separated apart from the others.
+   */
+  know({ scores, scorer, separated, others }) {
+    Object.assign(this, { scores, scorer, separated, others });
+  }
+
+  /** Show the card of a column at its bar: a box in the window, and `free`, the height down to which the card may hang. */
+  show(column, box) {
+    this.node.replaceChildren(...this.#words(column), this.classes(column));
+    this.node.hidden = false;
+    this.#place(box);
+  }
+
+  hide() {
+    this.node.hidden = true;
+  }
+
+  #words(column) {
+    const { bins } = this;
+    const feature = bins.features[bins.featureOf(column)];
+    const mark = element("i", { class: "hued" });
+    mark.style.background = bins.color(column);
+    const means = bins.isShare(column) && (bins.binOf(column) < feature.bins / 2 ? ["Low values: ", feature.lowMeans] : ["High values: ", feature.highMeans]);
+    const score = Number.isNaN(this.scores[column]) ? null : [figure(this.scores[column]), ` by ${this.scorer}, rank ${grouped(this.#rank(column))}`];
+    return [
+      element("p", { class: "name" }, mark, element("b", {}, element("bdi", {}, bins.names[column])), feature.title !== feature.name && feature.title),
+      element("p", {}, bins.sentence(column)),
+      means && means[1] && element("p", { class: "quiet" }, means, "."),
+      score && element("p", { class: "quiet" }, "Score ", element("b", {}, score[0]), score[1]),
+    ].filter(Boolean);
+  }
+
+  #rank(column) {
+    const better = (score, other) => score > this.scores[column] || (score === this.scores[column] && other < column);
+    return this.scores.reduce((rank, score, other) => rank + better(score, other), 1);
+  }
+
+  /** A row a class: its shapes as dots on one axis, the middle half of them as a band, the median as a line. */
+  classes(column) {
+    const rows = this.rows(column);
+    const shown = rows.slice(0, MOST_ROWS);
+    const share = this.bins.isShare(column);
+    const lowest = Math.min(...shown.map(({ values }) => values[0]));
+    const highest = Math.max(...shown.map(({ values }) => values.at(-1)));
+    const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest];
+    const x = (value) => (most > least ? (WIDTH * (value - least)) / (most - least) : 0);
+    const edge = shown.findIndex(({ apart }) => !apart);
+    const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null }, content);
+    const told = share ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
+    return element(
+      "div",
+      { class: "of-bin" },
+      element("ul", { class: "names" }, shown.map((row, place) => item(place, row.mark, element("bdi", {}, row.name)))),
+      strips(shown, edge, x),
+      element("ul", { class: "medians" }, shown.map((row, place) => item(place, told(row.median)))),
+      element("p", { class: "axis" }, [least, (least + most) / 2, most].map((value) => element("span", {}, told(value)))),
+      rows.length > shown.length && element("p", { class: "more" }, `and ${grouped(rows.length - shown.length)} more`),
+    );
+  }
+
+  /** The classes in use with their sorted values, those to be separated first, those with most of the bin on top. */
+  rows(column) {
+    const { model, members } = this;
+    const row = (rows, apart, name, mark, color) => {
+      const values = rows.map((index) => this.bins.share(column, index)).sort((a, b) => a - b);
+      return { apart, name, mark, color, values, median: quantile(values, 0.5), mean: values.reduce((a, b) => a + b, 0) / values.length };
+    };
+    const byHeight = (a, b) => b.median - a.median || b.mean - a.mean;
+    const of = (groups, apart) =>
+      groups
+        .filter((group) => members.has(group))
+        .map((group) => row(members.get(group), apart, model.className(group), swatch(model.symbol(group), model.color(group)), model.color(group)))
+        .sort(byHeight);
+    const rows = [...of(this.separated, true), ...of(this.others, false)];
+    return rows.length > 0 ? rows : [row(model.groups.map((_, index) => index), false, "all shapes", null, model.color(-1))];
+  }
+
+  #place({ left, top, width, height, free }) {
+    const { offsetWidth, offsetHeight } = this.node;
+    const middle = left + width / 2;
+    let x = middle - offsetWidth / 2;
+    // Above the tools if there is room, at least above the bars, else below them.
+    let y = Math.max(free - GAP - offsetHeight, GAP);
+    if (y + offsetHeight > top - GAP) y = top + height + GAP;
+    if (y + offsetHeight > window.innerHeight - GAP) {
+      y = Math.max(window.innerHeight - offsetHeight - GAP, GAP);
+      x = middle + BESIDE + offsetWidth < window.innerWidth ? middle + BESIDE : middle - BESIDE - offsetWidth;
+    }
+    x = Math.min(Math.max(x, GAP), window.innerWidth - offsetWidth - GAP);
+    this.node.style.transform = `translate(${Math.round(x)}px, ${Math.round(y)}px)`;
+  }
+}
+
+/** The rows on a canvas, which is filled faster than hundreds of elements are made; their medians stand beside it in words. */
+function strips(rows, edge, x) {
+  const density = window.devicePixelRatio;
+  const height = ROW * rows.length;
+  const canvas = element("canvas", { width: Math.round((WIDTH + 2 * MARGIN) * density), height: Math.round(height * density), "aria-hidden": "true" });
+  const context = canvas.getContext("2d");
+  context.scale(density, density);
+  context.translate(MARGIN, 0);
+  context.fillStyle = styleColor("line");
+  for (const part of [0, 0.5, 1]) context.fillRect(part * WIDTH, 0, 1, height);
+  if (edge > 0) context.fillRect(-MARGIN, ROW * edge, WIDTH + 2 * MARGIN, 1);
+  for (const [place, { values, median, color }] of rows.entries()) {
+    const middle = (place + 0.5) * ROW;
+    const [low, high] = [quantile(values, 0.25), quantile(values, 0.75)].map(x);
+    context.fillStyle = color;
+    context.globalAlpha = 0.32;
+    context.fillRect(low, middle - 5, Math.max(high - low, 1), 10);
+    context.globalAlpha = 0.75;
+    if (values.length > MOST_DOTS) context.fillRect(x(values[0]), middle - 0.5, x(values.at(-1)) - x(values[0]), 1);
+    for (const value of values.length > MOST_DOTS ? [values[0], values.at(-1)] : values) {
+      context.beginPath();
+      context.arc(x(value), middle, 1.8, 0, 2 * Math.PI);
+      context.fill();
+    }
+    context.globalAlpha = 1;
+    context.fillStyle = styleColor("ink");
+    context.fillRect(x(median) - 1, middle - 6, 2, 12);
+  }
+  return canvas;
+}
+
+/** A quantile of sorted values. */
+export function quantile(values, share) {
+  const place = share * (values.length - 1);
+  const below = Math.floor(place);
+  const above = Math.min(below + 1, values.length - 1);
+  return values[below] + (place - below) * (values[above] - values[below]);
+}
+
+/** A share in percent, short. */
+export function percent(share) {
+  const value = 100 * share;
+  if (value > 0 && value < 0.05) return "<0.1 %";
+  return `${value === 0 || value >= 9.95 ? value.toFixed(0) : value.toFixed(1)} %`;
+}

@@ -1,0 +1,42 @@
+// The ten colours of a descriptor's values, with the values between them and the range of one bin marked.
+
+import { element } from "../base/dom.js";
+
+export class Legend {
+  constructor(selection) {
+    this.selection = selection;
+    this.node = document.getElementById("legend");
+  }
+
+  /** `dimension` is one of the chunk's; `place` the bin in it, from 0. */
+  show(dimension, place) {
+    const { ramp } = this.selection;
+    const { quantity, unit, edges } = dimension;
+    const swatches = ramp.map((color, bin) => {
+      const node = element("i", { class: bin === place ? "own" : null });
+      node.style.background = color;
+      return node;
+    });
+    // The outer bins also take what lies beyond their edges, so these have no value to be told.
+    const ticks = edges.slice(1, -1).map((edge, between) => element("span", { class: between === place || between === place - 1 ? "own" : null }, number(edge)));
+    this.node.replaceChildren(
+      element("p", {}, `Colours: ${quantityInWords(quantity, unit)}`),
+      element("div", { class: "ten", role: "img", "aria-label": `Ten colours from low to high; the bin is number ${place + 1}` }, swatches),
+      element("div", { class: "ticks", "aria-hidden": "true" }, ticks),
+    );
+  }
+
+  clear() {
+    this.node.replaceChildren();
+  }
+}
+
+/** What a descriptor measures, with its unit. Sentences go on from it, so that it may end with a comma. */
+export function quantityInWords(quantity, unit) {
+  const named = quantity.replace(/,$/, "");
+  return unit === "" ? named : `${named}, in ${unit}`;
+}
+
+function number(value) {
+  return String(Number(value.toPrecision(3))).replace("-", "−");
+}

@@ -1,0 +1,167 @@
+// One bin (paper, Fig. 8): what it is in words, which classes have much of it, and pictures of it on two shapes.
+
+import { percent } from "./bin-card.js";
+import { element, swatch } from "../base/dom.js";
+import { resource } from "../base/place.js";
+import { Finder } from "../base/finder.js";
+import { Legend } from "./legend.js";
+
+const MOST_PICTURED = 4;
+const LONGEST = 32;
+
+export class Look {
+  constructor(model, bins, selection, state, card) {
+    Object.assign(this, { model, bins, selection, state, card });
+    this.words = document.getElementById("bin-words");
+    this.paintings = document.getElementById("paintings");
+    this.legend = new Legend(selection);
+    this.choice = document.getElementById("bin-choice");
+    this.choice.addEventListener("change", () => {
+      const [bin, group] = this.choice.value.split(" ").map(Number);
+      state.set({ bin, group: group >= 0 ? group : null });
+    });
+    new Finder("bin", {
+      find: (text) => bins.find(text),
+      label: (column) => [hue(bins, column), element("bdi", {}, bins.names[column]), " ", element("span", { class: "quiet" }, bins.features[bins.featureOf(column)].title)],
+      choose: (column) => state.set({ bin: column, group: null }),
+    });
+    state.listen((changed) => {
+      if (["bin", "group", "theme"].some((name) => changed.has(name))) this.render();
+    });
+  }
+
+  render() {
+    const column = this.state.get("bin");
+    this.#offer(column);
+    this.words.replaceChildren(...this.#tell(column));
+    this.paintings.replaceChildren(...this.#paint(column));
+    const dimension = dimensionOf(column, this.bins);
+    if (dimension === null) this.legend.clear();
+    else this.legend.show(this.selection.dimensions[dimension], this.bins.binOf(column));
+  }
+
+  /** The bins of this page in a list: those of each class, and those that separate all. */
+  #offer(column) {
+    const { model, bins, selection } = this;
+    const lists = selection.minimal.map(({ group, sets }) => [group, model.className(group), [...new Set(sets.flatMap((found) => found.bins))]]);
+    if (selection.path.length > 0) lists.push([-1, "all classes", selection.path.at(-1).bins]);
+    const group = this.state.get("group") ?? -1;
+    const known = lists.some(([own, , columns]) => own === group && columns.includes(column));
+    const option = (value, own) => element("option", { value: `${value} ${own}` }, bins.shortName(value, LONGEST));
+    this.choice.replaceChildren(
+      ...(known ? [] : [option(column, group)]),
+      ...lists.map(([own, name, columns]) => element("optgroup", { label: `separate ${name}` }, columns.map((value) => option(value, own)))),
+    );
+    this.choice.value = `${column} ${group}`;
+    this.choice.closest("label").hidden = lists.length === 0;
+  }
+
+  #tell(column) {
+    const { bins, card, model } = this;
+    const feature = bins.features[bins.featureOf(column)];
+    const end = bins.binOf(column) < feature.bins / 2 ? ["Low values mean ", feature.lowMeans] : ["High values mean ", feature.highMeans];
+    const measured = bins.isShare(column) && feature.measures !== "";
+    const group = this.state.get("group");
+    const groups = model.labelled ? [...model.sizes.keys()].sort((a, b) => a - b) : [];
+    card.know({ scores: new Float64Array(bins.count).fill(NaN), scorer: "", separated: groups.filter((other) => other === group), others: groups.filter((other) => other !== group) });
+    return [
+      element("h3", {}, hue(bins, column), element("bdi", {}, bins.names[column])),
+      element("p", { class: "sentence" }, bins.sentence(column)),
+      measured && element("p", { class: "quiet" }, element("b", {}, feature.title), ": ", lowered(feature.measures), end[1] !== "" && ` ${end[0]}${end[1]}.`),
+      element("p", { class: "who" }, this.#who(column)),
+      element("div", { class: "bin-card" }, card.classes(column)),
+    ].filter(Boolean);
+  }
+
+  /** Which classes have much of a bin, as one would say it. */
+  #who(column) {
+    const { bins, card, model } = this;
+    if (!model.separable) return [];
+    const told = bins.isShare(column) ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
+    const rows = card.rows(column).sort((a, b) => b.median - a.median || b.mean - a.mean);
+    const [most, ...rest] = rows;
+    const least = rest.at(-1);
+    const name = (row) => element("bdi", {}, row.name);
+    const contrast = this.#contrast(rows, told, name);
+    if (contrast !== null) return contrast;
+    if (told(most.median) === told(least.median)) return [`All classes have the same of it: half of their shapes have ${told(most.median)} or more.`];
+    const next = rest.slice(0, -1).slice(0, 2);
+    return [
+      "The class ", name(most), ` has most of it: half of its shapes have ${told(most.median)} or more. `,
+      ...(next.length > 0 ? ["Next ", next.length > 1 ? "come " : "comes ", ...next.flatMap((row, place) => [place > 0 ? " and " : "", name(row), ` with ${told(row.median)}`]), ". "] : []),
+      "Least of it has ", name(least), `, with ${told(least.median)}.`,
+    ];
+  }
+
+  /** For the bin of a class: how it sets this class apart from the others, and from its nearest. */
+  #contrast(rows, told, name) {
+    const own = this.selection.minimal.find(({ group }) => group === this.state.get("group"));
+    if (own === undefined) return null;
+    const named = (group) => rows.find((row) => row.name === this.model.className(group));
+    const [row, rival] = [named(own.group), named(own.other)];
+    const rank = rows.indexOf(row);
+    const place = rank === 0 ? " has most of it of all classes: " : rank === rows.length - 1 ? " has least of it of all classes: " : ": ";
+    return [
+      "The class ", name(row), place, `half of its shapes have ${told(row.median)} or more. Of `, name(rival), `, its nearest class on the Overview, half have ${told(rival.median)} or more.`,
+      ...(rank > 0 ? [" Most of it has ", name(rows[0]), `, with ${told(rows[0].median)}.`] : []),
+    ];
+  }
+
+  #paint(column) {
+    const { bins, model, selection } = this;
+    if (!bins.isShare(column)) return [element("p", { class: "notice" }, "This feature was brought along: it has one value a shape, and none on the surface, so there is nothing to paint.")];
+    const own = pictured(selection, model, column, this.state.get("group"));
+    if (own.length === 0) {
+      return [element("p", { class: "quiet" }, selection.models === null ? "No pictures were drawn of this bin." : "No pictures were drawn of this bin beforehand; the 3D view shows it on any shape.")];
+    }
+    return own.map(({ shape, value, inside }) =>
+      element(
+        "button",
+        { type: "button", class: "painting", "data-shape": shape, title: `${model.names[shape]}: show in the 3D view`, onclick: () => this.state.set({ shape }) },
+        element("span", { class: "whose" }, shapeLine(model, bins, column, shape)),
+        [["value", value, "its values in colours"], ["in the bin", inside, "what falls into the bin"]].map(([word, address, alt]) =>
+          element("span", { class: "reading" }, element("img", { src: resource(address), alt: `${model.names[shape]}, ${alt}`, width: 320, height: 320, decoding: "async" }), element("i", {}, word)),
+        ),
+      ),
+    );
+  }
+}
+
+/** The pictures of a bin; of one that separates a class, those that show this contrast. */
+export function pictured({ paintings, minimal }, model, column, group) {
+  const own = paintings.filter((painting) => painting.column === column);
+  const other = minimal.find((separated) => separated.group === group)?.other;
+  const order = (painting) => [group, other].indexOf(model.groups[painting.shape]);
+  const contrast = own.filter((painting) => order(painting) >= 0).sort((a, b) => order(a) - order(b));
+  return (contrast.length > 0 ? contrast : own).slice(0, MOST_PICTURED);
+}
+
+/** Class, and how much of the bin: what stands above a picture of a shape. */
+export function shapeLine(model, bins, column, shape) {
+  const group = model.groups[shape];
+  const value = bins.share(column, shape);
+  return [
+    model.labelled && swatch(model.symbol(group), model.color(group)),
+    element("bdi", {}, model.labelled ? model.className(group) : model.names[shape]),
+    element("span", { class: "quiet" }, bins.isShare(column) ? `${percent(value)} in the bin` : String(Number(value.toPrecision(3)))),
+  ].filter(Boolean);
+}
+
+/** The number of a column's dimension among those of the descriptors; null for a feature that was brought along. */
+export function dimensionOf(column, bins) {
+  if (!bins.isShare(column)) return null;
+  let before = 0;
+  for (const feature of bins.features.slice(0, bins.featureOf(column))) if (feature.bins > 1) before += feature.dimensions;
+  const { start, bins: width } = bins.features[bins.featureOf(column)];
+  return before + Math.floor((column - start) / width);
+}
+
+function hue(bins, column) {
+  const mark = element("i", { class: "hued" });
+  mark.style.background = bins.color(column);
+  return mark;
+}
+
+function lowered(text) {
+  return text.charAt(0).toLocaleLowerCase() + text.slice(1);
+}

@@ -1,0 +1,62 @@
+// The name of a bin, to point at and to click: what it means shows beside it, and what it looks like below.
+
+import { element } from "../base/dom.js";
+
+const LONGEST = 18;
+
+export class BinChips {
+  constructor(bins, card, state, { look }) {
+    Object.assign(this, { bins, card, state, look });
+    state.listen((changed) => {
+      if (!changed.has("bin")) return;
+      for (const chip of document.querySelectorAll(".bin-chip")) mark(chip, state.get("bin"));
+    });
+  }
+
+  /** A chip; the card sets a class apart from the others where one is named. */
+  chip(column, { group = null, added = false } = {}) {
+    const { bins } = this;
+    const hue = element("i", { class: "hued" });
+    hue.style.background = bins.color(column);
+    const show = (event) => this.#show(column, group, event.currentTarget);
+    const chip = element(
+      "button",
+      {
+        type: "button",
+        class: added ? "bin-chip added" : "bin-chip",
+        "data-column": column,
+        onclick: () => this.look(column, group),
+        onpointerenter: (event) => event.pointerType === "mouse" && show(event),
+        onpointerleave: () => this.card.hide(),
+        onfocus: (event) => event.currentTarget.matches(":focus-visible") && show(event),
+        onblur: () => this.card.hide(),
+      },
+      hue,
+      element("bdi", {}, bins.shortName(column, LONGEST)),
+    );
+    mark(chip, this.state.get("bin"));
+    return chip;
+  }
+
+  #show(column, group, node) {
+    const { model } = this.card;
+    const groups = model.labelled ? [...model.sizes.keys()].sort((a, b) => a - b) : [];
+    this.card.know({
+      scores: this.#none,
+      scorer: "",
+      separated: group === null ? [] : [group],
+      others: groups.filter((other) => other !== group),
+    });
+    const { left, top, width, height } = node.getBoundingClientRect();
+    this.card.show(column, { left, top, width, height, free: top });
+  }
+
+  get #none() {
+    this.scores ??= new Float64Array(this.bins.count).fill(NaN);
+    return this.scores;
+  }
+}
+
+function mark(chip, bin) {
+  chip.setAttribute("aria-pressed", String(Number(chip.dataset.column) === bin));
+}

@@ -1,0 +1,72 @@
+// Each class from the rest (paper, Fig. 6): a small map of few bins, the class in its colour, all others grey.
+
+import { element, swatch } from "../base/dom.js";
+import { isBelowOne, ofAtMost } from "../database/hit-range.js";
+import { styleColor } from "../base/theme.js";
+import { count, figure } from "../base/words.js";
+import { mapOf, Plot } from "../map/plot.js";
+
+/** The share of what NH_c can be, in the space of the bins and on their map, at which a class counts as separated. */
+const SEPARATED = 0.9;
+
+export class ClassCards {
+  constructor(model, selection, state, chips, { open }) {
+    Object.assign(this, { model, selection, state, chips, open });
+    this.list = document.getElementById("class-cards");
+    const inputs = document.querySelectorAll("#sizes input");
+    for (const input of inputs) {
+      input.checked = input.value === state.get("size");
+      input.addEventListener("change", () => state.set({ size: input.value }));
+    }
+    state.listen((changed) => {
+      // These many maps follow a selection when it is made, not while it is.
+      if (["selection", "brushing"].some((name) => changed.has(name)) && !state.get("brushing")) for (const plot of this.plots) plot.draw();
+      if (!changed.has("size") && !changed.has("theme")) return;
+      for (const input of inputs) input.checked = input.value === state.get("size");
+      this.render();
+    });
+  }
+
+  plots = [];
+
+  render() {
+    this.plots = [];
+    const cards = this.selection.minimal.map((separated) => ({ group: separated.group, found: chooseSet(separated, this.state.get("size")), separated }));
+    this.list.replaceChildren(...cards.map(({ group, found, separated }) => element("li", { class: "class-card" }, this.#card(group, found, separated))));
+  }
+
+  #card(group, found, { highest, byChance }) {
+    const random = byChance[found.bins.length - 1];
+    const { model, selection } = this;
+    const name = model.className(group);
+    const plot = new Plot(model, {
+      label: `Map of ${count(found.bins.length, "bin")}: ${name} against the rest`,
+      first: (index) => model.groups[index] !== group,
+      selection: () => this.state.get("selection"),
+      mark: (index) => {
+        const own = model.groups[index] === group;
+        return { path: model.symbol(own ? group : -1), color: own ? model.color(group) : styleColor("quiet"), radius: own ? 3.2 : 1.7, alpha: own ? 0.95 : 0.45 };
+      },
+    });
+    this.plots.push(plot);
+    plot.show(mapOf(found, selection, model.count));
+    return [
+      element(
+        "div",
+        { class: "card-head" },
+        element("h3", {}, swatch(model.symbol(group), model.color(group)), element("bdi", {}, name)),
+        element("p", { class: "nh", title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the class has others`}` }, element("span", { class: "unseen" }, "NH "), element("b", {}, figure(found.nh)), isBelowOne(highest) && element("span", { class: "quiet" }, ` / ${figure(highest)}`)),
+      ),
+      element("a", { class: "open-map", href: this.open(found.bins), title: "Open these bins in the Workbench" }, plot.node),
+      random && element("p", { class: "quiet by-chance", title: `What the same search reaches with ${count(found.bins.length, "bin")} for as many shapes dealt at random; ${figure(random.nhSpace)} in the space of the bins` }, `random shapes ${figure(random.nh)}`),
+      element("div", { class: "bin-chips" }, found.bins.map((column) => this.chips.chip(column, { group }))),
+    ];
+  }
+}
+
+/** The set of a size, or the largest below it; or the smallest that separates, else the best. */
+export function chooseSet({ sets, highest }, size) {
+  if (size !== "fewest") return sets[Math.min(Number(size), sets.length) - 1];
+  const worth = ({ nh, nhSpace }) => Math.min(nh, nhSpace);
+  return sets.find((found) => worth(found) >= SEPARATED * highest - 1e-9) ?? sets.reduce((best, found) => (worth(found) > worth(best) ? found : best));
+}

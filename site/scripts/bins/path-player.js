@@ -1,0 +1,190 @@
+// The way from no bins to those that separate all classes (paper, Fig. 7): a strip of maps that plays.
+
+import { calm, element, svg } from "../base/dom.js";
+import { Labels } from "../map/labels.js";
+import { difference, symbol } from "../base/figures.js";
+import { count, figure } from "../base/words.js";
+import { watchBrush } from "../map/brush.js";
+import { mapOf, Plot } from "../map/plot.js";
+
+const PACE = 900;
+const THUMBNAIL = 64;
+
+export class PathPlayer {
+  constructor(model, selection, bins, state, chips, { open, pointing, choose, announce }) {
+    Object.assign(this, { model, selection, bins, state, chips, open, announce });
+    this.steps = selection.path;
+    this.maps = this.steps.map((step) => mapOf(step, selection, model.count));
+    this.list = document.getElementById("path-steps");
+    this.button = document.getElementById("play");
+    this.button.addEventListener("click", () => (this.timer ? this.pause() : this.play()));
+    for (const [id, by] of [["step-back", -1], ["step-on", 1]]) {
+      document.getElementById(id).addEventListener("click", () => this.go(state.get("step") + by));
+    }
+    document.querySelector(".player").addEventListener("keydown", (event) => this.#key(event));
+    // Nothing plays where nobody looks.
+    document.addEventListener("visibilitychange", () => document.hidden && this.pause());
+    this.#makeMap(pointing, choose);
+    state.listen((changed) => {
+      if (changed.has("theme")) this.start();
+      else if (changed.has("step")) this.#render({ travel: true });
+    });
+  }
+
+  start() {
+    const thumbnails = this.steps.map((step, place) => this.#thumbnail(step, place));
+    this.list.replaceChildren(...thumbnails);
+    this.#render({ travel: false });
+    this.#say();
+  }
+
+  go(place, { playing = false } = {}) {
+    if (!playing) this.pause();
+    this.state.set({ step: Math.min(Math.max(place, 0), this.steps.length - 1) });
+  }
+
+  play() {
+    const last = this.steps.length - 1;
+    this.go(this.state.get("step") === last ? 0 : this.state.get("step") + 1, { playing: true });
+    this.timer = setInterval(() => {
+      if (this.state.get("step") === last) this.pause();
+      else this.go(this.state.get("step") + 1, { playing: true });
+    }, PACE);
+    this.#say();
+  }
+
+  pause() {
+    if (!this.timer) return;
+    clearInterval(this.timer);
+    this.timer = null;
+    this.#say();
+  }
+
+  timer = null;
+
+  #say() {
+    this.button.textContent = this.timer ? "Pause" : "Play";
+    // For who asks for less movement, a step is one press; nothing moves by itself.
+    this.button.hidden = calm() || this.steps.length < 2;
+    document.getElementById("space-plays").hidden = this.button.hidden;
+  }
+
+  #makeMap(pointing, choose) {
+    const { model } = this;
+    const surface = document.getElementById("step-surface");
+    const overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
+    const labels = new Labels(model, overlay);
+    this.plot = new Plot(model, {
+      label: "Map of the step",
+      margin: 30,
+      selection: () => this.state.get("selection"),
+      mark: (index) => {
+        const group = model.groups[index];
+        return { path: model.symbol(group), color: model.color(group), radius: this.#radius, alpha: 0.92 };
+      },
+      drawn: () => {
+        const { width, height } = this.plot.view;
+        overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
+        // Names come when the shapes have arrived.
+        if (!this.maps.includes(this.plot.map)) {
+          labels.clear();
+          return;
+        }
+        const points = model.ids.flatMap((_, index) => {
+          if (Number.isNaN(this.plot.map.x[index])) return [];
+          const [x, y] = this.plot.screen(index);
+          return [{ index, group: model.groups[index], x, y }];
+        });
+        labels.place(points, width, height, this.#radius);
+        labels.follow((index) => this.plot.screen(index));
+      },
+    });
+    surface.append(this.plot.node, overlay);
+    watchBrush(surface, this.plot, this.state);
+    pointing.watch(surface, this.plot, choose);
+  }
+
+  get #radius() {
+    return Math.min(Math.max(92 / Math.sqrt(this.model.count), 2.4), 5.5) * (this.plot.node.clientWidth < 420 ? 0.75 : 1);
+  }
+
+  #thumbnail(step, place) {
+    const { model } = this;
+    const radius = Math.min(Math.max(24 / Math.sqrt(model.count), 0.8), 2);
+    const plot = new Plot(model, {
+      margin: 4,
+      mark: (index) => ({ path: model.data.marks.plain, color: model.color(model.groups[index]), radius, alpha: 1 }),
+    });
+    plot.node.style.width = plot.node.style.height = `${THUMBNAIL}px`;
+    plot.show(this.maps[place]);
+    return element(
+      "li",
+      {},
+      element(
+        "button",
+        { type: "button", class: "path-step", "data-step": place, title: this.#words(place), "aria-label": this.#words(place), onclick: () => this.go(place) },
+        plot.node,
+        element("b", {}, figure(step.nh)),
+      ),
+    );
+  }
+
+  /** "Step 3 of 26, 3 bins, NH 0.412: adds Agd:6". */
+  #words(place) {
+    const { bins, added, removed, nh } = this.steps[place];
+    const names = (columns) => columns.map((column) => this.bins.names[column]).join(", ");
+    const changes = [added.length > 0 && `adds ${names(added)}`, removed.length > 0 && `removes ${names(removed)}`].filter(Boolean);
+    return `Step ${place + 1} of ${this.steps.length}, ${count(bins.length, "bin")}, NH ${figure(nh)}: ${changes.join(", ")}`;
+  }
+
+  #render({ travel }) {
+    const place = this.state.get("step");
+    const step = this.steps[place];
+    const before = this.steps[place - 1];
+    this.plot.show(this.maps[place], { travel });
+    document.getElementById("step-title").textContent = `Step ${place + 1} of ${this.steps.length}`;
+    const change = before ? difference(step.nh - before.nh) : null;
+    document.getElementById("step-nh").replaceChildren(
+      symbol(),
+      element("output", { class: "value" }, figure(step.nh)),
+      ...(change === null ? [] : [element("span", { class: `change ${{ "+": "better", "−": "worse" }[change[0]] ?? ""}`, title: "Against the step before" }, change)]),
+    );
+    document.getElementById("step-change").replaceChildren(...this.#changes(step));
+    document.getElementById("step-bins-title").textContent = `${count(step.bins.length, "bin")} in use`;
+    document.getElementById("step-bins").replaceChildren(
+      ...step.bins.map((column) => element("li", {}, this.chips.chip(column, { added: step.added.includes(column) }))),
+    );
+    document.getElementById("step-open").href = this.open(step.bins);
+    for (const button of this.list.querySelectorAll("button")) {
+      const current = Number(button.dataset.step) === place;
+      button.setAttribute("aria-current", current ? "step" : "false");
+      button.tabIndex = current ? 0 : -1;
+      // Only the strip moves, never the page.
+      if (current) this.list.scrollTo({ left: button.offsetLeft - this.list.offsetLeft - (this.list.clientWidth - button.offsetWidth) / 2, behavior: travel && !calm() ? "smooth" : "instant" });
+    }
+    document.getElementById("step-back").disabled = place === 0;
+    document.getElementById("step-on").disabled = place === this.steps.length - 1;
+    if (travel && !this.timer) this.announce(this.#words(place));
+  }
+
+  /** What a step did, in words: of every bin that came or went, what it counts. */
+  #changes({ added, removed }) {
+    const line = (column, word) => element("p", {}, element("b", { class: word === "added" ? "better" : "worse" }, word === "added" ? "+ " : "− "), this.chips.chip(column), " ", element("span", { class: "quiet" }, this.bins.sentence(column)));
+    return [...added.map((column) => line(column, "added")), ...removed.map((column) => line(column, "removed"))];
+  }
+
+  #key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const at = this.state.get("step");
+    const steps = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: this.steps.length - 1 };
+    if (event.key in steps) {
+      this.go(steps[event.key]);
+      const held = event.target.closest(".path-step");
+      if (held) this.list.querySelector(`[data-step="${this.state.get("step")}"]`).focus({ preventScroll: true });
+    } else if (event.key === " " && !event.target.closest("#play, #step-back, #step-on") && !this.button.hidden) {
+      if (this.timer) this.pause();
+      else this.play();
+    } else return;
+    event.preventDefault();
+  }
+}

@@ -1,0 +1,134 @@
+// Any bin on any shape, to be turned.
+
+import { modelBytes } from "../base/chunks.js";
+import { element } from "../base/dom.js";
+import { pageAddress } from "../base/place.js";
+import { Paint } from "../viewer/paint.js";
+import { Stage } from "../bins-kit/stage.js";
+import { watchBrush } from "../map/brush.js";
+import { dimensionOf, pictured, shapeLine } from "../bins-kit/look.js";
+import { Plot } from "../map/plot.js";
+import { findShapes } from "../database/shape-finder.js";
+
+export class Turntable {
+  constructor(model, bins, selection, state, { pointing, announce }) {
+    Object.assign(this, { model, bins, selection, state, announce });
+    const load = selection.models && ((index) => modelBytes(selection.models[index]));
+    this.stage = new Stage(document.getElementById("stage"), { model, load, keys: "turn-keys" });
+    this.paint = new Paint(selection);
+    this.name = document.getElementById("turn-name");
+    this.#watchReadings();
+    this.#watchShapes();
+    this.#makePick(pointing);
+    state.listen((changed) => {
+      if (["bin", "group", "shape", "reading"].some((name) => changed.has(name))) this.render();
+      if (changed.has("theme")) this.pick.draw();
+    });
+  }
+
+  /** The shape that is shown: the one that was chosen, or what shows the bin best. */
+  get shape() {
+    const [shape, bin] = [this.state.get("shape"), this.state.get("bin")];
+    if (shape === "least") return this.#extreme(bin, -1);
+    if (shape === "most") return this.#extreme(bin, 1);
+    return shape ?? pictured(this.selection, this.model, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1);
+  }
+
+  #extremes = null;
+
+  /** The first shape with the most (1) or the least (-1) of a bin; kept, since every mark of the map asks for it. */
+  #extreme(column, sign) {
+    if (this.#extremes?.column !== column) {
+      const { rows, steps } = this.bins;
+      const own = steps.subarray(column * rows, (column + 1) * rows);
+      const [least, most] = own.reduce(([low, high], value, row) => [value < own[low] ? row : low, value > own[high] ? row : high], [0, 0]);
+      this.#extremes = { column, least, most };
+    }
+    return sign > 0 ? this.#extremes.most : this.#extremes.least;
+  }
+
+  start() {
+    this.pick.show(this.model.methods[0]);
+    this.render();
+  }
+
+  async render() {
+    const { model, bins, state, shape } = this;
+    const bin = state.get("bin");
+    this.name.replaceChildren(...shapeLine(model, bins, bin, shape), element("a", { class: "which", href: pageAddress("shape.html", { id: model.ids[shape] }), title: "All about this shape" }, element("bdi", {}, model.labelled ? model.names[shape] : "its page")));
+    for (const end of ["most", "least"]) document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
+    this.pick.draw();
+    const inside = state.get("reading") === "inside";
+    const shown = await this.stage.show(shape, {
+      label: `${model.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
+      paint: (solid) => {
+        const dimension = dimensionOf(bin, bins);
+        return inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension);
+      },
+      reason: bins.isShare(bin) ? null : "This feature has no values on the surface.",
+    });
+    if (shown) this.announce(`${model.names[shape]}, ${bins.names[bin]}`);
+  }
+
+  #watchReadings() {
+    const { state } = this;
+    const inputs = document.querySelectorAll("#readings input");
+    const check = () => {
+      for (const input of inputs) input.checked = input.value === state.get("reading");
+    };
+    for (const input of inputs) input.addEventListener("change", () => state.set({ reading: input.value }));
+    state.listen((changed) => changed.has("reading") && check());
+    check();
+  }
+
+  #watchShapes() {
+    const { model, state } = this;
+    for (const end of ["most", "least"]) {
+      document.getElementById(`${end}-of-it`).addEventListener("click", () => state.set({ shape: end }));
+    }
+    findShapes(model, (shape) => state.set({ shape }));
+  }
+
+  /** The map of all shapes, on which one can be pointed at; large marks have much of the bin. */
+  #makePick(pointing) {
+    const { model } = this;
+    this.pick = new Plot(model, {
+      margin: 14,
+      first: (index) => index !== this.shape,
+      selection: () => this.state.get("selection"),
+      mark: (index) => {
+        const group = model.groups[index];
+        const share = this.#share(index);
+        return { path: model.symbol(group), color: model.color(group), radius: 1.4 + 5 * Math.sqrt(share), alpha: 0.35 + 0.6 * Math.sqrt(share) };
+      },
+      drawn: () => this.#ring(),
+    });
+    const surface = document.getElementById("pick-surface");
+    surface.append(this.pick.node);
+    watchBrush(surface, this.pick, this.state);
+    pointing.watch(surface, this.pick, (shape) => this.state.set({ shape }));
+  }
+
+  /** How much of the bin a shape has, from 0 for the least to 1 for the most of all shapes. */
+  #share(index) {
+    const bin = this.state.get("bin");
+    if (this.scale?.bin !== bin) {
+      const values = Array.from({ length: this.bins.rows }, (_, row) => this.bins.share(bin, row));
+      const [low, high] = [Math.min(...values), Math.max(...values)];
+      this.scale = { bin, shares: values.map((value) => (high > low ? (value - low) / (high - low) : 0)) };
+    }
+    return this.scale.shares[index];
+  }
+
+  #ring() {
+    const { pen, node } = this.pick;
+    const dense = window.devicePixelRatio || 1;
+    const [x, y] = this.pick.screen(this.shape);
+    pen.globalAlpha = 1;
+    pen.lineWidth = 2.5 * dense;
+    pen.strokeStyle = getComputedStyle(node).getPropertyValue("--accent");
+    pen.beginPath();
+    pen.arc(x * dense, y * dense, 9 * dense, 0, 7);
+    pen.stroke();
+  }
+}

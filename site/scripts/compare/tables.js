@@ -1,0 +1,57 @@
+// What the page shows, as tables.
+
+import { highestOf } from "../database/hit-range.js";
+import { table } from "../base/tables.js";
+import { figure } from "../base/words.js";
+import { mean, toldAs } from "./distribution.js";
+import { signed } from "./outliers.js";
+import { share } from "./words.js";
+
+const MOST_BINS = 100;
+const MOST_SHAPES = 300;
+
+export function compareTables(model, data, state, { groups, outliers, matrix }) {
+  const tables = { groups: () => ofGroups(groups.view), outliers: () => ofOutliers(model, data, outliers), classes: () => ofClasses(model, data, matrix) };
+  return { title: "This comparison in figures", tables: tables[state.get("view")]() };
+}
+
+function ofGroups(view) {
+  if (!view) return [];
+  const { contrast, a, b, bins } = view;
+  const { apart, difference, sample } = contrast;
+  const line = (column) => {
+    const told = toldAs(bins.isShare(column));
+    const average = (rows) => told(mean(rows.map((row) => bins.share(column, row))));
+    return [bins.names[column], average(sample.a), average(sample.b), signed(difference[column]), figure(contrast.ahead(column)), contrast.isBeyond(column) ? "yes" : "no"];
+  };
+  const feature = (title, { share: own, chance, limit, exceeding }) => [title, share(own), share(chance), share(limit), figure(exceeding)];
+  return [
+    table(`How much of what shapes differ in goes with the group: ${a.name} (${a.shapes.length}) and ${b.name} (${b.shapes.length})`, ["Feature", "Share", "Chance, mean", "Chance, one in 100", "Deals that reach it"], [
+      feature("all features", apart.all),
+      ...bins.features.map(({ name }, index) => feature(name, apart.features[index])),
+    ]),
+    table(`The ${Math.min(MOST_BINS, contrast.ranked.length)} bins that differ most`, ["Bin", `Mean of ${a.name}`, `Mean of ${b.name}`, "Difference in standard deviations", "Pairs in which the first has more", "Beyond chance"], contrast.ranked.slice(0, MOST_BINS).map(line)),
+    contrast.shared.length > 0 && table("Bins that both have in common against the others", ["Bin", `Mean of ${a.name}`, `Mean of ${b.name}`, "Mean of the others"], contrast.shared.slice(0, MOST_BINS).map((column) => [
+      ...line(column).slice(0, 3), toldAs(bins.isShare(column))(mean(sample.rest.map((row) => bins.share(column, row)))),
+    ])),
+  ].filter(Boolean);
+}
+
+function ofOutliers(model, data, outliers) {
+  const ranked = outliers.list === null ? [] : outliers.ranked().slice(0, MOST_SHAPES);
+  return [
+    table("Shapes by how well they fit their class", ["Shape", "Class", "Fit", "Closest other class", ...model.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"])], ranked.map((index) => [
+      model.names[index], model.className(model.groups[index]), signed(data.fit[index]), model.className(data.rival[index]), ...model.methods.flatMap((method) => [figure(method.hit[index]), figure(highestOf(model, method, index))]),
+    ])),
+  ];
+}
+
+function ofClasses(model, data, matrix) {
+  if (matrix.node === null) return [];
+  const { order } = data;
+  return [
+    table("Of the nearest neighbours of a class (rows), the share in each class (columns)", ["Class", ...order.map((column) => model.className(column))], order.map((row) => [
+      model.className(row), ...order.map((column) => figure(matrix.share(row, column))),
+    ])),
+  ];
+}

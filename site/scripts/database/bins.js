@@ -1,0 +1,129 @@
+// The bins of all features: their names, what they mean, and their value for every shape.
+
+import { currentTheme } from "../base/theme.js";
+import { shortened } from "../base/words.js";
+
+const STEPS = 65535;
+
+export class Bins {
+  /** `data` is the chunk "workbench", `bytes` the ArrayBuffer of the chunk "bins". */
+  constructor(data, bytes) {
+    this.features = data.features;
+    this.sentences = data.sentences;
+    this.marks = data.marks;
+    this.balanced = data.scaling === "balanced";
+    this.names = this.features.flatMap(namesOf);
+    this.count = this.names.length;
+    this.steps = new Uint16Array(bytes);
+    this.rows = this.steps.length / this.count;
+    this.#featureOf = Int32Array.from(this.features.flatMap(({ dimensions, bins }, index) => Array(dimensions * bins).fill(index)));
+  }
+
+  #featureOf;
+
+  /** The index of the feature that a column belongs to. */
+  featureOf(column) {
+    return this.#featureOf[column];
+  }
+
+  /** A column's name in few letters: of a long one, the feature is cut, not the bin. */
+  shortName(column, length) {
+    const { name } = this.features[this.#featureOf[column]];
+    const place = this.names[column].slice(name.length);
+    return `${shortened(name, Math.max(length - place.length, 2))}${place}`;
+  }
+
+  /** The number of a column's bin within its dimension, from 0. */
+  binOf(column) {
+    const { start, bins } = this.features[this.#featureOf[column]];
+    return (column - start) % bins;
+  }
+
+  /** Whether a column is a share of the surface; an external feature holds values of its own. */
+  isShare(column) {
+    return this.features[this.#featureOf[column]].bins > 1;
+  }
+
+  /** The compared value of a shape: the square root of its share of the surface where features are balanced. */
+  value(column, row) {
+    const { low, high } = this.features[this.#featureOf[column]];
+    return low + ((high - low) * this.steps[column * this.rows + row]) / STEPS;
+  }
+
+  /** What one step of `steps` is worth in a column. */
+  stepOf(column) {
+    const { low, high } = this.features[this.#featureOf[column]];
+    return (high - low) / STEPS;
+  }
+
+  /** The compared values of all shapes in one column. */
+  column(column) {
+    return Float32Array.from({ length: this.rows }, (_, row) => this.value(column, row));
+  }
+
+  /** All compared values, column after column, as the engine wants them. */
+  values() {
+    const values = new Float32Array(this.steps.length);
+    for (const { start, dimensions, bins, low, high } of this.features) {
+      const [from, to] = [start * this.rows, (start + dimensions * bins) * this.rows];
+      for (let place = from; place < to; place += 1) values[place] = low + ((high - low) * this.steps[place]) / STEPS;
+    }
+    return values;
+  }
+
+  /** What a reader can picture: the share of a shape's surface that falls into a bin, in [0, 1]; else the value itself. */
+  share(column, row) {
+    const value = this.value(column, row);
+    return this.balanced && this.isShare(column) ? value * value : value;
+  }
+
+  /**
+   * The columns that a text names, rising: one name, or the beginning of several (`FPFH[14]:3`, `agd`, `PFH[2`), else
+   * a part of names or of a feature's title; else all that several such texts name, with spaces or commas between.
+   */
+  find(text) {
+    const wanted = text.trim().toLowerCase();
+    if (wanted === "") return [];
+    this.#searched ??= this.names.map((name) => name.toLowerCase());
+    const found = this.#named(wanted);
+    if (found.length > 0) return found;
+    const parts = wanted.split(/[\s,;]+/).filter(Boolean);
+    if (parts.length < 2) return [];
+    return [...new Set(parts.flatMap((part) => this.#named(part)))].sort((a, b) => a - b);
+  }
+
+  #searched = null;
+
+  #named(wanted) {
+    const exact = this.#searched.indexOf(wanted);
+    if (exact >= 0) return [exact];
+    const where = (holds) => this.#searched.flatMap((name, column) => (holds(name, column) ? [column] : []));
+    const begun = where((name) => name.startsWith(wanted));
+    if (begun.length > 0) return begun;
+    const titled = this.features.map(({ title }) => title.toLowerCase().includes(wanted));
+    return where((name, column) => name.includes(wanted) || titled[this.#featureOf[column]]);
+  }
+
+  /** What a bin means, in plain words. */
+  sentence(column) {
+    return this.sentences[column];
+  }
+
+  /** The colour of a column's feature in the theme in use. */
+  color(column) {
+    return this.colorOf(this.#featureOf[column]);
+  }
+
+  /** The colour of a feature in the theme in use. */
+  colorOf(feature) {
+    return this.marks[currentTheme()].features[this.features[feature].hue];
+  }
+}
+
+/** Names as `FeatureBlock.columns` makes them: the dimension from 0, the bin from 1. */
+function namesOf({ name, dimensions, bins }) {
+  return Array.from({ length: dimensions * bins }, (_, place) => {
+    const dimension = dimensions === 1 ? "" : `[${Math.floor(place / bins)}]`;
+    return bins === 1 ? `${name}${dimension}` : `${name}${dimension}:${(place % bins) + 1}`;
+  });
+}

@@ -1,0 +1,91 @@
+// What shapes can be grouped, filtered and sorted by: the database's own fields, and the neighbourhood hit on each map.
+
+import { highestOf } from "./hit-range.js";
+
+const HIT_EDGES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
+
+/** What stands for "no value" among the numbers of values. */
+export const NONE = -1;
+
+export class Fields {
+  constructor(model, { byName, fields }, { trees }) {
+    this.byName = byName;
+    // A tree of one level is a list.
+    const deep = trees.filter(({ key, nodes }) => key === "folders" || nodes.some(({ parent }) => parent >= 0));
+    const own = fields.map((field) => ({ ...field, tree: deep.find(({ key }) => key === field.key) ?? null }));
+    const folders = deep
+      .filter(({ key }) => key === "folders")
+      .map((tree) => ({ ...NOTHING, key: tree.key, title: tree.title, tree }));
+    const measured = own.filter(({ key }) => key.startsWith("fact:"));
+    const given = own.filter((field) => !measured.includes(field));
+    this.all = [...given, ...folders, ...hits(model), ...measured];
+    for (const field of this.all) if (field.tree) field.tree.ways = ways(field.tree.nodes);
+    this.byKey = new Map(this.all.map((field) => [field.key, field]));
+    this.active = this.all.find(({ active }) => active) ?? null;
+    // Classes stand in the order that people sort by, and the model numbers them in another.
+    if (this.active) this.active.groups = this.active.names.map((name) => model.classes.indexOf(name));
+  }
+
+  /** Those that make groups: few values, or intervals. */
+  get groupable() {
+    return this.all.filter(({ names, edges }) => names !== null || edges !== null);
+  }
+
+  /** Those that put shapes in an order, beside their names. */
+  get sortable() {
+    return this.all.filter(({ active, numbers }) => active || numbers !== null);
+  }
+
+  /** Those that a reader can filter by, trees first. */
+  get filters() {
+    const all = this.all.filter(({ tree, names, edges }) => tree !== null || names !== null || edges !== null);
+    return [...all.filter(first), ...all.filter((field) => !first(field))];
+  }
+}
+
+const first = ({ active, tree }) => active || tree !== null;
+
+const NOTHING = { unit: "", active: false, names: null, of: null, notes: null, numbers: null, edges: null, tree: null };
+
+function hits(model) {
+  if (!model.separable) return [];
+  return model.methods.map((method) => ({
+    ...NOTHING,
+    key: `nh:${method.key}`,
+    title: `NH on the ${method.title} map`,
+    numbers: method.hit,
+    edges: HIT_EDGES,
+    hit: true,
+    highest: (row) => highestOf(model, method, row),
+  }));
+}
+
+/** The names from the top of a tree down to each of its nodes. */
+function ways(nodes) {
+  const found = [];
+  for (const { name, parent } of nodes) found.push(parent < 0 ? [name] : [...found[parent], name]);
+  return found;
+}
+
+/** The words for a value of a field of names. */
+export function valueName(field, value) {
+  if (value !== NONE) return field.names[value];
+  return field.active || field.key.startsWith("label:") ? "no label" : `no ${field.title}`;
+}
+
+/** The class that a value of the active labels is, by which it is marked; null for a value of another field. */
+export function groupOf({ active, groups }, value) {
+  if (!active) return null;
+  return value === NONE ? NONE : groups[value];
+}
+
+/** A number with as many digits as tell shapes apart. */
+export function numberText(number, { hit } = {}) {
+  if (number === null || number === undefined) return "–";
+  if (hit) return number.toFixed(3);
+  const size = Math.abs(number);
+  if (size !== 0 && (size >= 1e7 || size < 1e-3)) return number.toExponential(2).replace(/\.?0+e/, "e").replace("e+", "e");
+  if (Number.isInteger(number) && size < 10000) return String(number);
+  const rounded = size >= 1000 ? Math.round(number) : Number(number.toPrecision(4));
+  return size >= 10000 ? String(rounded).replace(/\B(?=(\d{3})+$)/g, "\u2009") : String(rounded);
+}

@@ -1,0 +1,64 @@
+// What neighbourhood hit can be for classes of these sizes, to the letter as shapeviz_report/quality.py defines it: of
+// a shape of a class of n at most min(k, n - 1) of its k neighbours are of its class.
+
+import { figure } from "../base/words.js";
+
+/**
+ * @param {Iterable<number>} groups the class of every shape on a map, -1 without a label
+ * @param {number} k number of neighbours; less where there are fewer other shapes
+ * @returns {{ highest: number | null, highestOfClass: Map<number, number>, chanceOfClass: Map<number, number> }}
+ *   of NH_s, and of NH_c and of every shape of a class
+ */
+export function hitRange(groups, k) {
+  const sizes = new Map();
+  let others = -1;
+  for (const group of groups) {
+    others += 1;
+    if (group >= 0) sizes.set(group, (sizes.get(group) ?? 0) + 1);
+  }
+  const places = Math.min(k, others);
+  if (places < 1 || sizes.size === 0) return { highest: null, highestOfClass: new Map(), chanceOfClass: new Map() };
+  const ofClass = (value) => new Map([...sizes].map(([group, size]) => [group, value(size)]));
+  const highestOfClass = ofClass((size) => Math.min(places, size - 1) / places);
+  let [total, labelled] = [0, 0];
+  for (const [group, size] of sizes) {
+    total += size * highestOfClass.get(group);
+    labelled += size;
+  }
+  return { highest: total / labelled, highestOfClass, chanceOfClass: ofClass((size) => (size - 1) / others) };
+}
+
+const ranges = new WeakMap();
+
+/** The range of a map as the Model has them; of the shapes that have a place on it. */
+export function rangeOf(model, map) {
+  if (!ranges.has(map)) ranges.set(map, hitRange(model.groups.filter((_, index) => !Number.isNaN(map.x[index])), map.neighbours));
+  return ranges.get(map);
+}
+
+/** The highest NH that a shape can have on a map; null without a label. */
+export function highestOf(model, map, index) {
+  return rangeOf(model, map).highestOfClass.get(model.groups[index]) ?? null;
+}
+
+/** The share of what it can be that NH of a shape reaches, which its colour shows; null where it cannot but be 0. */
+export function reachOf(model, map, index) {
+  const highest = highestOf(model, map, index);
+  return highest && map.hit[index] !== null ? map.hit[index] / highest : null;
+}
+
+/** How far a hit lies on the way from chance (0) to the maximum (1); null where every map reaches the same. */
+export function shareOfRange(value, chance, highest) {
+  if (value === null || chance === null || highest === null || highest - chance < 1e-9) return null;
+  return (value - chance) / (highest - chance);
+}
+
+/** Whether a maximum is worth a word: 1 goes without saying. */
+export function isBelowOne(highest) {
+  return highest !== null && highest !== undefined && highest < 1 - 1e-9;
+}
+
+/** " of at most 0.700"; nothing where NH can reach 1. */
+export function ofAtMost(highest) {
+  return isBelowOne(highest) ? ` of at most ${figure(highest)}` : "";
+}

@@ -1,0 +1,135 @@
+// The shapes, classes and projections of the database, as the views ask for them.
+
+import { reachOf } from "./hit-range.js";
+import { resource } from "../base/place.js";
+
+export class Model {
+  constructor(data, theme) {
+    this.data = data;
+    this.theme = theme;
+    this.count = data.shapes.ids.length;
+    this.ids = data.shapes.ids;
+    this.names = data.shapes.names;
+    this.groups = data.shapes.groups;
+    this.classes = data.classes;
+    // `base` is the projection of all features that a map belongs to: itself, or the one a subset's map is set beside.
+    this.methods = data.methods.map((method, base) => ({ ...method, base }));
+    this.indexOfId = new Map(this.ids.map((id, index) => [id, index]));
+    this.sizes = new Map();
+    for (const group of this.groups) this.sizes.set(group, (this.sizes.get(group) ?? 0) + 1);
+    this.bounds = this.methods.map(bounds);
+    this.revision = 0;
+  }
+
+  /** Add the map of a subset of the features beside projection `base`; its index among the methods. */
+  add(map, base) {
+    const known = this.methods.findIndex(({ key }) => key === map.key);
+    if (known >= 0) return known;
+    this.methods.push({ ...map, base });
+    this.bounds.push(bounds(map));
+    this.revision += 1;
+    return this.methods.length - 1;
+  }
+
+  /** Show another map as the only one, for a page whose maps are made while one looks. */
+  replace(map) {
+    this.methods = [{ ...map, base: 0 }];
+    this.bounds = [bounds(map)];
+    this.revision += 1;
+  }
+
+  /** Colours and chart configuration of the theme in use. */
+  get marks() {
+    return this.data.marks.themes[this.theme()];
+  }
+
+  get labelled() {
+    return this.classes.length > 0;
+  }
+
+  /** Whether there are classes to tell apart. */
+  get separable() {
+    return this.classes.length > 1;
+  }
+
+  picture(index) {
+    return resource(`thumbnails/${this.data.shapes.pictures[index]}`);
+  }
+
+  className(group) {
+    return group < 0 ? "no label" : this.classes[group];
+  }
+
+  color(group) {
+    return group < 0 ? this.marks.unlabelled : this.marks.classes[group];
+  }
+
+  symbol(group) {
+    return group < 0 ? this.data.marks.plain : this.data.marks.symbols[group];
+  }
+
+  /** Indices of the shapes nearest to one on a map, nearest first; as many as its neighbourhood hit counts. */
+  neighbours(index, methodIndex) {
+    const key = `${index} ${methodIndex} ${this.revision}`;
+    if (this.#nearest?.key !== key) this.#nearest = { key, found: this.#findNeighbours(index, methodIndex) };
+    return this.#nearest.found;
+  }
+
+  // A moving map asks for the neighbours of one shape with every frame.
+  #nearest = null;
+
+  #findNeighbours(index, methodIndex) {
+    const { x, y, neighbours } = this.methods[methodIndex];
+    // The nearest so far, nearest first: few, where a sort would go over all shapes.
+    const found = [];
+    for (let other = 0; other < x.length; other += 1) {
+      const distance = (x[other] - x[index]) ** 2 + (y[other] - y[index]) ** 2;
+      if (other === index || !Number.isFinite(distance)) continue;
+      if (found.length === neighbours && distance >= found[neighbours - 1].distance) continue;
+      let place = found.length;
+      while (place > 0 && found[place - 1].distance > distance) place -= 1;
+      found.splice(place, 0, { other, distance });
+      if (found.length > neighbours) found.pop();
+    }
+    return found.map(({ other }) => other);
+  }
+
+  /** Classes among some shapes with their counts, most frequent first. */
+  census(indices) {
+    const counts = new Map();
+    for (const index of indices) counts.set(this.groups[index], (counts.get(this.groups[index]) ?? 0) + 1);
+    return [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+  }
+
+  /** One row a shape, as the map charts want them. */
+  rows() {
+    return this.ids.map((_, index) => ({
+      index,
+      group: this.groups[index],
+      x: this.methods.map((method) => method.x[index]),
+      y: this.methods.map((method) => method.y[index]),
+      hit: this.methods.map((method) => reachOf(this, method, index)),
+      picture: this.picture(index),
+    }));
+  }
+}
+
+/**
+ * The rectangle a projection fills; never empty, so that a single shape has a map too. A shape without a place on it
+ * has coordinates that are no numbers.
+ */
+export function bounds({ x, y }) {
+  let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+  for (let index = 0; index < x.length; index += 1) {
+    if (Number.isNaN(x[index])) continue;
+    [left, right] = [Math.min(left, x[index]), Math.max(right, x[index])];
+    [bottom, top] = [Math.min(bottom, y[index]), Math.max(top, y[index])];
+  }
+  if (left > right) return { x: 0, y: 0, width: 0.5, height: 0.5 };
+  return {
+    x: (left + right) / 2,
+    y: (bottom + top) / 2,
+    width: Math.max(right - left, 0.5),
+    height: Math.max(top - bottom, 0.5),
+  };
+}

@@ -1,0 +1,67 @@
+// Find shapes by name, label or metadata as one types.
+
+import { chunk } from "../base/chunks.js";
+import { count } from "../base/words.js";
+
+export class Search {
+  constructor(model, state, announce) {
+    this.model = model;
+    this.state = state;
+    this.announce = announce;
+    this.field = document.getElementById("search");
+    this.select = document.getElementById("search-select");
+    this.field.addEventListener("input", () => state.set({ query: this.field.value.trim() }));
+    this.field.addEventListener("keydown", (event) => {
+      if (event.key === "Enter") this.#selectAll();
+    });
+    this.select.addEventListener("click", () => this.#selectAll());
+    state.listen((changed) => {
+      if (changed.has("query")) this.run();
+    });
+  }
+
+  async run() {
+    const query = this.state.get("query");
+    if (this.field.value.trim() !== query) this.field.value = query;
+    if (query === "") {
+      this.select.hidden = true;
+      this.state.set({ matches: null });
+      return;
+    }
+    this.texts ??= await searchTexts(this.model);
+    if (this.state.get("query") !== query) return;
+    const found = findWords(this.texts, query);
+    this.select.hidden = false;
+    this.select.disabled = found.length === 0;
+    this.select.textContent = found.length === 0 ? "none found" : `Select ${found.length}`;
+    this.announce(`${count(found.length, "shape")} found`);
+    this.state.set({ matches: new Set(found) });
+  }
+
+  #selectAll() {
+    const matches = this.state.get("matches");
+    if (!matches?.size) return;
+    this.state.set({ selection: new Set(matches), query: "" });
+  }
+}
+
+/** One searchable text a shape: its id, name, labels and metadata. */
+export async function searchTexts(model) {
+  const { shapes } = await chunk("details");
+  return shapes.map(({ labels, metadata }, index) =>
+    plain([model.ids[index], model.names[index], ...labels.filter(Boolean), ...metadata.map(([, value]) => value)].join("\n")),
+  );
+}
+
+/** The numbers of the texts that hold all words of a query, parts of words included. */
+export function findWords(texts, query) {
+  const words = plain(query).split(/\s+/);
+  const found = [];
+  for (const [index, text] of texts.entries()) if (words.every((word) => text.includes(word))) found.push(index);
+  return found;
+}
+
+/** Small letters without accents: who types "munze" means "Münze". */
+function plain(text) {
+  return text.toLowerCase().normalize("NFD").replace(/[\u0300-\u036f]/g, "");
+}

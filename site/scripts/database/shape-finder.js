@@ -1,0 +1,22 @@
+// A field that finds shapes by name, id or class.
+
+import { element } from "../base/dom.js";
+import { Finder } from "../base/finder.js";
+
+/** `choose` is told of the shape. */
+export function findShapes(model, choose) {
+  const names = model.names.map((name) => name.toLocaleLowerCase());
+  const texts = names.map((name, index) => `${name}\n${model.ids[index]}\n${model.className(model.groups[index])}`.toLocaleLowerCase());
+  return new Finder("shape", {
+    find: (text) => {
+      const whole = text.toLocaleLowerCase();
+      const words = whole.split(/\s+/);
+      const found = [...texts.keys()].filter((index) => words.every((word) => texts[index].includes(word)));
+      // Whose name is just that, or has it, comes before those whose id or class has the words somewhere.
+      const rank = (index) => (names[index] === whole ? 0 : names[index].includes(whole) ? 1 : 2);
+      return found.sort((a, b) => rank(a) - rank(b) || a - b);
+    },
+    label: (index) => [element("bdi", {}, model.names[index]), " ", model.labelled && element("span", { class: "quiet" }, element("bdi", {}, model.className(model.groups[index])))].filter(Boolean),
+    choose,
+  });
+}

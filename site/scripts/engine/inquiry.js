@@ -1,0 +1,77 @@
+// One question the page keeps asking: what it asked last counts, earlier work is cancelled, answers are kept.
+
+import { Cancelled } from "./client.js";
+
+const MOST_KEPT = 60;
+
+export class Inquiry {
+  #answers = new Map();
+  #job = null;
+
+  /**
+   * `tell` hears how the question stands: { kind, progress, message }, where kind is "none", "working", "answered",
+   * "stopped" or "failed".
+   */
+  constructor(tell) {
+    this.tell = tell;
+    this.key = null;
+  }
+
+  /**
+   * Ask. `start` begins the work where no answer is kept, and returns { done, cancel }.
+   *
+   * `answered` gets the answer, unless another question was asked meanwhile.
+   */
+  async ask(key, start, answered) {
+    if (key === this.key && this.#job !== null) return;
+    this.#drop();
+    this.key = key;
+    if (this.#answers.has(key)) {
+      answered(this.#answers.get(key));
+      this.tell({ kind: "answered" });
+      return;
+    }
+    const report = ({ progress }) => this.#job === job && this.tell({ kind: "working", progress });
+    const job = start(report);
+    this.#job = job;
+    this.tell({ kind: "working", progress: 0 });
+    const ending = await job.done.then((answer) => ({ answer }), (error) => ({ error }));
+    if (this.#job !== job) return;
+    this.#job = null;
+    if (ending.error) {
+      this.key = null;
+      this.tell(ending.error instanceof Cancelled ? { kind: "stopped" } : { kind: "failed", message: ending.error.message });
+      return;
+    }
+    this.#keep(key, ending.answer);
+    answered(ending.answer);
+    this.tell({ kind: "answered" });
+  }
+
+  /** Nothing is asked any more. */
+  rest() {
+    this.#drop();
+    this.key = null;
+    this.tell({ kind: "none" });
+  }
+
+  /** Give up what is being worked on; true if there was such work. */
+  stop() {
+    if (this.#job === null) return false;
+    this.#drop();
+    this.key = null;
+    this.tell({ kind: "stopped" });
+    return true;
+  }
+
+  #drop() {
+    const job = this.#job;
+    this.#job = null;
+    job?.cancel();
+  }
+
+  #keep(key, answer) {
+    this.#answers.set(key, answer);
+    if (this.#answers.size > MOST_KEPT) this.#answers.delete(this.#answers.keys().next().value);
+  }
+}

@@ -1,0 +1,62 @@
+// NH of every class: on the chosen map, and over all subsets (Fig. 3).
+
+import { drawChart } from "../base/chart.js";
+import { element, swatch } from "../base/dom.js";
+import { hitRange } from "../database/hit-range.js";
+
+export class Boxes {
+  constructor(model, subsets, state, marks) {
+    this.model = model;
+    this.subsets = subsets;
+    this.state = state;
+    this.marks = marks;
+    this.list = document.getElementById("legend");
+    // Columns of the subsets' classes, the highest median first.
+    const { boxes, classes } = subsets.data;
+    this.order = boxes.map((_, column) => column).sort((a, b) => boxes[b].median - boxes[a].median || classes[a] - classes[b]);
+    state.listen((changed) => {
+      if (changed.has("chosen")) this.render();
+    });
+  }
+
+  async start() {
+    for (const [, vega] of this.vegas ?? []) vega.finalize();
+    this.vegas = [];
+    const { model, subsets } = this;
+    const point = (pointedGroup) => () => this.state.set({ pointedGroup });
+    this.list.replaceChildren(
+      ...this.order.map((column) => {
+        const group = subsets.data.classes[column];
+        return element(
+          "li",
+          { title: model.className(group), onpointerenter: point(group), onpointerleave: point(null) },
+          swatch(model.symbol(group), model.color(group)),
+          element("span", { class: "name", dir: "auto" }, model.className(group)),
+        );
+      }),
+    );
+    const bars = await drawChart(document.getElementById("bars"), model.data.charts.bars, model.marks.config, "svg");
+    const boxes = await drawChart(document.getElementById("boxes"), subsets.data.charts.boxes, model.marks.config, "svg");
+    const { ink, bar, accent, ground } = this.marks();
+    bars.signal("ink", ink).signal("chance", subsets.data.chance ?? -1);
+    boxes.signal("ink", ink).signal("bar", bar).signal("accent", accent).signal("ground", ground);
+    this.vegas = [
+      ["bars", bars],
+      ["boxes", boxes],
+    ];
+    this.render();
+  }
+
+  render() {
+    const { subsets } = this;
+    const hits = subsets.data.hitOfClass[this.state.get("chosen")];
+    const { highestOfClass } = hitRange(subsets.data.rows === null ? this.model.groups : subsets.data.rows.map((row) => this.model.groups[row]), subsets.data.neighbours);
+    const most = (column) => highestOfClass.get(subsets.data.classes[column]) ?? null;
+    const rows = this.order.map((column, row) => ({ row, ...subsets.data.boxes[column], hit: hits[column], highest: most(column), present: true }));
+    const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
+    for (const [id, vega] of this.vegas ?? []) {
+      vega.width(document.getElementById(id).clientWidth).height(height);
+      vega.data("classes", rows).runAsync();
+    }
+  }
+}

@@ -1,0 +1,80 @@
+// Precision against recall: a line for each choice of what is compared.
+
+import { element, svg } from "../base/dom.js";
+
+const HEIGHT = 340;
+const MARGIN = { left: 44, right: 12, top: 10, bottom: 40 };
+const TICKS = [0, 0.25, 0.5, 0.75, 1];
+
+export class Curves {
+  /** `point(key)` is told which line the pointer is at, or null. */
+  constructor(node, levels, point) {
+    this.node = node;
+    this.levels = levels;
+    this.plot = svg("svg", { role: "img", "aria-label": "Precision against recall; the table has the same rows" });
+    node.replaceChildren(this.plot);
+    this.plot.addEventListener("pointermove", (event) => point(event.target.dataset.key ?? null));
+    this.plot.addEventListener("pointerleave", () => point(null));
+    new ResizeObserver(() => this.draw()).observe(node);
+  }
+
+  /** Show lines: `{ key, kind, color, precision }`, color null where the kind has its own. */
+  show(lines) {
+    this.lines = lines;
+    this.pointed = null;
+    this.draw();
+  }
+
+  /** Bring one line out, or none. */
+  point(key) {
+    this.pointed = key;
+    for (const line of this.plot.querySelectorAll("[data-key]")) line.classList.toggle("pointed", line.dataset.key === key);
+    this.plot.classList.toggle("pointing", key !== null);
+    // What is pointed at lies on top of what crosses it.
+    const pointed = this.plot.querySelector(".rating-line.pointed");
+    if (pointed) pointed.parentElement.append(pointed);
+  }
+
+  draw() {
+    const width = this.node.clientWidth;
+    if (!this.lines || width === 0) return;
+    const [inner, high] = [width - MARGIN.left - MARGIN.right, HEIGHT - MARGIN.top - MARGIN.bottom];
+    const x = (share) => MARGIN.left + share * inner;
+    const y = (share) => MARGIN.top + (1 - share) * high;
+    const path = (precision) => precision.map((value, place) => `${place ? "L" : "M"}${x(this.levels[place]).toFixed(1)} ${y(value).toFixed(1)}`).join("");
+    // Later is above: what matters most is drawn last.
+    const behind = [...this.lines].reverse();
+    this.plot.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
+    this.plot.setAttribute("width", width);
+    this.plot.setAttribute("height", HEIGHT);
+    this.plot.replaceChildren(
+      svg(
+        "g",
+        { class: "axes" },
+        TICKS.map((tick) => svg("line", { x1: x(0), x2: x(1), y1: y(tick), y2: y(tick) })),
+        TICKS.map((tick) => svg("text", { x: x(0) - 8, y: y(tick) + 4, "text-anchor": "end" }, String(tick))),
+        TICKS.map((tick) => svg("text", { x: x(tick), y: y(0) + 16, "text-anchor": tick === 1 ? "end" : "middle" }, String(tick))),
+        svg("text", { x: x(0.5), y: HEIGHT - 4, "text-anchor": "middle" }, "recall: share of the class found"),
+        svg("text", { transform: `translate(11 ${y(0.5)}) rotate(-90)`, "text-anchor": "middle" }, "precision"),
+      ),
+      svg("g", {}, behind.map(({ key, kind, color, precision }) => styled(svg("path", { class: "rating-line", "data-kind": kind, "data-key": key, d: path(precision) }), color))),
+      // Lines are thin; a pointer need not be exact.
+      svg("g", { class: "reach" }, behind.map(({ key, precision }) => svg("path", { "data-key": key, d: path(precision) }))),
+    );
+    this.point(this.pointed);
+  }
+}
+
+/** The line of a choice, short, to stand before its name. */
+export function lineMark(kind, color) {
+  return element(
+    "span",
+    { class: "rating-mark", "aria-hidden": "true" },
+    svg("svg", { viewBox: "0 0 24 8", width: 24, height: 8 }, styled(svg("path", { class: "rating-line", "data-kind": kind, d: "M0 4H24" }), color)),
+  );
+}
+
+function styled(path, color) {
+  if (color) path.style.stroke = color;
+  return path;
+}

@@ -1,0 +1,103 @@
+// The chosen subset in figures, and chips that lead to each neighbouring subset.
+
+import { element } from "../base/dom.js";
+import { figure } from "../base/words.js";
+
+export class Panel {
+  constructor(subsets, state, marks, link) {
+    this.subsets = subsets;
+    this.state = state;
+    this.marks = marks;
+    this.link = link;
+    this.node = document.getElementById("panel");
+    state.listen((changed) => {
+      if (changed.has("chosen") || changed.has("theme")) this.render();
+    });
+    this.render();
+  }
+
+  render() {
+    const focused = document.activeElement?.dataset?.key;
+    const { subsets } = this;
+    const place = this.state.get("chosen");
+    this.node.replaceChildren(
+      ...[
+        element("h2", {}, "The chosen subset"),
+        subsets.labelled && this.#headline(place),
+        element("p", { class: "quiet" }, this.#hint()),
+        element("div", { class: "chips", role: "group", "aria-label": "Features of the subset" }, subsets.data.order.map((feature) => this.#chip(place, feature))),
+        this.#moves(place),
+        this.link && element("p", {}, element("a", { id: "open-overview", href: this.link(place) }, "Open this map in the Overview")),
+      ].filter(Boolean),
+    );
+    if (focused !== undefined) this.node.querySelector(`[data-key="${focused}"]`)?.focus();
+  }
+
+  #hint() {
+    if (!this.subsets.labelled) return "Switch a feature on or off to get to another subset.";
+    return ["Switch a feature on or off; beside it stands by how much NH", element("sub", {}, "s"), " would change."];
+  }
+
+  #headline(place) {
+    const { subsets } = this;
+    const { hit } = subsets.data;
+    const against = (other, words) => [element("b", {}, difference(hit[place] - hit[other])), ` against ${words}`];
+    return element(
+      "p",
+      { class: "headline" },
+      element("span", { class: "symbol" }, "NH", element("sub", {}, "s")),
+      element("output", { class: "value" }, figure(hit[place])),
+      element(
+        "span",
+        { class: "beside" },
+        place === 0 ? ["the best of all, chosen by the labels; ", element("b", {}, figure(subsets.data.chanceBest)), " with random ones"] : against(0, "the best"),
+        element("br"),
+        place === subsets.everything ? "all features" : against(subsets.everything, "all features"),
+      ),
+    );
+  }
+
+  #chip(place, feature) {
+    const { subsets } = this;
+    const name = subsets.features[feature];
+    const target = subsets.toggled(place, feature);
+    const pressed = subsets.has(place, feature);
+    const mark = element("i", { class: "hued" });
+    mark.style.background = this.marks().features[subsets.data.hues[feature]];
+    const change = target === undefined || !subsets.labelled ? "" : difference(subsets.data.hit[target] - subsets.data.hit[place]);
+    const reason = pressed && subsets.single(place) >= 0 ? "A map needs at least one feature" : "This subset was not evaluated";
+    return element(
+      "button",
+      {
+        type: "button",
+        class: "chip",
+        "data-key": `feature ${feature}`,
+        "aria-pressed": String(pressed),
+        disabled: target === undefined,
+        title: target === undefined ? reason : `${pressed ? "Without" : "With"} ${name}`,
+        onclick: () => this.state.set({ chosen: target }),
+      },
+      mark,
+      element("span", { class: "name", dir: "auto" }, name),
+      element("span", { class: "change" }, change),
+    );
+  }
+
+  #moves(place) {
+    const move = (key, words, target) =>
+      element("button", { type: "button", class: "plain", "data-key": key, disabled: target === place || target < 0 || target >= this.subsets.count, onclick: () => this.state.set({ chosen: target }) }, words);
+    return element(
+      "div",
+      { class: "moves" },
+      this.subsets.labelled && move("best", "Best", 0),
+      move("all", "All features", this.subsets.everything),
+      move("previous", this.subsets.labelled ? "‹ Better" : "‹ Previous", place - 1),
+      move("next", this.subsets.labelled ? "Worse ›" : "Next ›", place + 1),
+    );
+  }
+}
+
+/** A difference with its sign. */
+function difference(value) {
+  return `${value < 0 ? "−" : "+"}${figure(Math.abs(value))}`;
+}

@@ -1,0 +1,213 @@
+// Fig. 4: a bar a subset, its features below it; the greedy path and what is chosen above them.
+
+import { drawChart } from "../base/chart.js";
+import { element, svg } from "../base/dom.js";
+import { isBelowOne, ofAtMost } from "../database/hit-range.js";
+import { count, figure } from "../base/words.js";
+
+const BARS = 150;
+const ROW = 15;
+const WIDEST = 36;
+const TOUCHABLE = 3;
+const LEAP = 10;
+const CLOSEST = 10;
+
+export class Ranking {
+  constructor(subsets, state, marks, announce) {
+    this.subsets = subsets;
+    this.state = state;
+    this.marks = marks;
+    this.announce = announce;
+    this.surface = document.getElementById("ranking");
+    this.scroll = this.surface.parentElement;
+    this.reading = document.getElementById("reading");
+    this.height = (subsets.labelled ? BARS : 0) + ROW * subsets.features.length;
+    this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
+    this.levels = this.overlay.appendChild(svg("g", { class: "levels" }));
+    this.pointed = this.overlay.appendChild(svg("rect", { class: "column pointed", y: 0, height: this.height }));
+    this.chosen = this.overlay.appendChild(svg("rect", { class: "column chosen", y: 0.5, height: this.height - 1 }));
+    this.path = this.overlay.appendChild(svg("g", { class: "path" }));
+    this.surface.append(this.overlay);
+    this.surface.style.height = `${this.height}px`;
+    this.#listen();
+  }
+
+  #listen() {
+    const { surface, state } = this;
+    surface.addEventListener("pointermove", (event) => state.set({ pointedPlace: this.#at(event) }));
+    surface.addEventListener("pointerleave", () => state.set({ pointedPlace: null }));
+    surface.addEventListener("blur", () => state.set({ pointedPlace: null }));
+    surface.addEventListener("click", (event) => state.set({ chosen: this.#at(event) ?? state.get("chosen") }));
+    surface.addEventListener("keydown", (event) => this.#key(event));
+    for (const input of document.querySelectorAll("#greedy input")) {
+      input.addEventListener("change", () => state.set({ s: input.value === "none" ? null : Number(input.value) }));
+    }
+    state.listen((changed) => {
+      if (changed.has("chosen") || changed.has("pointedPlace")) this.#point();
+      if (changed.has("s")) this.#trace();
+    });
+  }
+
+  /** Draw with the colours of the theme in use. */
+  async start() {
+    const { subsets } = this;
+    const { charts } = subsets.data;
+    for (const vega of this.vegas ?? []) vega.finalize();
+    this.vegas = [];
+    const matrix = await drawChart(document.getElementById("feature-matrix"), charts.matrix, this.marks().config, "canvas");
+    const row = new Map(subsets.data.order.map((feature, place) => [feature, place]));
+    const cells = [];
+    for (let place = 0; place < subsets.count; place += 1) {
+      for (const feature of row.keys()) {
+        if (subsets.has(place, feature)) cells.push({ place, row: row.get(feature), feature: subsets.data.hues[feature] });
+      }
+    }
+    matrix.signal("features", row.size).height(ROW * row.size).data("cells", cells);
+    this.vegas.push(matrix);
+    if (subsets.labelled) {
+      const bars = await drawChart(document.getElementById("subset-bars"), charts.bars, this.marks().config, "canvas");
+      const rows = subsets.data.hit.map((hit, place) => ({ place, hit, feature: this.#hue(place) }));
+      bars.signal("bar", this.marks().bar).height(BARS).data("subsets", rows);
+      this.vegas.push(bars);
+    }
+    document.getElementById("rows").replaceChildren(
+      ...subsets.data.order.map((feature) => element("li", { dir: "auto", title: subsets.features[feature] }, subsets.features[feature])),
+    );
+    this.step = null;
+    await this.resize();
+  }
+
+  #hue(place) {
+    const single = this.subsets.single(place);
+    return single < 0 ? -1 : this.subsets.data.hues[single];
+  }
+
+  /** Bars are whole pixels wide, so that all are equally sharp; where that is too narrow for a finger, they scroll. */
+  async resize() {
+    const room = this.scroll.clientWidth;
+    const least = room < 600 ? TOUCHABLE : 1;
+    const step = Math.min(Math.max(Math.floor(room / this.subsets.count), least), WIDEST);
+    if (step === this.step || !this.vegas) return;
+    this.step = step;
+    this.width = step * this.subsets.count;
+    this.surface.style.width = `${this.width}px`;
+    this.overlay.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
+    this.#level();
+    this.#point();
+    this.#trace();
+    for (const vega of this.vegas) {
+      vega.width(this.width).signal("count", this.subsets.count).signal("fill", step > 2 ? (step - 1) / step : 1);
+    }
+    await Promise.all(this.vegas.map((vega) => vega.runAsync()));
+  }
+
+  #level() {
+    const { chance, chanceBest, highest } = this.subsets.data;
+    const rule = (value, kind) => value !== null && svg("line", { class: kind, x1: 0, x2: this.width, y1: this.#y(value), y2: this.#y(value) });
+    if (!this.subsets.labelled) return;
+    this.levels.replaceChildren(...[rule(0.25, "grid"), rule(0.5, "grid"), rule(0.75, "grid"), rule(1, "grid"), rule(chance, "rule"), rule(chanceBest, "rule strong"), isBelowOne(highest) && rule(highest, "rule most")].filter(Boolean));
+  }
+
+  #x(place) {
+    return (place + 0.5) * this.step;
+  }
+
+  #y(hit) {
+    return BARS * (1 - hit);
+  }
+
+  #at(event) {
+    const place = Math.floor((event.clientX - this.surface.getBoundingClientRect().left) / this.step);
+    return place >= 0 && place < this.subsets.count ? place : null;
+  }
+
+  #key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const steps = { ArrowLeft: -1, ArrowRight: 1, PageUp: -LEAP, PageDown: LEAP, Home: -Infinity, End: Infinity };
+    const from = this.state.get("pointedPlace") ?? this.state.get("chosen");
+    if (event.key in steps) {
+      const place = Math.min(Math.max(from + steps[event.key], 0), this.subsets.count - 1);
+      this.state.set({ pointedPlace: place });
+      this.#reveal(place);
+      this.announce(this.#words(place));
+    } else if (event.key === "Enter" || event.key === " ") this.state.set({ chosen: from });
+    else if (event.key === "Escape") this.state.set({ pointedPlace: null });
+    else return;
+    event.preventDefault();
+  }
+
+  #reveal(place) {
+    const [x, left, width] = [this.#x(place), this.scroll.scrollLeft, this.scroll.clientWidth];
+    if (x < left + 20 || x > left + width - 20) this.scroll.scrollLeft = x - width / 2;
+  }
+
+  #words(place) {
+    const rank = this.subsets.labelled ? `Rank ${place + 1} of ${this.subsets.count}, NH ${figure(this.subsets.data.hit[place])}: ` : "";
+    return `${rank}${this.subsets.names(place).join(", ")}`;
+  }
+
+  #point() {
+    if (!this.step) return;
+    const [pointed, chosen] = [this.state.get("pointedPlace"), this.state.get("chosen")];
+    this.pointed.classList.toggle("shown", pointed !== null);
+    if (pointed !== null) {
+      this.pointed.setAttribute("x", pointed * this.step - 1);
+      this.pointed.setAttribute("width", this.step + 1);
+    }
+    this.chosen.setAttribute("x", chosen * this.step - 1);
+    this.chosen.setAttribute("width", this.step + 1);
+    const place = pointed ?? chosen;
+    const { subsets } = this;
+    const scored = () => [
+      element("span", {}, "rank ", element("b", {}, String(place + 1)), ` of ${subsets.count}`),
+      element("span", {}, "NH", element("sub", {}, "s"), " ", element("b", {}, figure(subsets.data.hit[place])), ofAtMost(subsets.data.highest)),
+    ];
+    this.reading.replaceChildren(
+      element("span", { class: "which" }, pointed === null ? "Chosen" : "Pointed at"),
+      ...(subsets.labelled ? scored() : []),
+      element("span", { class: "members" }, subsets.names(place).map((name) => this.#member(name))),
+    );
+  }
+
+  #member(name) {
+    const mark = element("i", { class: "hued" });
+    mark.style.background = this.marks().features[this.subsets.data.hues[this.subsets.features.indexOf(name)]];
+    return element("span", {}, mark, element("bdi", {}, name));
+  }
+
+  /** The steps of the greedy search, in order, on the bars and in words. */
+  #trace() {
+    const s = this.state.get("s");
+    for (const input of document.querySelectorAll("#greedy input")) input.checked = input.value === String(s ?? "none");
+    const greedy = this.subsets.data.greedy.find((search) => search.s === s);
+    const words = document.getElementById("trace");
+    if (!this.step || words === null) return;
+    this.path.replaceChildren();
+    words.replaceChildren();
+    if (!greedy) return;
+    const { hit } = this.subsets.data;
+    const places = greedy.path.map((place) => [this.#x(place), this.#y(hit[place])]);
+    // Numbers that would touch the one before are left out; the words below have them all.
+    const numbered = places.filter(([x], index) => index === 0 || Math.abs(x - places[index - 1][0]) >= CLOSEST);
+    this.path.append(
+      svg("polyline", { points: places.map((place) => place.join()).join(" ") }),
+      ...places.map(([x, y]) => svg("circle", { cx: x, cy: y, r: 3.5 })),
+      ...numbered.map(([x, y]) => svg("text", { x, y: Math.max(y - 8, 10), "text-anchor": "middle" }, String(places.findIndex((place) => place[0] === x) + 1))),
+    );
+    const steps = greedy.path.map((place, index) => [
+      index > 0 && " → ",
+      element(
+        "button",
+        { type: "button", class: "step", title: `Choose ${this.subsets.names(place).join(", ")}`, onclick: () => this.state.set({ chosen: place }) },
+        `${index + 1}. ${this.subsets.names(place).join(" ")} `,
+        element("b", {}, figure(hit[place])),
+      ),
+    ]);
+    const last = greedy.path.at(-1);
+    const behind = hit[0] - hit[last];
+    words.append(
+      ...[`Greedy search, s = ${s}: `, steps].flat(Infinity).filter(Boolean),
+      ` with ${count(greedy.runs, "map")} of ${this.subsets.count}; ${behind > 0 ? `rank ${last + 1}, ${figure(behind)} below the best.` : "the best of all."}`,
+    );
+  }
+}

@@ -1,0 +1,69 @@
+// The card at the pointer: picture, name, class, and who the neighbours are.
+
+import { element, picture, swatch } from "../base/dom.js";
+import { highestOf, ofAtMost } from "../database/hit-range.js";
+import { figure, shortened } from "../base/words.js";
+
+const MOST_CLASSES = 4;
+
+export class Card {
+  constructor(state) {
+    this.state = state;
+    this.node = document.getElementById("card");
+    state.listen((changed) => {
+      if (changed.has("theme")) this.shown = null;
+      const camera = state.get("pointedFrom")?.scene.cameraName;
+      if (["pointed", camera, "method", "theme"].some((name) => changed.has(name))) this.#show();
+    });
+  }
+
+  #show() {
+    const index = this.state.get("pointed");
+    const view = this.state.get("pointedFrom");
+    this.node.hidden = index === null || !view.scene.visible(index);
+    if (this.node.hidden) return;
+    const map = view.model.methods[view.scene.target];
+    if (this.shown !== index || this.map !== map) this.#fill(index, view.model, map);
+    this.#place(index);
+  }
+
+  #fill(index, model, map) {
+    [this.shown, this.map] = [index, map];
+    const group = model.groups[index];
+    const neighbours = model.count > 1 ? model.census(model.neighbours(index, model.methods.indexOf(map))) : [];
+    this.node.replaceChildren(
+      picture(model, index, 112),
+      element(
+        "div",
+        {},
+        element("p", { class: "name", dir: "auto" }, shortened(model.names[index], 48)),
+        model.labelled && classLine(model, group),
+        map.hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(map.hit[index])), ofAtMost(highestOf(model, map, index))),
+        neighbours.length > 0 && model.labelled && element(
+          "p",
+          { class: "census" },
+          "near it: ",
+          neighbours.slice(0, MOST_CLASSES).map(([other, number], place) => `${place > 0 ? ", " : ""}${number} ${shortened(model.className(other), 18)}`),
+          neighbours.length > MOST_CLASSES && " …",
+        ),
+      ),
+    );
+  }
+
+  #place(index) {
+    const view = this.state.get("pointedFrom");
+    const box = view.surface.getBoundingClientRect();
+    const [x, y] = view.screen(index);
+    const { offsetWidth: width, offsetHeight: height } = this.node;
+    const gap = Math.max(view.markRadius, view.pictured[index] ? view.pictureSize / 2 : 0) + 12;
+    const right = box.left + x + gap;
+    const left = right + width < window.innerWidth - 8 ? right : box.left + x - gap - width;
+    const top = Math.min(Math.max(box.top + y - height / 2, 8), window.innerHeight - height - 8);
+    this.node.style.transform = `translate(${Math.round(Math.max(left, 8))}px, ${Math.round(top)}px)`;
+  }
+}
+
+/** The mark and the name of a class. */
+export function classLine(model, group) {
+  return element("p", { class: "of-class", dir: "auto" }, swatch(model.symbol(group), model.color(group)), shortened(model.className(group), 60));
+}

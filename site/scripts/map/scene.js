@@ -1,0 +1,177 @@
+// Where every shape is at this moment, how present it is, and which part of the plane is in view.
+// All maps draw the same scene, which is what links them.
+
+import { calm } from "../base/dom.js";
+
+const DURATION = 650;
+const COVER_DURATION = 180;
+const LARGEST_ZOOM = 40;
+const CROWD = 1500;
+
+export const HIDDEN = 0;
+export const FAINT = 1;
+export const NORMAL = 2;
+export const CHOSEN = 3;
+
+/** Whether there are so many shapes that maps draw them themselves: a chart would take a second for every change. */
+export function crowded(model) {
+  return model.count > CROWD;
+}
+
+export class Scene {
+  /** `camera` names the state's value for the part of the plane in view. */
+  constructor(model, state, camera = "camera") {
+    this.model = model;
+    this.state = state;
+    this.cameraName = camera;
+    this.origin = state.get("method");
+    this.target = state.get("method");
+    this.progress = 1;
+    this.x = Float64Array.from(model.methods[this.target].x);
+    this.y = Float64Array.from(model.methods[this.target].y);
+    this.bounds = model.bounds[this.target];
+    this.emphasis = [];
+    this.matches = null;
+    this.views = [];
+    this.covered = 0;
+    this.weigh();
+    state.listen((changed) => {
+      if (changed.has("method")) this.#travel(state.get("method"));
+      if (["hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.weigh();
+      if ([camera, "hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.draw();
+      else if (changed.has("pointed") || changed.has("opened")) for (const view of this.views) view.drawRings();
+    });
+  }
+
+  /** Draw all maps with the next frame; small ones of a crowd with every fourth, and when all is still. */
+  draw() {
+    this.#frame ??= requestAnimationFrame(() => {
+      this.#frame = null;
+      this.#frames += 1;
+      const few = crowded(this.model) && this.#frames % 4 > 0;
+      for (const view of this.views) if (view.large || !few) view.draw();
+    });
+    clearTimeout(this.#settling);
+    this.#settling = setTimeout(() => this.#settle(), 160);
+  }
+
+  #frame = null;
+  #frames = 0;
+  #settling = null;
+
+  /** The large map first, each in a frame of its own, so that no frame takes long. */
+  #settle() {
+    const views = [...this.views].sort((a, b) => b.large - a.large);
+    const next = () => {
+      views.shift().settle();
+      if (views.length > 0) this.#settling = setTimeout(next, 0);
+    };
+    next();
+  }
+
+  visible(index) {
+    return this.emphasis[index] > HIDDEN;
+  }
+
+  /** Keep the large map clear of `height` pixels at its bottom, where the tray lies; the map makes room, it does not jump. */
+  cover(height) {
+    this.#uncover?.abort();
+    this.#uncover = new AbortController();
+    const { signal } = this.#uncover;
+    const from = this.covered;
+    animate(COVER_DURATION, signal, (progress) => {
+      this.covered = from + eased(progress) * (height - from);
+      this.draw();
+    });
+  }
+
+  #uncover = null;
+  #voyage = null;
+
+  /** Move all points to another projection, on a straight way; the camera goes back to showing all of it. */
+  #travel(target) {
+    this.origin = this.target;
+    this.target = target;
+    const from = this.bounds;
+    const to = this.model.bounds[target];
+    const camera = this.state.get(this.cameraName) && this.camera();
+    this.#voyage?.abort();
+    this.#voyage = new AbortController();
+    animate(DURATION, this.#voyage.signal, (linear) => {
+      this.#place(eased(linear));
+      const mix = (a, b) => a + this.progress * (b - a);
+      this.bounds = {
+        x: mix(from.x, to.x),
+        y: mix(from.y, to.y),
+        width: mix(from.width, to.width),
+        height: mix(from.height, to.height),
+      };
+      if (camera) {
+        const whole = { x: this.bounds.x, y: this.bounds.y, zoom: 1 };
+        const view = { x: mix(camera.x, whole.x), y: mix(camera.y, whole.y), zoom: mix(camera.zoom, 1) };
+        this.state.set({ [this.cameraName]: linear < 1 ? view : null });
+      }
+      this.draw();
+    });
+  }
+
+  #place(progress) {
+    this.progress = progress;
+    const [from, to] = [this.model.methods[this.origin], this.model.methods[this.target]];
+    for (let index = 0; index < this.x.length; index += 1) {
+      this.x[index] = from.x[index] + progress * (to.x[index] - from.x[index]);
+      this.y[index] = from.y[index] + progress * (to.y[index] - from.y[index]);
+    }
+  }
+
+  /** How present each shape is; a new array, because charts compare by identity. */
+  weigh() {
+    const hidden = this.state.get("hidden");
+    const selection = this.state.get("selection");
+    const matches = this.state.get("matches");
+    const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
+    this.present = this.x.reduce((number, value) => number + !Number.isNaN(value), 0);
+    this.emphasis = this.model.groups.map((group, index) => {
+      if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
+      if (pointed !== null) return group === pointed ? CHOSEN : FAINT;
+      if (selection.size > 0) return selection.has(index) ? CHOSEN : FAINT;
+      if (matches) return matches.has(index) ? CHOSEN : FAINT;
+      return NORMAL;
+    });
+  }
+
+  camera() {
+    const camera = this.state.get(this.cameraName);
+    return camera === null ? { x: this.bounds.x, y: this.bounds.y, zoom: 1 } : this.#bounded(camera);
+  }
+
+  /** Look at another part of the plane; kept so that some of the map always stays in view. */
+  look(camera) {
+    const bounded = this.#bounded(camera);
+    this.state.set({ [this.cameraName]: bounded.zoom <= 1.001 ? null : bounded });
+  }
+
+  /** The address may hold any numbers. */
+  #bounded(camera) {
+    const zoom = Math.min(Math.max(camera.zoom, 1), LARGEST_ZOOM);
+    const within = (value, centre, size) => Math.min(Math.max(value, centre - size / 2), centre + size / 2);
+    const { x, y, width, height } = this.bounds;
+    return { x: within(camera.x, x, width), y: within(camera.y, y, height), zoom };
+  }
+}
+
+/** Call `step` with every frame, with the share of time gone, the last time with 1; once only for who wants calm. */
+function animate(duration, signal, step) {
+  const started = performance.now();
+  const frame = () => {
+    if (signal.aborted) return;
+    const share = calm() || duration === 0 ? 1 : Math.min(1, (performance.now() - started) / duration);
+    step(share);
+    if (share < 1) requestAnimationFrame(frame);
+  };
+  frame();
+}
+
+function eased(t) {
+  return t < 0.5 ? 4 * t ** 3 : 1 - (2 - 2 * t) ** 3 / 2;
+}

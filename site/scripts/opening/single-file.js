@@ -1,0 +1,39 @@
+// Opens a page of a site that is one file. It runs at the end of the document: pages stand in templates, scripts have
+// been handed over to be run, and files wait as blocks of text.
+
+import { addressedFile, readHash, settle } from "../base/place.js";
+
+const opened = addressedFile();
+
+// Before the page's own listeners. Scripts of pages count on a document that is theirs alone, so another page is
+// another load of the document; it comes from the disk, and its parts are only unpacked when they are wanted.
+window.addEventListener("hashchange", (event) => {
+  if (addressedFile() === opened) {
+    goToPlace();
+    return;
+  }
+  event.stopImmediatePropagation();
+  window.history.scrollRestoration = "manual";
+  window.location.reload();
+});
+
+const pages = new Map([...document.querySelectorAll("head > template")].map((template) => [template.id, template]));
+const template = pages.get(opened) ?? pages.get("index.html");
+const content = document.importNode(template.content, true);
+const scripts = [...content.querySelectorAll("script")].map((script) => {
+  script.remove();
+  return script.getAttribute("src");
+});
+settle(content);
+document.title = template.dataset.title;
+document.body.className = template.className;
+document.body.replaceChildren(content);
+// Scripts that only hand over data have nothing to run here.
+for (const address of scripts) window.shapeviz.scripts.get(address)?.();
+goToPlace();
+
+/** Scroll to what a link like `about.html#clusters` names, which is a place on the page and no state of a view. */
+function goToPlace() {
+  const [[name, value] = []] = readHash();
+  if (value === "") document.getElementById(name)?.scrollIntoView();
+}

@@ -1,0 +1,159 @@
+// The classes: a legend that filters, a bar of NH for each, and in words what the map as a whole reaches.
+
+import { drawChart } from "../base/chart.js";
+import { element, swatch } from "../base/dom.js";
+import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
+import { count, figure } from "../base/words.js";
+
+export class ClassList {
+  constructor(model, state) {
+    this.model = model;
+    this.state = state;
+    this.list = document.getElementById("legend");
+    this.node = document.getElementById("bars");
+    this.all = document.getElementById("show-all");
+    this.all.addEventListener("click", () => state.set({ hidden: new Set() }));
+    this.list.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
+    state.listen((changed) => {
+      if (changed.has("method")) this.render();
+      else if (changed.has("hidden")) this.#mark();
+    });
+  }
+
+  async start() {
+    this.vega?.finalize();
+    this.vega = null;
+    if (this.model.labelled) {
+      this.vega = await drawChart(this.node, this.model.data.charts.bars, this.model.marks.config, "svg");
+    }
+    this.render();
+  }
+
+  /** Groups by falling NH on the map in view; shapes without a label come last. */
+  get order() {
+    const { hitOfClass } = this.model.methods[this.state.get("method")];
+    const groups = this.model.classes.map((_, group) => group);
+    groups.sort((a, b) => (hitOfClass[b] ?? -1) - (hitOfClass[a] ?? -1) || a - b);
+    return this.model.sizes.has(-1) && this.model.labelled ? [...groups, -1] : groups;
+  }
+
+  render() {
+    const focused = document.activeElement?.dataset?.group;
+    this.buttons = new Map(this.order.map((group) => [group, this.#button(group)]));
+    this.list.replaceChildren(...[...this.buttons.values()].map((button) => element("li", {}, button)));
+    if (focused !== undefined) this.buttons.get(Number(focused))?.focus();
+    document.getElementById("quality").replaceChildren(...this.#quality());
+    this.#mark();
+  }
+
+  #button(group) {
+    const { model } = this;
+    const name = model.className(group);
+    const method = model.methods[this.state.get("method")];
+    const hit = group < 0 ? null : method.hitOfClass[group];
+    const most = hit === null ? "" : ofAtMost(rangeOf(model, method).highestOfClass.get(group));
+    const point = (value) => () => this.state.set({ pointedGroup: value });
+    return element(
+      "button",
+      {
+        type: "button",
+        "data-group": group,
+        title: `${name}${most && `\nNH ${figure(hit)}${most}, as many as the class has others`}\nClick hides or shows it. Double-click, or click with Alt, shows it alone.`,
+        onclick: (event) => (event.altKey ? this.#solo(group) : this.#toggle(group)),
+        ondblclick: () => this.#solo(group),
+        onpointerenter: point(group),
+        onpointerleave: point(null),
+      },
+      swatch(model.symbol(group), model.color(group)),
+      element("span", { class: "name", dir: "auto" }, name),
+      element("span", { class: "size" }, String(model.sizes.get(group) ?? 0)),
+    );
+  }
+
+  #toggle(group) {
+    const hidden = new Set(this.state.get("hidden"));
+    if (!hidden.delete(group)) hidden.add(group);
+    this.state.set({ hidden, pointedGroup: null });
+  }
+
+  #solo(group) {
+    const others = [...this.buttons.keys()].filter((other) => other !== group);
+    const hidden = this.state.get("hidden");
+    const alone = !hidden.has(group) && others.every((other) => hidden.has(other));
+    this.state.set({ hidden: new Set(alone ? [] : others), pointedGroup: null });
+  }
+
+  /** What is hidden, on the buttons and on the bars. */
+  #mark() {
+    const hidden = this.state.get("hidden");
+    for (const [group, button] of this.buttons) button.setAttribute("aria-pressed", String(!hidden.has(group)));
+    this.all.hidden = hidden.size === 0;
+    if (!this.vega) return;
+    const method = this.model.methods[this.state.get("method")];
+    const { hitOfClass, chance } = method;
+    const { highestOfClass } = rangeOf(this.model, method);
+    const rows = this.order.map((group, row) => ({ row, hit: group < 0 ? null : hitOfClass[group], highest: highestOfClass.get(group) ?? null, present: !hidden.has(group) }));
+    const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
+    this.vega.width(this.node.clientWidth).height(height);
+    this.vega.signal("chance", chance ?? -1).signal("ink", this.model.marks.ink);
+    this.vega.data("classes", rows).runAsync();
+  }
+
+  resize() {
+    if (this.buttons) this.#mark();
+  }
+
+  /** That the labels chose a subset, and what the best one reaches by chance. */
+  #chosen(features) {
+    const { best, bestByChance } = this.model.data.subsets ?? {};
+    if (!best || best.join() !== features.join()) return "";
+    return ` The labels chose them, the best of all subsets; with labels dealt at random the best typically reaches ${figure(bestByChance)}.`;
+  }
+
+  /** What the best map would reach. */
+  #best(method) {
+    const { highest } = rangeOf(this.model, method);
+    if (!isBelowOne(highest)) return "1 is a map whose classes never mix.";
+    const share = shareOfRange(method.hitOfAll, method.chance, highest);
+    const stands = share === null ? "" : ` This one is ${(share * 100).toFixed(0)} % of the way there from chance.`;
+    return `Some classes are too small to fill ${count(method.neighbours, "place")}: a map whose classes never mix has ${figure(highest)}.${stands}`;
+  }
+
+  #quality() {
+    const { model } = this;
+    const method = model.methods[this.state.get("method")];
+    const { title, features, base, hitOfAll, withoutCopies, chance, chanceSpread, neighbours } = method;
+    if (model.count === 1) {
+      return [element("p", {}, "One shape: there is nothing to compare it with yet.")];
+    }
+    if (!model.labelled) {
+      return [
+        element("p", {}, "This database has no labels, so there is no neighbourhood hit to tell how well classes keep together. "),
+        element("p", {}, "The map needs none: it places shapes by their surfaces alone."),
+      ];
+    }
+    const headline = element(
+      "p",
+      { class: "headline" },
+      element("span", { class: "symbol" }, "NH", element("sub", {}, "s")),
+      element("output", { class: "value" }, figure(hitOfAll)),
+      element("span", { class: "beside" }, element("b", {}, figure(chance)), chanceSpread !== null && ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random", isBelowOne(rangeOf(model, method).highest) && [element("br"), element("b", {}, figure(rangeOf(model, method).highest)), " at most"]),
+    );
+    if (model.classes.length === 1) {
+      return [headline, element("p", {}, "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.")];
+    }
+    return [
+      headline,
+      element(
+        "p",
+        {},
+        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its ${model.data.standIn ? "cluster" : "class"} on average. `,
+        model.data.standIn
+          ? "The clusters come from the same features, so this says only how well the map shows them."
+          : this.#best(method),
+        withoutCopies && ` Without ${count(withoutCopies.copies, "copy", "copies")} of other shapes the map has ${figure(withoutCopies.hitOfAll)}${ofAtMost(withoutCopies.highest)}.`,
+        base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone.", this.#chosen(features)],
+      ),
+    ];
+  }
+}

@@ -1,0 +1,117 @@
+// What is known of one shape: picture, labels, facts, and its nearest neighbours on the map.
+
+import { classLine } from "../map/card.js";
+import { chunk } from "../base/chunks.js";
+import { element, picture } from "../base/dom.js";
+import { highestOf, ofAtMost } from "../database/hit-range.js";
+import { pageAddress } from "../base/place.js";
+import { count, figure, grouped } from "../base/words.js";
+
+export class Detail {
+  constructor(model, state, { point }) {
+    this.model = model;
+    this.point = point;
+    this.state = state;
+    this.node = document.getElementById("detail");
+    state.listen((changed) => {
+      const redrawn = changed.has("method") || changed.has("theme");
+      if (changed.has("opened") || (redrawn && state.get("opened") !== null)) this.show();
+    });
+  }
+
+  async show() {
+    const index = this.state.get("opened");
+    if (index === null) {
+      this.node.hidden = true;
+      this.returnTo?.focus({ preventScroll: true });
+      this.returnTo = null;
+      return;
+    }
+    const { labelings, shapes } = await chunk("details");
+    if (this.state.get("opened") !== index) return;
+    const first = this.node.hidden;
+    if (first) this.returnTo = document.activeElement;
+    this.node.replaceChildren(...this.#content(index, labelings, shapes[index]));
+    this.node.hidden = false;
+    this.node.scrollTop = 0;
+    if (first) this.node.querySelector("button").focus({ preventScroll: true });
+  }
+
+  #content(index, labelings, known) {
+    const { model } = this;
+    const method = model.methods[this.state.get("method")];
+    const others = labelings
+      .map((labeling, place) => [labeling, known.labels[place]])
+      .filter(([labeling, label]) => label !== null && label !== undefined && labeling !== model.data.labeling);
+    return [
+      element(
+        "div",
+        { class: "detail-head" },
+        element("h2", { dir: "auto" }, model.names[index]),
+        element("button", { type: "button", class: "plain", "aria-label": "Close", onclick: () => this.state.set({ opened: null }) }, "Close"),
+      ),
+      element("div", { class: "portrait" }, picture(model, index, 256, model.names[index])),
+      element("p", {}, element("a", { href: pageAddress("shape.html", this.#pageQuery(index)) }, "All about this shape")),
+      model.labelled && classLine(model, model.groups[index]),
+      ...this.#neighbours(index, method),
+      others.length > 0 && facts("Other labels", others),
+      known.metadata.length > 0 && facts("Metadata", known.metadata),
+      facts("Mesh", [
+        ["id", model.ids[index]],
+        ["as read", `${count(known.facesRead, "face")}, ${count(known.verticesRead, "vertex", "vertices")}`],
+        ["prepared", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
+        ["parts", grouped(known.components)],
+        ["watertight", known.watertight ? "yes" : "no"],
+        ["deviation", `${(known.deviation * 100).toFixed(3)} % of the diagonal`],
+      ]),
+      known.repairs.length > 0 && facts("Repairs", known.repairs.map(([repair, number]) => [repair, grouped(number)])),
+    ].filter(Boolean);
+  }
+
+  /** Its page, on the map that is seen here. */
+  #pageQuery(index) {
+    const { ids, methods } = this.model;
+    const { base } = methods[this.state.get("method")];
+    return { id: ids[index], ...(base > 0 && { map: methods[base].key }) };
+  }
+
+  #neighbours(index, method) {
+    const { model } = this;
+    if (model.count === 1) return [];
+    const near = model.neighbours(index, this.state.get("method"));
+    const hit = method.hit[index];
+    return [
+      element("h3", {}, `${count(near.length, "nearest neighbour")} on the ${method.title} map`),
+      hit !== null && element("p", {}, "NH ", element("b", {}, figure(hit)), `${ofAtMost(highestOf(model, method, index))}: the share of them in its own class.`),
+      element(
+        "div",
+        { class: "neighbours" },
+        near.map((other) =>
+          element(
+            "button",
+            {
+              type: "button",
+              class: model.groups[other] === model.groups[index] || model.groups[index] < 0 ? "shape" : "shape stranger",
+              "aria-label": `Open ${model.names[other]}, ${model.className(model.groups[other])}`,
+              title: `${model.names[other]}\n${model.className(model.groups[other])}`,
+              onclick: () => this.state.set({ opened: other }),
+              onpointerenter: () => this.point(other),
+              onpointerleave: () => this.point(null),
+            },
+            picture(model, other, 64),
+          ),
+        ),
+      ),
+      model.groups[index] >= 0 && near.some((other) => model.groups[other] !== model.groups[index]) && element("p", { class: "key" }, "Underlined: of another class."),
+    ].filter(Boolean);
+  }
+}
+
+function facts(title, rows) {
+  return element(
+    "section",
+    {},
+    element("h3", {}, title),
+    element("dl", {}, rows.map(([name, value]) => [element("dt", { dir: "auto" }, name), element("dd", { dir: "auto" }, value)])),
+  );
+}

@@ -1,0 +1,62 @@
+// What the map of the Overview is made from: all features, or the bins that the site was made for; the best subset of the
+// features; or one chosen on the Features page.
+
+import { chunk } from "../base/chunks.js";
+import { Subsets } from "../database/subsets.js";
+
+const ALL = "all";
+const BEST = "best";
+const CHOSEN = "chosen";
+
+export class FeatureChoice {
+  #chosen = null;
+
+  constructor(model, state) {
+    this.model = model;
+    this.state = state;
+    this.searched = model.data.subsets;
+    this.base = model.methods.findIndex(({ key }) => key === this.searched.method);
+    this.node = document.getElementById("features");
+    this.node.addEventListener("change", (event) => this.#choose(event.target.value));
+    state.listen((changed) => {
+      if (changed.has("method")) this.show();
+    });
+    this.show();
+  }
+
+  async #choose(value) {
+    if (value === ALL) this.state.set({ method: this.base });
+    else {
+      const names = value === BEST ? this.searched.best : this.#chosen;
+      this.state.set({ method: await subsetMethod(this.model, names) });
+    }
+  }
+
+  show() {
+    const index = this.state.get("method");
+    const { base, features } = this.model.methods[index];
+    const best = base !== index && same(features, this.searched.best);
+    if (base !== index && !best) this.#chosen = features;
+    const value = base === index ? ALL : best ? BEST : CHOSEN;
+    for (const input of this.node.querySelectorAll("input")) input.checked = input.value === value;
+    if (this.#chosen === null) return;
+    const label = this.node.querySelector(`[value=${CHOSEN}]`).closest("label");
+    label.hidden = false;
+    label.title = this.#chosen.join(", ");
+    label.querySelector("bdi").textContent = this.#chosen.join(" ");
+  }
+}
+
+/** The index of a subset's map in the model, where it is added when first asked for; null if it was not evaluated. */
+export async function subsetMethod(model, names) {
+  const { method, features, bins } = model.data.subsets;
+  const base = model.methods.findIndex(({ key }) => key === method);
+  if (bins === null && names.length === features.length) return base;
+  const subsets = new Subsets(await chunk("search"));
+  const place = subsets.find(names);
+  return place === undefined ? null : model.add(await subsets.map(place, model.classes.length), base);
+}
+
+function same(one, other) {
+  return other !== null && one.join("\n") === other.join("\n");
+}

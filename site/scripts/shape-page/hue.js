@@ -1,9 +1,0 @@
-// The mark of a feature.
-
-import { element } from "../dom.js";
-
-export function hue(color) {
-  const mark = element("i", { class: "hued", "aria-hidden": "true" });
-  mark.style.background = color;
-  return mark;
-}

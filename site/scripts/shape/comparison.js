@@ -1,0 +1,52 @@
+// What similar means on this page: which features are compared, or which bins. The address has it as text.
+
+import { joinNames, splitNames } from "../addresses/names.js";
+import { readShortNames, shortNames } from "../addresses/bin-names.js";
+import { count } from "../base/words.js";
+
+export class Comparison {
+  /** `data` is the chunk "workbench", `selected` the bins of the site's own search or null. */
+  constructor(data, selected, state) {
+    Object.assign(this, { data, state });
+    this.names = data.features.map(({ name }) => name);
+    this.sets = [
+      data.bins && { key: "maps", columns: data.bins, words: `The ${count(data.bins.length, "bin")} of the maps` },
+      selected && { key: "selected", columns: selected, words: count(selected.length, "selected bin"), title: "The bins that the Bins page found to separate all classes" },
+    ].filter(Boolean);
+  }
+
+  /** What is compared: `{ columns }` or `{ features }`, by their numbers, rising. */
+  get choice() {
+    const { data, names, state } = this;
+    const columns = [...readShortNames(state.get("bins"), data.features)].sort((a, b) => a - b);
+    if (columns.length > 0) return { columns };
+    const features = splitNames(state.get("features"), names).map((name) => names.indexOf(name));
+    if (features.length > 0) return { features };
+    return data.bins ? { columns: data.bins } : { features: [...names.keys()] };
+  }
+
+  get everything() {
+    return this.choice.features?.length === this.names.length;
+  }
+
+  compareAll() {
+    this.#compare(this.data.bins ? joinNames(this.names) : "", "");
+  }
+
+  /** Add a feature to those that are compared, or leave it out; from all features or from bins, to this one alone. */
+  toggle(feature) {
+    const { features } = this.choice;
+    const kept = features === undefined || this.everything ? [feature] : features.includes(feature) ? features.filter((other) => other !== feature) : [...features, feature];
+    if (kept.length === 0 || kept.length === this.names.length) this.compareAll();
+    else this.#compare(joinNames(this.names.filter((_, other) => kept.includes(other))), "");
+  }
+
+  compareBins(columns) {
+    const [text, ofMaps] = [columns, this.data.bins ?? []].map((chosen) => shortNames(chosen, this.data.features));
+    this.#compare("", text === ofMaps ? "" : text);
+  }
+
+  #compare(features, bins) {
+    this.state.set({ features, bins });
+  }
+}

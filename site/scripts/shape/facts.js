@@ -1,0 +1,93 @@
+// What is known of a shape, in words and figures: where it is from, its labels, its mesh.
+
+import { chunk } from "../base/chunks.js";
+import { element } from "../base/dom.js";
+import { count, grouped } from "../base/words.js";
+
+/** What columns of a table are called that say whose a shape is and what may be done with it; these come first. */
+const RIGHTS = ["license", "licence", "rights", "author", "creator", "attribution", "source", "url"];
+
+const DIGITS = 4;
+
+export class Facts {
+  constructor(model, state, { links }) {
+    Object.assign(this, { model, state, links });
+    this.node = document.getElementById("facts");
+    this.groups = [];
+    state.listen((changed) => {
+      if (changed.has("shape")) this.render();
+    });
+  }
+
+  async render() {
+    const shape = this.state.get("shape");
+    if (shape === null) return;
+    const [{ labelings, shapes }, clusters] = await Promise.all([chunk("details"), chunk("clusters")]);
+    if (this.state.get("shape") !== shape) return;
+    this.groups = factGroups(this.model, shape, labelings, shapes[shape], clusters);
+    this.node.replaceChildren(...this.groups.map((group) => this.#section(group)));
+  }
+
+  #section({ title, rows, note, shapes }) {
+    const named = (name, place) => (shapes ? this.links.link(shapes[place], { title: this.model.ids[shapes[place]] }, name) : name);
+    return element(
+      "section",
+      {},
+      element("h2", {}, title),
+      element("dl", {}, rows.map(([name, value], place) => [element("dt", { dir: "auto" }, named(name, place)), element("dd", { dir: "auto" }, linked(value))])),
+      note && element("p", { class: "key" }, note),
+    );
+  }
+}
+
+/** All facts of a shape: `{ title, rows: [[name, value]], note, shapes }` a group, whose it is first; where rows are of other shapes, `shapes` says which. */
+function factGroups(model, shape, labelings, known, clusters) {
+  const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
+  const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
+  const others = known.metadata.filter((pair) => rank(pair) < 0);
+  const labels = labelings.map((labeling, place) => [labeling, known.labels[place]]).filter(([, label]) => label !== null && label !== undefined);
+  // Where clusters stand in for labels, the cluster stands below the name already.
+  if (clusters !== null && !clusters.standIn) labels.push(["cluster", clusters.clusters[clusters.of[shape]].name]);
+  const [wide, high, deep] = known.extents.map(measured);
+  return [
+    { title: "Licence and source", rows: rights },
+    { title: "The same shape as", rows: known.copies.map(([other, evidence]) => [model.names[other], evidence]), shapes: known.copies.map(([other]) => other) },
+    { title: labels.length > 1 ? "Labels" : "", rows: labels.length > 1 ? labels : [] },
+    { title: "From the database", rows: others },
+    {
+      title: "Shape",
+      rows: [
+        ["id", model.ids[shape]],
+        ["size", `${wide} × ${high} × ${deep}`],
+        ["surface", measured(known.area)],
+        ["volume", known.volume === null && !known.watertight ? "– (it is not closed)" : measured(known.volume)],
+        ["watertight", known.watertight ? "yes" : "no"],
+        ["parts", grouped(known.components)],
+      ],
+      note: "Sizes are in the units of its file.",
+    },
+    {
+      title: "Mesh",
+      rows: [
+        ["in the file", `${count(known.facesRead, "face")}, ${count(known.verticesRead, "vertex", "vertices")}`],
+        ["as measured", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
+        ["off by", `${(known.deviation * 100).toFixed(3)} % of its diagonal at most`],
+      ],
+    },
+    { title: "Repairs", rows: known.repairs.map(([repair, number]) => [repair, grouped(number)]) },
+  ].filter(({ rows }) => rows.length > 0);
+}
+
+/** A value that is a web address, whole, as a link to it. */
+function linked(value) {
+  if (!/^https?:\/\/\S+$/i.test(value) || !URL.canParse(value)) return value;
+  return element("a", { href: value, rel: "noopener noreferrer external" }, value);
+}
+
+function measured(value) {
+  if (value === null) return "–";
+  const rounded = Number(value.toPrecision(DIGITS));
+  if (rounded !== 0 && (Math.abs(rounded) < 1e-3 || Math.abs(rounded) >= 1e7)) return rounded.toExponential().replace("-", "−");
+  const [whole, ...parts] = String(rounded).split(".");
+  return [grouped(Number(whole)), ...parts].join(".");
+}

@@ -1,0 +1,243 @@
+// The histograms of a shape, one a feature, against those of its class and of all shapes.
+
+import { joinNames } from "../addresses/names.js";
+import { axisEnd } from "../bins-kit/bin-bars.js";
+import { percent } from "../bins-kit/bin-card.js";
+import { quantityInWords } from "../bins-kit/legend.js";
+import { dimensionOf } from "../bins-kit/look.js";
+import { element } from "../base/dom.js";
+import { shortened } from "../base/words.js";
+import { hue } from "./hue.js";
+import { kind } from "./kind.js";
+import { whole } from "./similar-shapes.js";
+
+const LONGEST = 90;
+/** Below so much of the axis, half a class or database is a line. */
+const FLAT = 0.02;
+
+export class Histograms {
+  /** `dimensions` are those of the chunk "selection": what each measures, and where its bins end. */
+  constructor(model, bins, state, { spread, dimensions, card }) {
+    Object.assign(this, { model, bins, state, spread, dimensions, card });
+    this.section = document.getElementById("histograms");
+    this.grid = document.getElementById("histogram-grid");
+    this.panels = bins.features.map((_, feature) => {
+      const panel = element("figure", { class: "histogram" });
+      this.grid.append(panel);
+      return { feature, panel };
+    });
+    state.listen((changed) => {
+      if (["shape", "parts", "theme"].some((name) => changed.has(name))) this.render();
+      else if (changed.has("bin")) this.#mark();
+    });
+  }
+
+  render() {
+    const shape = this.state.get("shape");
+    if (shape === null) return;
+    document.getElementById("histogram-key").replaceChildren(...this.#key(shape));
+    for (const { feature, panel } of this.panels) this.#fill(panel, feature, shape);
+    this.#mark();
+  }
+
+  /** The dimension of a feature that is shown: the one that was chosen, else the one in which the shape stands out most. */
+  partOf(feature, shape) {
+    const { dimensions, name } = this.bins.features[feature];
+    if (dimensions === 1) return 0;
+    const start = `${joinNames([name])}[`;
+    const word = this.state.get("parts").split(" ").findLast((part) => part.startsWith(start));
+    const chosen = word === undefined ? NaN : Number(word.slice(start.length, -1));
+    return Number.isInteger(chosen) && chosen >= 0 && chosen < dimensions ? chosen : this.spread.mostUnusual(feature, shape);
+  }
+
+  /** What a column is of one shape and of those it is compared with, in words. */
+  tell(column, shape) {
+    const told = this.bins.isShare(column) ? percent : measured;
+    const fellows = this.spread.fellows(column, shape);
+    const all = this.spread.all(column);
+    const half = ({ low, high }) => (told(low) === told(high) ? told(low) : `${told(low)} to ${told(high)}`);
+    return {
+      own: told(this.bins.share(column, shape)),
+      fellows: fellows && half(fellows),
+      all: this.model.count > 1 ? half(all) : null,
+      rank: this.model.count > 1 ? `${whole(this.spread.rank(column, shape))} of all` : null,
+    };
+  }
+
+  /** What is in sight, bin by bin, for the tables: `[name, own, fellows, all]` each. */
+  rows() {
+    const shape = this.state.get("shape");
+    return this.bins.features.flatMap(({ start, bins: width }, feature) => {
+      const first = start + this.partOf(feature, shape) * width;
+      return Array.from({ length: width }, (_, place) => {
+        const { own, fellows, all } = this.tell(first + place, shape);
+        return [this.bins.names[first + place], own, fellows ?? "–", all ?? "–"];
+      });
+    });
+  }
+
+  #key(shape) {
+    const { model } = this;
+    const group = model.groups[shape];
+    const mark = (name, color) => {
+      const node = element("i", { class: `mark ${name}` });
+      if (color) node.style.borderColor = color;
+      return node;
+    };
+    return [
+      element("span", {}, mark("own"), "this shape"),
+      this.spread.fellows(0, shape) && element("span", {}, mark("fellows", model.color(group)), "the middle half of the others in ", element("bdi", {}, shortened(model.className(group), 40))),
+      model.count > 1 && element("span", {}, mark("all"), "the middle half of all shapes"),
+    ].filter(Boolean);
+  }
+
+  #fill(panel, feature, shape) {
+    const { bins } = this;
+    const { start, dimensions, bins: width, title, name } = bins.features[feature];
+    const part = this.partOf(feature, shape);
+    const columns = Array.from({ length: width }, (_, place) => start + part * width + place);
+    const focused = panel.contains(document.activeElement) ? document.activeElement.dataset : null;
+    panel.replaceChildren(
+      element(
+        "figcaption",
+        {},
+        element("h3", {}, hue(bins.colorOf(feature)), element("bdi", {}, shortened(title, 60)), title !== name && element("span", { class: "quiet" }, ` ${shortened(name, 16)}`)),
+        dimensions > 1 && this.#parts(feature, part),
+      ),
+      ...(width > 1 ? this.#bars(columns, shape) : this.#strip(columns[0], shape)),
+    );
+    if (focused?.column) panel.querySelector(`[data-column="${start + part * width + ((Number(focused.column) - start) % width)}"]`)?.focus({ preventScroll: true });
+    else if (focused?.part !== undefined) panel.querySelector("select").focus({ preventScroll: true });
+  }
+
+  /** A choice among the dimensions of a feature. */
+  #parts(feature, part) {
+    const { dimensions, name } = this.bins.features[feature];
+    const choice = element(
+      "select",
+      { "data-part": "", "aria-label": `Part of ${name}`, onchange: () => this.#choose(feature, Number(choice.value)) },
+      Array.from({ length: dimensions }, (_, dimension) => {
+        const quantity = this.#quantity(feature, dimension);
+        return element("option", { value: dimension }, `[${dimension}] ${shortened(quantity, LONGEST)}`);
+      }),
+    );
+    choice.value = part;
+    return choice;
+  }
+
+  #choose(feature, part) {
+    const name = joinNames([this.bins.features[feature].name]);
+    const others = this.state.get("parts").split(" ").filter((word) => word !== "" && !word.startsWith(`${name}[`));
+    this.state.set({ parts: [...others, `${name}[${part}]`].join(" ") });
+  }
+
+  #quantity(feature, dimension) {
+    const { start, bins: width } = this.bins.features[feature];
+    const place = dimensionOf(start + dimension * width, this.bins);
+    return place === null ? "a value that was brought along" : this.dimensions[place].quantity;
+  }
+
+  #bars(columns, shape) {
+    const { bins, spread, model } = this;
+    const group = model.groups[shape];
+    const own = columns.map((column) => bins.share(column, shape));
+    const fellows = columns.map((column) => spread.fellows(column, shape));
+    const all = columns.map((column) => spread.all(column));
+    const end = Math.min(axisEnd(Math.max(...own, ...fellows.map((band) => band?.high ?? 0), ...all.map(({ high }) => high))), 1);
+    const height = (value) => `${Math.min((100 * value) / end, 100)}%`;
+    const band = (name, { low, high }, color) => {
+      const node = element("i", { class: high - low < FLAT * end ? `${name} flat` : name });
+      node.style.bottom = height(low);
+      node.style.height = `max(${height(high - low)}, 2px)`;
+      if (color) node.style.borderColor = color;
+      return node;
+    };
+    const { quantity, unit, edges } = this.dimensions[dimensionOf(columns[0], bins)];
+    return [
+      element(
+        "div",
+        { class: "bars", role: "group", "aria-label": `${bins.names[columns[0]].split(":")[0]}: arrow keys go through its bins`, onkeydown: (event) => this.#walk(event) },
+        element("span", { class: "end", "aria-hidden": "true" }, percent(end)),
+        columns.map((column, place) => {
+          const bar = element("i", { class: "own" });
+          bar.style.height = height(own[place]);
+          bar.style.background = bins.color(column);
+          return this.#button(column, place === 0, shape, [model.count > 1 && band("all", all[place]), bar, fellows[place] && band("fellows", fellows[place], model.color(group))]);
+        }),
+      ),
+      element("div", { class: "ticks", "aria-hidden": "true" }, edges.slice(1, -1).map((edge) => element("span", {}, measured(edge)))),
+      element("p", { class: "quantity" }, quantityInWords(quantity, unit)),
+    ];
+  }
+
+  /** A value that was brought along, on the range that all shapes have. */
+  #strip(column, shape) {
+    const { bins, spread, model } = this;
+    const all = spread.all(column);
+    const fellows = spread.fellows(column, shape);
+    const across = (value) => `${all.most > all.least ? (100 * (value - all.least)) / (all.most - all.least) : 50}%`;
+    const band = (name, { low, high }, color) => {
+      const node = element("i", { class: name });
+      node.style.left = across(low);
+      node.style.width = `max(calc(${across(high)} - ${across(low)}), 2px)`;
+      if (color) node.style.borderColor = color;
+      return node;
+    };
+    const own = element("i", { class: "own" });
+    own.style.left = across(bins.share(column, shape));
+    own.style.background = bins.color(column);
+    return [
+      element("div", { class: "value-strip" }, this.#button(column, true, shape, [model.count > 1 && band("all", all), fellows && band("fellows", fellows, model.color(model.groups[shape])), own])),
+      element("div", { class: "strip-ends", "aria-hidden": "true" }, [all.least, all.most].map((value) => element("span", {}, measured(value)))),
+      element("p", { class: "quantity" }, "A feature that was brought along: its value, from the least to the most of all shapes"),
+    ];
+  }
+
+  #button(column, first, shape, content) {
+    const { bins } = this;
+    const show = (event) => this.card.show(column, this.tell(column, this.state.get("shape")), event.currentTarget);
+    const { own, fellows, all } = this.tell(column, shape);
+    const said = [`${bins.names[column]}: this shape ${own}`, fellows && `others of its ${kind(this.model)} ${fellows}`, all && `all shapes ${all}`].filter(Boolean).join(", ");
+    return element(
+      "button",
+      {
+        type: "button",
+        class: "of-bin-button",
+        tabindex: first ? "0" : "-1",
+        "data-column": column,
+        "aria-label": said,
+        onclick: () => this.state.set({ bin: this.state.get("bin") === bins.names[column] ? null : bins.names[column] }),
+        onpointerenter: (event) => event.pointerType === "mouse" && show(event),
+        onpointerleave: () => this.card.hide(),
+        onfocus: (event) => {
+          this.#makeStop(event.currentTarget);
+          if (event.currentTarget.matches(":focus-visible")) show(event);
+        },
+        onblur: () => this.card.hide(),
+      },
+      content,
+    );
+  }
+
+  #makeStop(button) {
+    for (const other of button.parentElement.querySelectorAll("button")) other.tabIndex = other === button ? 0 : -1;
+  }
+
+  #walk(event) {
+    const steps = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
+    if (!(event.key in steps)) return;
+    event.preventDefault();
+    const buttons = [...event.currentTarget.querySelectorAll("button")];
+    const next = buttons.indexOf(document.activeElement) + steps[event.key];
+    buttons[Math.min(Math.max(next, 0), buttons.length - 1)].focus();
+  }
+
+  #mark() {
+    const column = this.bins.names.indexOf(this.state.get("bin"));
+    for (const button of this.grid.querySelectorAll("button")) button.setAttribute("aria-pressed", String(Number(button.dataset.column) === column));
+  }
+}
+
+export function measured(value) {
+  return String(Number(value.toPrecision(3))).replace("-", "−");
+}

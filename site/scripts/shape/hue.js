@@ -1,0 +1,9 @@
+// The mark of a feature.
+
+import { element } from "../base/dom.js";
+
+export function hue(color) {
+  const mark = element("i", { class: "hued", "aria-hidden": "true" });
+  mark.style.background = color;
+  return mark;
+}

@@ -1,0 +1,37 @@
+// Links from the page of a shape to those of others. They keep what the page shows otherwise, so they follow it.
+
+import { element, picture } from "../base/dom.js";
+import { shapeAddress } from "../addresses/shape.js";
+
+export class ShapeLinks {
+  /** `opened` is told when a reader follows one within this window. */
+  constructor(model, state, { opened }) {
+    Object.assign(this, { model, state });
+    state.listen((changed) => {
+      if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name))) this.#follow();
+    });
+    document.getElementById("content").addEventListener("click", (event) => {
+      if (event.target.closest("a[data-shape]") && !event.ctrlKey && !event.metaKey && !event.shiftKey) opened();
+    });
+  }
+
+  #follow() {
+    for (const link of document.querySelectorAll("a[data-shape]")) link.href = shapeAddress(this.model, this.state, Number(link.dataset.shape));
+  }
+
+  link(shape, attributes, ...children) {
+    return element("a", { href: shapeAddress(this.model, this.state, shape), "data-shape": shape, ...attributes }, children);
+  }
+
+  /** A shape as a picture, underlined where it is a stranger. */
+  pictured(shape, size, { stranger = false, ...attributes } = {}) {
+    const { model } = this;
+    const group = model.groups[shape];
+    const words = model.labelled ? [model.names[shape], model.className(group)] : [model.names[shape]];
+    return this.link(
+      shape,
+      { class: stranger ? "shape stranger" : "shape", "aria-label": words.join(", "), title: words.join("\n"), ...attributes },
+      picture(model, shape, size),
+    );
+  }
+}

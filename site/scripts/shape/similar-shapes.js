@@ -1,0 +1,162 @@
+// The shapes most similar to this one under any choice of features or bins, each with what makes the two alike.
+
+import { compareAddress } from "../addresses/compare.js";
+import { element, swatch } from "../base/dom.js";
+import { pageAddress } from "../base/place.js";
+import { writeSelection } from "../database/selection.js";
+import { count, figure, shortened } from "../base/words.js";
+import { hue } from "./hue.js";
+import { kind } from "./kind.js";
+
+const FIRST = 12;
+const MOST = 48;
+const MOST_NAMED = 4;
+
+export class SimilarShapes {
+  constructor(model, bins, state, { links, comparison, similarity }) {
+    Object.assign(this, { model, bins, state, links, comparison, similarity });
+    this.section = document.getElementById("similar");
+    this.chips = document.getElementById("compared");
+    this.list = document.getElementById("similar-list");
+    this.shown = FIRST;
+    this.more = document.getElementById("similar-more");
+    this.more.addEventListener("click", () => {
+      const first = this.shown;
+      this.shown = Math.min(2 * this.shown, MOST);
+      this.render();
+      this.list.children[first]?.querySelector("a").focus();
+    });
+    state.listen((changed) => {
+      if (changed.has("shape")) this.shown = FIRST;
+      if (changed.has("theme")) this.buttons = null;
+      if (["shape", "features", "bins", "theme"].some((name) => changed.has(name))) this.render();
+    });
+  }
+
+  /** The similar shapes as `Similarity.rank` gives them. */
+  found = [];
+
+  render() {
+    const { model, state } = this;
+    const shape = state.get("shape");
+    this.section.hidden = shape === null || model.count === 1;
+    if (this.section.hidden) return;
+    const { choice } = this.comparison;
+    this.found = this.similarity.rank(shape, choice, this.shown);
+    this.#offer();
+    document.getElementById("similar-words").replaceChildren(...this.#tell(shape, choice));
+    this.list.replaceChildren(...this.found.map((found) => this.#card(shape, found)));
+    this.more.hidden = this.shown >= MOST || this.found.length < this.shown;
+    document.getElementById("similar-on-map").href = this.#together(shape, "index.html");
+  }
+
+  /** What can be compared, to choose from. A press must not lose the focus, so chips stay the same elements. */
+  #offer() {
+    if (this.buttons === null) this.chips.replaceChildren(...this.#chips().map(({ node }) => node));
+    for (const { node, pressed } of this.buttons) node.setAttribute("aria-pressed", String(pressed()));
+  }
+
+  buttons = null;
+
+  #chips() {
+    const { comparison, bins } = this;
+    this.buttons = [
+      this.#chip([`All ${count(bins.features.length, "feature")}`], () => comparison.compareAll(), null, () => comparison.everything),
+      ...bins.features.map(({ title }, feature) =>
+        this.#chip(
+          [hue(bins.colorOf(feature)), element("bdi", {}, shortened(bins.features[feature].name, 24))],
+          () => comparison.toggle(feature),
+          title,
+          () => !comparison.everything && comparison.choice.features?.includes(feature) === true,
+        ),
+      ),
+      ...comparison.sets.map(({ columns, words, title }) =>
+        this.#chip([words], () => comparison.compareBins(columns), title, () => same(comparison.choice.columns, columns)),
+      ),
+    ];
+    return this.buttons;
+  }
+
+  #chip(content, onclick, title, pressed) {
+    return { node: element("button", { type: "button", class: "compared", title, onclick }, content), pressed };
+  }
+
+  #tell(shape, choice) {
+    const { model, bins, found } = this;
+    const own = model.groups[shape];
+    const words = [];
+    if (choice.columns) {
+      const names = choice.columns.slice(0, MOST_NAMED).map((column) => bins.names[column]);
+      words.push("Compared by ", element("bdi", {}, names.join(", ")), choice.columns.length > MOST_NAMED ? ` and ${choice.columns.length - MOST_NAMED} more bins. ` : ". ");
+    }
+    if (own >= 0 && model.separable) {
+      const fellows = found.filter(({ row }) => model.groups[row] === own).length;
+      words.push(element("b", {}, `${fellows} of these ${found.length}`), ` are of its ${kind(model)}. `);
+    }
+    return [...words, `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. Bars and percentages say how many of all shapes are farther away in one feature alone: 100 % means that no shape is more alike in it.`];
+  }
+
+  #card(shape, { row, distance, closer }) {
+    const { model } = this;
+    const [own, group] = [model.groups[shape], model.groups[row]];
+    const differ = own >= 0 && group >= 0 && own !== group;
+    return element(
+      "li",
+      { class: "similar" },
+      this.links.pictured(row, 128, { stranger: own >= 0 && group !== own, tabindex: "-1", "aria-hidden": "true" }),
+      element(
+        "div",
+        {},
+        element("p", { class: "name", dir: "auto" }, this.links.link(row, {}, shortened(model.names[row], 60))),
+        model.labelled && element("p", { class: "class-of" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, shortened(model.className(group), 40))),
+        element("p", { class: "quiet" }, `distance ${figure(distance)}`),
+        this.#bars(closer),
+        element("p", { class: "why" }, this.#reasons(closer)),
+        differ && element("p", {}, element("a", { href: compareAddress(model, { kind: "class", group: own }, { kind: "class", group }) }, `Compare ${model.data.standIn ? "clusters" : "classes"}`)),
+      ),
+    );
+  }
+
+  #bars(closer) {
+    const { bins } = this;
+    return element(
+      "div",
+      { class: "alike", "aria-hidden": "true" },
+      closer.map((share, feature) => {
+        const bar = element("i", {});
+        bar.style.height = `${100 * share}%`;
+        bar.style.background = bins.colorOf(feature);
+        return element("span", { title: `${bins.features[feature].name}: nearer than ${whole(share)} of all shapes` }, bar);
+      }),
+    );
+  }
+
+  /** The features in which two are most and least alike, in words. */
+  #reasons(closer) {
+    const { features } = this.bins;
+    const name = (feature) => element("bdi", {}, shortened(features[feature].name, 24));
+    const order = [...closer.keys()].sort((a, b) => closer[b] - closer[a] || a - b);
+    const [first, second] = order;
+    const words = ["Alike in ", name(first), ` ${whole(closer[first])}`];
+    if (order.length > 2) words.push(", ", name(second), ` ${whole(closer[second])}`);
+    if (order.length > 1) words.push("; least in ", name(order.at(-1)), ` ${whole(closer[order.at(-1)])}`);
+    return words;
+  }
+
+  /** This shape and those found, selected on another page. */
+  #together(shape, file) {
+    const query = new URLSearchParams();
+    writeSelection(query, this.model, new Set([shape, ...this.found.map(({ row }) => row)]));
+    return pageAddress(file, query);
+  }
+}
+
+/** A share in whole percent; all and nothing only where it is just that. */
+export function whole(share) {
+  const percent = Math.round(100 * share);
+  return `${share < 1 ? Math.min(percent, 99) : 100}\u00a0%`;
+}
+
+function same(one, other) {
+  return one?.join() === [...other].sort((a, b) => a - b).join();
+}

@@ -1,0 +1,76 @@
+// In which order, and in which groups, the shapes that passed stand.
+
+import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
+import { interval } from "./sieve.js";
+
+export class Arrangement {
+  #orders = new Map();
+
+  constructor(model, fields) {
+    this.model = model;
+    this.fields = fields;
+  }
+
+  /**
+   * Groups of shapes `{ key, title, note, group, rows }` in their order; one without a title where they are not
+   * grouped. `key` names the group among the others in an address, `group` is its class where it is one.
+   */
+  arrange(passes, { group, sort, down }) {
+    const order = this.#order(sort, down);
+    const field = this.fields.byKey.get(group);
+    if (!field) return [{ key: "", title: null, group: null, note: "", rows: order.filter(passes) }];
+    const { count, of, describe } = grouping(field);
+    const rows = Array.from({ length: count + 1 }, () => []);
+    for (const row of order) {
+      if (!passes(row)) continue;
+      const value = of(row);
+      rows[value < 0 ? count : value].push(row);
+    }
+    return rows.map((members, value) => ({ ...describe(value === count ? NONE : value), rows: members })).filter((found) => found.rows.length > 0);
+  }
+
+  #order(sort, down) {
+    const key = `${down} ${sort}`;
+    if (!this.#orders.has(key)) this.#orders.set(key, Int32Array.from(sorted(this.fields, sort, down)));
+    return this.#orders.get(key);
+  }
+}
+
+/** All rows in an order; those without a value come last either way, equal ones by name. */
+function sorted({ byKey, byName }, sort, down) {
+  const field = byKey.get(sort);
+  if (!field) return down ? [...byName].reverse() : byName;
+  const values = field.numbers ?? field.of.map((value) => (value < 0 ? null : value));
+  const sign = down ? -1 : 1;
+  // Sorting keeps the order of equals.
+  return [...byName].sort((a, b) => {
+    if (values[a] === null || values[b] === null) return (values[a] === null) - (values[b] === null);
+    return sign * (values[a] - values[b]);
+  });
+}
+
+function grouping(field) {
+  if (field.names !== null) {
+    return {
+      count: field.names.length,
+      of: (row) => field.of[row],
+      describe: (value) => ({
+        key: value < 0 ? "" : `=${field.names[value]}`,
+        title: valueName(field, value),
+        group: groupOf(field, value),
+        note: field.notes?.[value] ?? "",
+      }),
+    };
+  }
+  const { edges, numbers } = field;
+  return {
+    count: edges.length - 1,
+    of: (row) => (numbers[row] === null ? NONE : interval(edges, numbers[row])),
+    describe: (value) => ({
+      key: value < 0 ? "" : `=${edges[value]}`,
+      title: value < 0 ? `no ${field.title}` : `${numberText(edges[value])} to ${numberText(edges[value + 1])}`,
+      group: null,
+      note: "",
+    }),
+  };
+}

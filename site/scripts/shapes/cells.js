@@ -1,0 +1,77 @@
+// One shape of the gallery, and the head of a group.
+
+import { element, swatch } from "../base/dom.js";
+import { ofAtMost } from "../database/hit-range.js";
+import { pageAddress } from "../base/place.js";
+import { count } from "../base/words.js";
+import { numberText, valueName } from "../database/fields.js";
+
+/** Makes the cells; knows what stands below a picture while shapes are grouped and sorted as they are. */
+export class Cells {
+  constructor(model, fields, { group, sort }) {
+    this.model = model;
+    this.active = fields.active;
+    this.sorted = fields.byKey.get(sort) ?? null;
+    // What a shape has in common with all around it need not be said.
+    this.showsClass = model.labelled && this.active !== null && group !== this.active.key;
+    this.showsNumber = this.sorted !== null && !this.sorted.active;
+    this.lines = 1 + (this.showsClass || this.showsNumber ? 1 : 0);
+  }
+
+  shape(row, selected) {
+    const { model } = this;
+    const name = model.names[row];
+    const said = [name, model.labelled && valueName(this.active, this.active.of[row]), this.showsNumber && this.#number(row)];
+    return element(
+      "div",
+      { class: "cell", role: "gridcell", "data-row": row, "aria-selected": String(selected) },
+      element(
+        "a",
+        { href: pageAddress("shape.html", { id: model.ids[row] }), tabindex: "-1", draggable: "false", title: name, "aria-label": said.filter(Boolean).join(", ") },
+        // Its source follows when the shape stays in sight.
+        element("img", { alt: "", decoding: "async", draggable: "false" }),
+        element("span", { class: "name", dir: "auto" }, name),
+        this.lines > 1 && element("span", { class: "beside", dir: "auto" }, this.#beside(row)),
+      ),
+      tick(`Select ${name}`, selected),
+    );
+  }
+
+  #beside(row) {
+    if (this.showsNumber) return this.#number(row);
+    const { model, active } = this;
+    return [swatch(model.symbol(model.groups[row]), model.color(model.groups[row])), valueName(active, active.of[row])];
+  }
+
+  #number(row) {
+    const { numbers, hit, highest } = this.sorted;
+    return `${hit ? "NH" : this.sorted.title} ${numberText(numbers[row], this.sorted)}${hit ? ofAtMost(highest(row)) : ""}`;
+  }
+
+  /** The head of a group; a click on it folds the group. */
+  head({ key, title, note, group, rows }, folded) {
+    const { model } = this;
+    return [
+      element(
+        "div",
+        { role: "gridcell", class: "fold-cell" },
+        element(
+          "button",
+          { type: "button", class: "fold", tabindex: "-1", "data-group": key, "aria-expanded": String(!folded) },
+          element("span", { class: "chevron", "aria-hidden": "true" }),
+          group !== null && swatch(model.symbol(group), model.color(group)),
+          element("bdi", { class: "group-name" }, title),
+          element("span", { class: "size" }, count(rows.length, "shape")),
+        ),
+        note !== "" && element("span", { class: "note", title: note }, note),
+      ),
+      element("div", { role: "gridcell" }, tick(`Select all ${count(rows.length, "shape")} of ${title}`, false)),
+    ];
+  }
+}
+
+function tick(label, checked) {
+  const box = element("input", { type: "checkbox", class: "tick", tabindex: "-1", "aria-label": label });
+  box.checked = checked;
+  return box;
+}

@@ -1,0 +1,107 @@
+// Which shapes pass the reader's filters, and how many would pass others.
+
+import { NONE } from "../database/fields.js";
+
+export class Sieve {
+  #failing = new WeakMap();
+
+  constructor(model, fields) {
+    this.model = model;
+    this.fields = fields;
+    this.everything = new Uint8Array(model.count);
+    this.conditions = new Map();
+    this.failures = this.everything;
+    this.size = model.count;
+  }
+
+  /**
+   * Sift the shapes: `matches` (of the search) and `only` are sets of shapes or null, `filters` a map from the key of a field to a set of values
+   * (or nodes), or to a range `{ low, high }`. Both are never changed, only replaced.
+   */
+  sift(matches, only, filters) {
+    this.conditions = new Map();
+    for (const [key, shapes] of [["search", matches], ["only", only]]) {
+      if (shapes !== null) this.conditions.set(key, this.#of(shapes, () => (row) => shapes.has(row)));
+    }
+    for (const [key, filter] of filters) this.conditions.set(key, this.#of(filter, () => passing(this.fields.byKey.get(key), filter)));
+    this.failures = this.everything;
+    if (this.conditions.size > 0) {
+      this.failures = new Uint8Array(this.model.count);
+      for (const failing of this.conditions.values()) for (let row = 0; row < failing.length; row += 1) this.failures[row] += failing[row];
+    }
+    this.size = this.#remaining(this.everything);
+  }
+
+  // Filters are never changed, so what one lets pass is found once.
+  #of(filter, make) {
+    if (!this.#failing.has(filter)) {
+      const passes = make();
+      this.#failing.set(filter, Uint8Array.from({ length: this.model.count }, (_, row) => (passes(row) ? 0 : 1)));
+    }
+    return this.#failing.get(filter);
+  }
+
+  passes(row) {
+    return this.failures[row] === 0;
+  }
+
+  /** How many shapes there would be without one condition, by its key. */
+  without(key) {
+    return this.#remaining(this.conditions.get(key) ?? this.everything);
+  }
+
+  #remaining(own) {
+    let size = 0;
+    for (let row = 0; row < own.length; row += 1) size += this.failures[row] === own[row] ? 1 : 0;
+    return size;
+  }
+
+  /** How many of the shapes that pass all other filters have each value of a field; those without one come last. */
+  counts({ key, names, of }) {
+    const counts = new Int32Array(names.length + 1);
+    this.#each(key, (row) => {
+      counts[of[row] < 0 ? names.length : of[row]] += 1;
+    });
+    return counts;
+  }
+
+  /** The same for the nodes of a tree with all below them. */
+  countsOfTree({ key, tree: { nodes, of } }) {
+    const counts = this.counts({ key, names: nodes, of });
+    for (let node = nodes.length - 1; node >= 0; node -= 1) if (nodes[node].parent >= 0) counts[nodes[node].parent] += counts[node];
+    return counts;
+  }
+
+  /** The same for the intervals of a field of numbers. */
+  countsOfIntervals({ key, numbers, edges }) {
+    const counts = new Int32Array(edges.length - 1);
+    this.#each(key, (row) => {
+      if (numbers[row] !== null) counts[interval(edges, numbers[row])] += 1;
+    });
+    return counts;
+  }
+
+  #each(key, visit) {
+    const own = this.conditions.get(key) ?? this.everything;
+    for (let row = 0; row < own.length; row += 1) if (this.failures[row] === own[row]) visit(row);
+  }
+}
+
+/** The interval that a number lies in; the last one holds its upper edge too. */
+export function interval(edges, number) {
+  let [low, high] = [0, edges.length - 2];
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (edges[middle] <= number) low = middle;
+    else high = middle - 1;
+  }
+  return low;
+}
+
+function passing({ tree, of, numbers }, filter) {
+  if (!(filter instanceof Set)) return (row) => numbers[row] !== null && numbers[row] >= filter.low && numbers[row] <= filter.high;
+  if (tree === null) return (row) => filter.has(of[row]);
+  const under = new Set(filter);
+  for (const [node, { parent }] of tree.nodes.entries()) if (under.has(parent) && parent !== NONE) under.add(node);
+  return (row) => under.has(tree.of[row]);
+}

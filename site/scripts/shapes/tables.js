@@ -1,0 +1,38 @@
+// The gallery as tables: the shapes that are shown, and how many there are of each value and in each interval.
+
+import { table } from "../base/tables.js";
+import { count, grouped } from "../base/words.js";
+import { NONE, numberText, valueName } from "../database/fields.js";
+
+const MOST_SHAPES = 200;
+const MOST_VALUES = 100;
+
+export function galleryTables(model, fields, sieve, groups) {
+  const rows = groups.flatMap((group) => [...group.rows]);
+  const title = rows.length > MOST_SHAPES ? `The first ${MOST_SHAPES} of ${count(rows.length, "shape")}` : "Shapes";
+  const columns = fields.all.filter(({ numbers, names, active }) => active || numbers !== null || names !== null);
+  const shapes = rows.slice(0, MOST_SHAPES).map((row) => [model.names[row], model.ids[row], ...columns.map((field) => cell(field, row))]);
+  return {
+    title: `${grouped(sieve.size)} of ${count(model.count, "shape")}`,
+    tables: [
+      table(title, ["Name", "Id", ...columns.map((field) => field.title)], shapes),
+      ...fields.filters.filter(({ names, edges }) => names !== null || edges !== null).map((field) => table(field.title, [field.title, "Shapes"], counted(field, sieve))),
+    ],
+  };
+}
+
+function cell(field, row) {
+  if (field.numbers !== null) return numberText(field.numbers[row], field);
+  return field.of[row] === NONE ? "–" : field.names[field.of[row]];
+}
+
+function counted(field, sieve) {
+  if (field.edges !== null) {
+    const counts = sieve.countsOfIntervals(field);
+    return [...counts].map((number, place) => [`${numberText(field.edges[place], field)} to ${numberText(field.edges[place + 1], field)}`, grouped(number)]);
+  }
+  const counts = sieve.counts(field);
+  const values = [...field.names.keys()].filter((value) => counts[value] > 0).slice(0, MOST_VALUES);
+  if (counts.at(NONE) > 0) values.push(NONE);
+  return values.map((value) => [valueName(field, value), grouped(counts.at(value))]);
+}

@@ -1,0 +1,156 @@
+// The selected shapes as pictures, the same on every page: to look through, take to another page, export, or drop.
+
+import { compareAddress } from "../addresses/compare.js";
+import { element, picture, swatch } from "../base/dom.js";
+import { saveCsv, saveJson } from "./export.js";
+import { galleryOf } from "../addresses/shapes.js";
+import { pageAddress } from "../base/place.js";
+import { writeSelection } from "../database/selection.js";
+import { count, shortened } from "../base/words.js";
+
+const PAGE = 200;
+const MOST_CLASSES = 8;
+
+export class Tray {
+  /**
+   * `open` is called with the shape whose picture is clicked, `point` with the one under the pointer, or null. `hint` is
+   * said while nothing is selected; without one the tray is then not there. `cover` is told how many pixels of what is
+   * above it the tray covers.
+   */
+  constructor(model, state, { open, point = () => {}, hint = null, cover = () => {} }) {
+    Object.assign(this, { model, state, open, point, hint, cover });
+    this.node = document.getElementById("tray");
+    this.here = document.body.className;
+    state.listen((changed) => {
+      if (["selection", "brushing", "theme"].some((name) => changed.has(name))) this.#fillSoon();
+      if (changed.has("opened")) this.#markOpened();
+    });
+    this.overlap = 0;
+    this.#fill();
+  }
+
+  #pending = null;
+
+  // A brush changes the selection with every movement of the pointer; once a frame is enough.
+  #fillSoon() {
+    this.#pending ??= requestAnimationFrame(() => {
+      this.#pending = null;
+      this.#fill();
+    });
+  }
+
+  #fill() {
+    const selection = this.state.get("selection");
+    // The tray unfolds when the brush is let go, not under it.
+    const unfolded = selection.size > 0 && !this.state.get("brushing");
+    this.node.classList.toggle("filled", unfolded);
+    this.node.hidden = selection.size === 0 && this.hint === null;
+    if (selection.size === 0) this.node.replaceChildren(element("p", { class: "hint" }, this.hint ?? ""));
+    else if (!unfolded) this.node.replaceChildren(this.#head(selection));
+    else this.node.replaceChildren(this.#head(selection), this.#strip(this.#sorted(selection)));
+    const overlap = unfolded ? Math.max(-parseFloat(getComputedStyle(this.node).marginTop), 0) : 0;
+    if (overlap !== this.overlap) this.cover(overlap);
+    this.overlap = overlap;
+    this.node.parentElement.style.setProperty("--covered", `${overlap}px`);
+    this.#markOpened();
+  }
+
+  /** Class by class. */
+  #sorted(selection) {
+    const { groups } = this.model;
+    return [...selection].sort((a, b) => groups[a] - groups[b] || a - b);
+  }
+
+  #head(selection) {
+    const { model } = this;
+    const census = model.census(selection);
+    const save = (name, to) => element("button", { type: "button", class: "plain", title: `Save the selection as a ${name} file`, onclick: () => to(model, this.#sorted(selection)) }, name);
+    return element(
+      "div",
+      { class: "tray-head" },
+      element("h2", {}, `${count(selection.size, "shape")} selected`),
+      model.labelled && element(
+        "p",
+        { class: "census" },
+        census.slice(0, MOST_CLASSES).map(([group, number]) => element("span", {}, swatch(model.symbol(group), model.color(group)), `${shortened(model.className(group), 20)} `, element("b", {}, String(number)))),
+        census.length > MOST_CLASSES && element("span", {}, `and ${census.length - MOST_CLASSES} more`),
+      ),
+      element(
+        "div",
+        { class: "tray-ways" },
+        this.#links(selection).map(([words, address]) => element("a", { href: address }, words)),
+        save("CSV", saveCsv),
+        save("JSON", saveJson),
+        element("button", { type: "button", class: "plain", onclick: () => this.state.set({ selection: new Set() }) }, "Clear"),
+      ),
+    );
+  }
+
+  /** Where else these shapes can be looked at. */
+  #links(selection) {
+    const { model, here } = this;
+    const query = new URLSearchParams();
+    writeSelection(query, model, selection);
+    const rest = selection.size < model.count;
+    return [
+      here !== "page-shapes" && ["Open in Shapes", galleryOf(model, selection)],
+      here !== "page-overview" && ["Show on the map", pageAddress("index.html", query)],
+      here !== "page-compare" && rest && ["Compare with the rest", compareAddress(model, { kind: "shapes", shapes: selection }, { kind: "rest" })],
+    ].filter(Boolean);
+  }
+
+  #strip(chosen) {
+    const strip = element("div", { class: "strip", role: "group", "aria-label": "Selected shapes; arrow keys go through them", onkeydown: (event) => this.#key(event) });
+    const more = element("button", { type: "button", class: "plain more" });
+    let shown = 0;
+    const extend = () => {
+      const next = chosen.slice(shown, shown + PAGE);
+      more.before(...next.map((index) => this.#item(index)));
+      shown += next.length;
+      more.hidden = shown >= chosen.length;
+      more.textContent = `${chosen.length - shown} more`;
+    };
+    more.addEventListener("click", extend);
+    strip.append(more);
+    extend();
+    strip.firstElementChild.tabIndex = 0;
+    return strip;
+  }
+
+  #item(index) {
+    const { model } = this;
+    const name = model.labelled ? `${model.names[index]}, ${model.className(model.groups[index])}` : model.names[index];
+    return element(
+      "button",
+      {
+        type: "button",
+        class: "shape",
+        tabindex: "-1",
+        "data-index": index,
+        "aria-label": name,
+        title: name,
+        onclick: () => this.open(index),
+        onpointerenter: () => this.point(index),
+        onpointerleave: () => this.point(null),
+      },
+      picture(model, index, 72),
+    );
+  }
+
+  #key(event) {
+    const steps = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
+    if (!(event.key in steps)) return;
+    event.preventDefault();
+    const items = [...event.currentTarget.querySelectorAll(".shape")];
+    const here = items.indexOf(document.activeElement);
+    const next = Math.min(Math.max(here + steps[event.key], 0), items.length - 1);
+    for (const item of items) item.tabIndex = -1;
+    items[next].tabIndex = 0;
+    items[next].focus();
+  }
+
+  #markOpened() {
+    const opened = String(this.state.get("opened"));
+    for (const item of this.node.querySelectorAll(".shape")) item.classList.toggle("opened", item.dataset.index === opened);
+  }
+}

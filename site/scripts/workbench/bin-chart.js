@@ -1,0 +1,402 @@
+// Fig. 5, view 3: a bar a bin, the chosen ones first with a blue border; find bins by name, choose them one by one,
+// by range, or the best ones.
+
+import { BinGestures } from "./bin-gestures.js";
+import { ranked } from "../bins-kit/bin-list.js";
+import { BinPlot } from "./bin-plot.js";
+import { element } from "../base/dom.js";
+import { count, figure, grouped, shortened } from "../base/words.js";
+
+const QUICK = [5, 10, 30];
+const ORDERS = {
+  score: ["By score", "The best bins first"],
+  feature: ["By feature", "The bins of each feature together, its best first"],
+};
+
+export class BinChart {
+  /**
+   * `bins` is a `Bins`. The chart keeps no choice of its own: it asks with `onToggle(column)`, `onRange(columns)` to
+   * add several and `onRemove(columns)`, and is told by `draw`. `onPoint(column, box)` says which bar is pointed at and
+   * where it stands in the window, for the card; `onPoint(null)` that none is.
+   */
+  constructor(node, bins, { onToggle, onRange, onRemove, onPoint, announce }) {
+    Object.assign(this, { node, bins, onToggle, onRange, onRemove, onPoint, announce });
+    this.plot = new BinPlot(bins);
+    this.scores = null;
+    this.chosen = new Set();
+    this.emphasised = null;
+    this.found = null;
+    this.order = "score";
+    this.ranking = new Int32Array();
+    this.rankOf = new Int32Array(bins.count);
+    this.pointed = null;
+    this.range = null;
+    this.#build();
+    this.gestures = new BinGestures(this.plot, this);
+    this.plot.start();
+  }
+
+  // Where the arrow keys go on from a bin that has just moved away.
+  #beside = null;
+
+  #build() {
+    const { plot } = this;
+    const button = (words, title, onclick) => element("button", { type: "button", class: "plain", title, onclick }, words);
+    this.closer = button("", "Show the first bars with their names", () => plot.lookClose());
+    this.reading = element("p", { class: "reading" });
+    this.key = element("p", { class: "key" });
+    this.node.classList.add("bin-chart");
+    this.node.replaceChildren(
+      element(
+        "div",
+        { class: "bin-tools" },
+        this.#searchTools(),
+        radios("Order of the bars", "bin-order", ORDERS, this.order, (order) => {
+          this.order = order;
+          this.#arrange();
+        }),
+        element(
+          "div",
+          { class: "bin-zoom", role: "group", "aria-label": "Zoom" },
+          button("−", "Zoom out (−)", () => plot.zoom(1 / 2)),
+          button("+", "Zoom in (+)", () => plot.zoom(2)),
+          this.closer,
+          button("All", "Show all bars (0)", () => plot.lookAtAll()),
+        ),
+      ),
+      element("div", { class: "bin-tools" }, this.reading, this.#choiceTools()),
+      plot.node,
+      this.key,
+      element(
+        "p",
+        { id: "bin-keys", class: "unseen" },
+        "Arrow keys go from bar to bar, Page Up and Page Down further, Home and End to the first and the last. Space or Enter chooses a bin, or gives it up. Shift with arrow keys marks a range, which Enter adds and Delete removes. Plus and minus zoom, zero shows all, Escape lets go.",
+      ),
+    );
+  }
+
+  #searchTools() {
+    const { bins } = this;
+    const examples = [shortened(bins.features[0].name, 12), bins.shortName(bins.count - 1, 16)];
+    this.field = element("input", {
+      type: "search",
+      id: "bin-search",
+      placeholder: `Find bins: ${examples.join(", ")}`,
+      title: "Enter goes from match to match",
+      "aria-label": "Find bins by name",
+      autocomplete: "off",
+      spellcheck: "false",
+      oninput: () => this.#search(),
+      onkeydown: (event) => this.#searchKey(event),
+      onblur: () => this.point(null),
+    });
+    this.finding = element("span", { class: "finding" });
+    this.take = element("button", { type: "button", class: "plain", id: "bin-take", hidden: true, onclick: () => this.apply(this.#matches()) });
+    return element("div", { class: "search", role: "search" }, this.field, this.finding, this.take);
+  }
+
+  #choiceTools() {
+    const action = (id, onclick) => element("button", { type: "button", class: "plain", id, onclick });
+    this.number = element("input", { type: "number", id: "bin-number", min: 1, max: this.bins.count, value: 10, "aria-label": "How many bins", oninput: () => this.#offer() });
+    const quick = QUICK.map((number) =>
+      element(
+        "button",
+        {
+          type: "button",
+          class: "plain",
+          "data-number": number,
+          "aria-label": `${number} bins`,
+          onclick: () => {
+            this.number.value = number;
+            this.#offer();
+          },
+        },
+        String(number),
+      ),
+    );
+    this.numbers = element("div", { class: "numbers" }, quick, this.number);
+    this.add = action("bin-add", () => this.#add(this.#best()));
+    this.remove = action("bin-remove", () => this.giveUp(this.#weakest()));
+    this.clear = action("bin-clear", () => this.giveUp([...this.chosen]));
+    return element("div", { class: "bin-best", role: "group", "aria-label": "Choose bins by score" }, this.numbers, this.add, this.remove, this.clear);
+  }
+
+  /**
+   * Show scores and a choice. `scores` has a relative score a column, NaN for columns that are not in use; `matched`
+   * are columns that something else on the page points at; `separation` says in words what the scores separate.
+   */
+  draw({ scores, chosen, busy = false, matched = null, separation = null }) {
+    const arranged = scores !== this.scores || chosen !== this.chosen;
+    if (scores !== this.scores) {
+      this.ranking = ranked(scores);
+      this.rankOf.fill(0);
+      this.ranking.forEach((column, place) => (this.rankOf[column] = place + 1));
+    }
+    Object.assign(this, { scores, chosen, emphasised: matched, separation });
+    this.plot.surface.setAttribute("aria-busy", String(busy));
+    this.node.classList.toggle("busy", busy);
+    if (arranged) this.#arrange();
+    else this.#match();
+  }
+
+  /** Take the colours of the theme in use. */
+  start() {
+    this.plot.start();
+    this.#read();
+  }
+
+  resize() {
+    this.plot.resize();
+    this.#offer();
+  }
+
+  /** Put the bars into their order, the chosen first. */
+  #arrange() {
+    const { chosen, ranking } = this;
+    const groups = Array.from({ length: 2 * this.bins.features.length }, () => []);
+    for (const column of ranking) groups[(this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(column);
+    const places = Int32Array.from(groups.flat());
+    this.mark(null);
+    this.plot.show({ scores: this.scores, chosen, places });
+    if (this.pointed !== null && this.rankOf[this.pointed] === 0) this.point(null);
+    this.#search();
+    this.#offer();
+    this.#explain();
+    this.#read();
+  }
+
+  // Choosing
+
+  /** Choose a bin or give it up. It moves away, but the arrow keys go on from where it was. */
+  toggle(column) {
+    const { places, placeOf } = this.plot;
+    const place = placeOf[column];
+    this.#beside = { before: places[place - 1], after: places[place + 1] };
+    const before = this.chosen;
+    this.onToggle(column);
+    const [words, size] = before.has(column) ? ["removed", before.size - 1] : ["chosen", before.size + 1];
+    this.announce(`${this.bins.names[column]} ${words}, ${count(size, "bin")} chosen`);
+  }
+
+  /** Add what of some columns is not chosen yet; where all are chosen, remove them. */
+  apply(columns) {
+    if (columns.length === 0) return;
+    const fresh = columns.filter((column) => !this.chosen.has(column));
+    if (fresh.length > 0) this.#add(fresh);
+    else this.giveUp(columns);
+  }
+
+  /** Remove those of some columns that are chosen. */
+  giveUp(columns) {
+    const kept = columns.filter((column) => this.chosen.has(column));
+    this.#change(this.onRemove, kept, `${count(kept.length, "bin")} removed, ${count(this.chosen.size - kept.length, "bin")} chosen`);
+  }
+
+  #add(columns) {
+    this.#change(this.onRange, columns, `${count(columns.length, "bin")} added, ${count(this.chosen.size + columns.length, "bin")} chosen`);
+  }
+
+  #change(ask, columns, words) {
+    this.mark(null);
+    if (columns.length === 0) return;
+    ask(columns);
+    this.announce(words);
+  }
+
+  get #wanted() {
+    return Math.max(Math.floor(Number(this.number.value)) || 1, 1);
+  }
+
+  /** The best bins that are not chosen yet; those with a score of 0 separate nothing. */
+  #best() {
+    return this.#first(this.ranking, (column) => !this.chosen.has(column) && this.scores[column] > 0);
+  }
+
+  #weakest() {
+    return this.#first(this.ranking.toReversed(), (column) => this.chosen.has(column));
+  }
+
+  /** As many columns as are wanted for which something holds. */
+  #first(columns, holds) {
+    const wanted = this.#wanted;
+    const found = [];
+    for (const column of columns) {
+      if (found.length === wanted) break;
+      if (holds(column)) found.push(column);
+    }
+    return found;
+  }
+
+  /** What the buttons would do, in words. */
+  #offer() {
+    const wanted = this.#wanted;
+    const best = this.#best().length;
+    const weakest = this.#weakest().length;
+    for (const node of this.numbers.querySelectorAll("[data-number]")) node.setAttribute("aria-pressed", String(Number(node.dataset.number) === wanted));
+    this.closer.textContent = `First ${this.plot.close}`;
+    this.closer.hidden = this.plot.close >= this.ranking.length;
+    this.add.textContent = this.chosen.size > 0 ? `Add the next ${best || wanted}` : `Choose the best ${best || wanted}`;
+    this.add.disabled = best === 0;
+    this.remove.textContent = `Remove the weakest ${weakest || wanted}`;
+    this.remove.disabled = weakest === 0;
+    this.clear.textContent = this.chosen.size > 0 ? `Clear ${grouped(this.chosen.size)}` : "Clear";
+    this.clear.disabled = this.chosen.size === 0;
+  }
+
+  // Finding
+
+  #search() {
+    const text = this.field.value.trim();
+    this.found = text === "" ? null : new Set(this.bins.find(text));
+    this.#match();
+    const matches = this.#matches();
+    this.take.hidden = matches.length === 0;
+    this.take.textContent = `${matches.every((column) => this.chosen.has(column)) ? "Remove" : "Add"} ${grouped(matches.length)}`;
+    this.finding.textContent = this.#finding(matches);
+  }
+
+  #finding(matches) {
+    if (this.found === null) return "";
+    if (matches.length === 0) return this.found.size > 0 ? "not in use" : "none found";
+    const place = matches.indexOf(this.pointed);
+    return place < 0 ? `${grouped(matches.length)} found` : `${grouped(place + 1)} of ${grouped(matches.length)}`;
+  }
+
+  #match() {
+    const matched = this.found ?? this.emphasised;
+    if (matched !== this.plot.matched) this.plot.match(matched);
+  }
+
+  /** The columns found, in the order of their bars. */
+  #matches() {
+    const { placeOf } = this.plot;
+    return [...(this.found ?? [])].filter((column) => placeOf[column] >= 0).sort((a, b) => placeOf[a] - placeOf[b]);
+  }
+
+  #searchKey(event) {
+    if (event.key === "Enter" || event.key === "ArrowDown" || event.key === "ArrowUp") {
+      this.#visit(event.key === "ArrowUp" || event.shiftKey ? -1 : 1);
+    } else if (event.key === "Escape" && this.field.value !== "") {
+      this.field.value = "";
+      this.#search();
+      this.point(null);
+    } else return;
+    event.preventDefault();
+  }
+
+  /** Point at the next match, or the one before. */
+  #visit(direction) {
+    const matches = this.#matches();
+    if (matches.length === 0) {
+      this.announce(this.#finding(matches));
+      return;
+    }
+    const from = matches.indexOf(this.pointed);
+    const next = from < 0 && direction < 0 ? matches.length - 1 : (from + direction + matches.length) % matches.length;
+    this.visit(matches[next]);
+    this.finding.textContent = this.#finding(matches);
+  }
+
+  // Pointing
+
+  /** Point at a column, or at none with null. */
+  point(column) {
+    if (column === this.pointed) return;
+    this.pointed = column;
+    this.#beside = null;
+    this.#show();
+    this.onPoint(column, column === null ? null : { ...this.plot.box(this.plot.placeOf[column]), free: this.node.getBoundingClientRect().top });
+  }
+
+  /** Point at a column wherever it stands, and say which it is. */
+  visit(column) {
+    this.plot.reveal(this.plot.placeOf[column]);
+    this.point(column);
+    this.announce(`${this.bins.names[column]}, rank ${this.rankOf[column]} of ${this.ranking.length}, score ${figure(this.scores[column])}${this.chosen.has(column) ? ", chosen" : ""}`);
+  }
+
+  /** Point at the bar some places further; beside the old place of one that has just been chosen. */
+  step(number) {
+    const { places, placeOf } = this.plot;
+    if (places.length === 0) return;
+    const beside = number === 1 ? this.#beside?.after : number === -1 ? this.#beside?.before : undefined;
+    const from = this.pointed === null ? Math.floor(this.plot.scale.left) - Math.sign(number) : placeOf[this.pointed];
+    this.visit(beside ?? places[Math.min(Math.max(from + number, 0), places.length - 1)]);
+  }
+
+  /** Mark a range of places, from one to another in any order. */
+  mark(range) {
+    this.range = range;
+    this.#show();
+  }
+
+  /** The columns of the range. */
+  get marked() {
+    if (this.range === null) return [];
+    return [...this.plot.places.subarray(Math.min(...this.range), Math.max(...this.range) + 1)];
+  }
+
+  #show() {
+    this.plot.mark(this.pointed, this.range);
+    this.#read();
+  }
+
+  #read() {
+    const { bins, pointed } = this;
+    let parts;
+    if (this.range !== null) {
+      const columns = this.marked;
+      const kept = columns.every((column) => this.chosen.has(column));
+      parts = [element("b", {}, count(columns.length, "bin")), `${bins.names[columns[0]]} to ${bins.names[columns.at(-1)]}`, kept ? "all chosen: to be removed" : "to be added"];
+    } else if (pointed !== null) {
+      parts = [
+        element("b", {}, this.#hued(bins.featureOf(pointed)), element("bdi", {}, bins.names[pointed])),
+        ["rank ", element("b", {}, grouped(this.rankOf[pointed])), ` of ${grouped(this.ranking.length)}`],
+        ["score ", element("b", {}, figure(this.scores[pointed]))],
+        this.chosen.has(pointed) ? "chosen" : null,
+      ];
+    } else {
+      parts = [[element("b", {}, grouped(this.chosen.size)), ` of ${count(this.ranking.length, "bin")} chosen`], ...this.#census()];
+    }
+    this.reading.replaceChildren(...parts.filter(Boolean).map((part) => element("span", {}, part)));
+  }
+
+  #hued(feature) {
+    const mark = element("i", { class: "hued" });
+    mark.style.background = this.bins.colorOf(feature);
+    return mark;
+  }
+
+  /** How many of the chosen bins each feature has. */
+  #census() {
+    const counts = new Map();
+    for (const column of this.chosen) counts.set(this.bins.featureOf(column), (counts.get(this.bins.featureOf(column)) ?? 0) + 1);
+    return [...counts]
+      .sort(([a, some], [b, others]) => others - some || a - b)
+      .map(([feature, number]) => [this.#hued(feature), element("bdi", {}, this.bins.features[feature].name), ` ${number}`]);
+  }
+
+  #explain() {
+    const separates = ["The higher the bar, the better this share alone separates ", element("b", {}, this.separation ?? ""), ". "];
+    const touched = window.matchMedia("(pointer: coarse)").matches;
+    const sentences = [
+      "Each bar is one of ",
+      element("b", {}, count(this.ranking.length, "bin")),
+      ": what share of a shape lies in one small range of a feature. ",
+      ...(this.separation === null ? [] : separates),
+      "Chosen bins come first, with a blue border: ",
+      touched ? "tap a bar to read it, and again to choose it." : "click a bar to choose it, or drag over several.",
+    ];
+    this.key.replaceChildren(...sentences);
+  }
+}
+
+function radios(label, name, options, checked, changed) {
+  return element(
+    "div",
+    { class: "choice", role: "radiogroup", "aria-label": label, id: name },
+    Object.entries(options).map(([value, [words, title]]) =>
+      element("label", { title }, element("input", { type: "radio", name, value, checked: value === checked, onchange: () => changed(value) }), element("span", {}, words)),
+    ),
+  );
+}

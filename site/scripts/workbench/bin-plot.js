@@ -1,0 +1,391 @@
+// The bars of the bins on a canvas: where each stands, which part is in view, and what is marked.
+
+import { axisEnd, edges, paintBars, paintRows } from "../bins-kit/bin-bars.js";
+import { BinScale } from "../bins-kit/bin-scale.js";
+import { BinStrip } from "./bin-strip.js";
+import { calm, element, svg } from "../base/dom.js";
+import { styleColor } from "../base/theme.js";
+
+/** Letters of a name below a bar. */
+const NAME = 12;
+/** From these widths on, bars have their names below them, and chosen ones a border each. */
+const NAMED = 13;
+const BORDERED = 5;
+const ROW = 12;
+const FOOT = [76, 108];
+/** Room for the ticks of matches above names and rows. */
+const MARKS = 9;
+/** Narrower runs of chosen bins have no frame, which would look like a bar. */
+const FRAMED = 6;
+const MOVEMENT = 280;
+const MOST_MOVING = 4000;
+
+export class BinPlot {
+  constructor(bins) {
+    this.bins = bins;
+    this.scores = new Float64Array(bins.count);
+    this.chosen = new Set();
+    this.matched = null;
+    this.places = new Int32Array();
+    this.placeOf = new Int32Array(bins.count).fill(-1);
+    this.position = new Float32Array(bins.count);
+    this.level = new Float32Array(bins.count);
+    this.feature = Uint16Array.from({ length: bins.count }, (_, column) => bins.featureOf(column));
+    this.features = [];
+    this.from = new Float32Array(bins.count);
+    this.to = new Float32Array(bins.count);
+    this.scale = new BinScale();
+    this.taken = [];
+    this.pointed = null;
+    this.range = null;
+    this.canvas = element("canvas");
+    this.pointer = svg("rect", { class: "column pointed", y: 0 });
+    this.brush = svg("rect", { class: "brush", y: 0 });
+    this.message = element("p", { class: "message" }, "No bins to show yet.");
+    this.surface = element(
+      "div",
+      { class: "surface", tabindex: "0", role: "application", "aria-label": "Bins and their scores", "aria-describedby": "bin-keys" },
+      this.canvas,
+      svg("svg", { class: "overlay", "aria-hidden": "true" }, this.pointer, this.brush),
+      this.message,
+    );
+    this.rows = element("ul");
+    this.levels = element("div", { class: "levels" });
+    this.strip = new BinStrip((from, to, last) => {
+      this.scale.frame(from * this.places.length, to * this.places.length, last);
+      this.#moved();
+    });
+    this.node = element(
+      "div",
+      { class: "bin-plot" },
+      element("div", { class: "sides", "aria-hidden": "true" }, this.levels, this.rows),
+      this.surface,
+      this.strip.node,
+    );
+  }
+
+  #frame = null;
+  #movement = null;
+
+  /** Take the colours of the theme in use. */
+  start() {
+    // Where the system forces its colours, they stand in for those of the theme.
+    const forced = window.matchMedia("(forced-colors: active)").matches;
+    this.colors = this.bins.features.map((_, feature) => this.bins.colorOf(feature));
+    this.ink = forced ? "CanvasText" : styleColor("ink");
+    this.accent = forced ? "Highlight" : styleColor("accent");
+    this.family = getComputedStyle(this.surface).fontFamily;
+    this.resize();
+  }
+
+  resize() {
+    this.density = window.devicePixelRatio;
+    this.width = Math.max(this.surface.clientWidth, 10);
+    this.height = Math.max(this.surface.clientHeight, 10);
+    const foot = Math.min(Math.max(this.features.length * ROW + MARKS, FOOT[0]), FOOT[1]);
+    this.foot = Math.min(foot, Math.round(this.height * 0.48));
+    this.node.style.setProperty("--foot", `${this.foot}px`);
+    this.#listRows();
+    Object.assign(this.canvas, { width: this.#pixels(this.width), height: this.#pixels(this.height) });
+    this.#fit();
+    this.#paint();
+    this.#paintStrip();
+  }
+
+  #pixels(length) {
+    return Math.round(length * this.density);
+  }
+
+  /** Show bars in an order; they move from where they were, and grow or shrink to their scores. */
+  show({ scores, chosen, places }) {
+    const first = this.places.length === 0;
+    const [position, level] = [this.position.slice(), this.level.slice()];
+    // New ones grow where they stand.
+    places.forEach((column, place) => {
+      if (this.placeOf[column] >= 0) return;
+      position[column] = place;
+      level[column] = 0;
+    });
+    this.placeOf.fill(-1);
+    const features = new Set();
+    places.forEach((column, place) => {
+      this.placeOf[column] = place;
+      features.add(this.feature[column]);
+    });
+    Object.assign(this, { scores, chosen, places, features: [...features].sort((a, b) => a - b) });
+    this.top = axisEnd(places.reduce((most, column) => Math.max(most, scores[column]), 0));
+    this.levels.replaceChildren(...[this.top, this.top / 2, 0].map((level) => element("span", {}, String(Number(level.toPrecision(3))))));
+    if (first) this.resize();
+    else {
+      this.#listRows();
+      this.#fit();
+    }
+    this.#travel(position, level, first || calm() || places.length > MOST_MOVING ? 0 : MOVEMENT);
+  }
+
+  #travel(position, level, duration) {
+    cancelAnimationFrame(this.#movement);
+    const begin = performance.now();
+    const step = () => {
+      const share = duration === 0 ? 1 : Math.min((performance.now() - begin) / duration, 1);
+      const gone = 1 - (1 - share) ** 3;
+      this.places.forEach((column, place) => {
+        this.position[column] = position[column] + gone * (place - position[column]);
+        this.level[column] = level[column] + gone * (this.scores[column] / this.top - level[column]);
+      });
+      this.#movement = share < 1 ? requestAnimationFrame(step) : null;
+      this.#paint();
+      this.#paintStrip();
+    };
+    step();
+  }
+
+  /** Mark columns among all others, or none with null. */
+  match(matched) {
+    this.matched = matched;
+    this.#redraw();
+  }
+
+  /** Mark one column, and the places of a range. */
+  mark(pointed, range) {
+    Object.assign(this, { pointed, range });
+    this.#placeMarks();
+  }
+
+  // The part in view
+
+  #fit() {
+    const chosen = [...this.chosen].map((column) => this.placeOf[column]).filter((place) => place >= 0);
+    this.taken = chosen.sort((a, b) => a - b);
+    this.scale.fit(this.places.length, this.taken, this.width);
+    this.#moved();
+  }
+
+  #moved() {
+    const total = Math.max(this.places.length, 1);
+    this.strip.show(this.scale.left / total, Math.min(this.scale.placeOf(this.width) / total, 1));
+    this.#redraw();
+  }
+
+  lookAtAll() {
+    this.scale.look(0, 0);
+    this.#moved();
+  }
+
+  /** How many bars are in view when they are just wide enough for their names; a round number. */
+  get close() {
+    return Math.max(Math.floor(this.width / NAMED / 10), 1) * 10;
+  }
+
+  lookClose() {
+    this.scale.look(0, this.width / this.close);
+    this.#moved();
+  }
+
+  /** Zoom by a factor with one point of the surface held still: what is pointed at, the best bars, or the middle. */
+  zoom(factor, x = this.#centre()) {
+    this.hold(this.scale.placeOf(x), x, this.scale.step * factor);
+  }
+
+  #centre() {
+    const x = this.pointed === null ? -1 : this.scale.xOf(this.placeOf[this.pointed] + 0.5);
+    if (x >= 0 && x <= this.width) return x;
+    return this.scale.left === 0 ? 0 : this.width / 2;
+  }
+
+  /** Show a place, which may have a fraction, at a point of the surface. */
+  hold(place, x, step) {
+    this.scale.hold(place, x, step);
+    this.#moved();
+  }
+
+  pan(pixels) {
+    this.hold(this.scale.left, -pixels);
+  }
+
+  /** How many bars are in view. */
+  get span() {
+    return Math.min(this.scale.placeOf(this.width), this.places.length) - this.scale.left;
+  }
+
+  reveal(place) {
+    if (this.scale.xOf(place) < -0.5 || this.scale.xOf(place + 1) > this.width + 0.5) this.hold(place + 0.5, this.width / 2);
+  }
+
+  /** The place under a point of the surface, or null; `nearest` takes the bar beside it where there is none. */
+  at(x, nearest = false) {
+    const place = Math.floor(this.scale.placeOf(x));
+    if (nearest) return Math.min(Math.max(place, 0), this.places.length - 1);
+    return place >= 0 && place < this.places.length ? place : null;
+  }
+
+  /** Where a bar stands in the window. */
+  box(place) {
+    const { left, top } = this.surface.getBoundingClientRect();
+    const x = this.scale.xOf(place);
+    return { left: left + x, top, width: this.scale.xOf(place + 1) - x, height: this.height - this.foot };
+  }
+
+  // Painting
+
+  #redraw() {
+    this.#frame ??= requestAnimationFrame(() => this.#paint());
+  }
+
+  #paintStrip() {
+    const { places, position, level, feature } = this;
+    this.strip.paint({ columns: places, position, level, feature }, places.length, this.#runs(), this);
+  }
+
+  #paint() {
+    cancelAnimationFrame(this.#frame);
+    this.#frame = null;
+    const context = this.canvas.getContext("2d");
+    context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.message.hidden = this.places.length > 0;
+    this.#placeMarks();
+    if (this.places.length === 0) return;
+    const base = this.#pixels(this.height - this.foot);
+    const frame = { width: this.canvas.width, base, room: base - this.#pixels(4), colors: this.colors };
+    const { scale, density } = this;
+    const inView = this.places.subarray(Math.floor(scale.left), Math.ceil(scale.placeOf(this.width)));
+    const visible = this.#movement === null ? inView : this.places;
+    for (const column of visible) {
+      this.from[column] = scale.xOf(this.position[column]) * density;
+      this.to[column] = scale.xOf(this.position[column] + 1) * density;
+    }
+    const bars = { columns: visible, from: this.from, to: this.to, level: this.level, feature: this.feature };
+    const found = this.matched && visible.filter((column) => this.matched.has(column));
+    const runs = this.#runsInView();
+    this.#paintLevels(context, frame);
+    this.#paintGround(context, runs, frame);
+    context.globalAlpha = found ? 0.2 : 1;
+    paintBars(context, bars, frame);
+    context.globalAlpha = 1;
+    if (found) paintBars(context, { ...bars, columns: found }, frame);
+    context.fillStyle = this.ink;
+    context.fillRect(0, base, frame.width, this.#line(1));
+    this.#paintBorders(context, bars, runs, frame);
+    context.fillStyle = this.ink;
+    if (found) this.#paintTicks(context, found, frame);
+    const named = scale.step >= NAMED;
+    this.rows.classList.toggle("aside", named);
+    if (named) this.#paintNames(context, visible, frame);
+    else this.#paintMatrix(context, { ...bars, columns: found ?? visible }, frame);
+  }
+
+  #line(width) {
+    return Math.max(this.#pixels(width), 1);
+  }
+
+  #paintLevels(context, { width, base, room }) {
+    context.fillStyle = this.ink;
+    context.globalAlpha = 0.1;
+    for (const level of [0.25, 0.5, 0.75, 1]) context.fillRect(0, base - Math.round(level * room), width, this.#line(1));
+    context.globalAlpha = 1;
+  }
+
+  /** Chosen bins stand on a tinted ground. */
+  #paintGround(context, runs, { base, room }) {
+    context.fillStyle = this.accent;
+    context.globalAlpha = 0.14;
+    for (const { start, width } of runs) context.fillRect(start, base - room, width, room);
+    context.globalAlpha = 1;
+  }
+
+  /** Their border; where they are too narrow for one each, those side by side share a frame. */
+  #paintBorders(context, bars, runs, { base, room }) {
+    context.fillStyle = context.strokeStyle = this.accent;
+    for (const { start, width } of runs) context.fillRect(start, base, width, this.#line(3));
+    const framed = this.scale.chosenWidth < BORDERED;
+    const line = (context.lineWidth = this.#line(this.scale.chosenWidth < 10 ? 1 : 2));
+    const frame = (start, width, height) => context.strokeRect(start + line / 2, base - height + line / 2, width - line, height);
+    if (framed) {
+      for (const { start, width } of runs) if (width >= this.#pixels(FRAMED)) frame(start, width, room);
+      return;
+    }
+    for (const column of bars.columns) {
+      if (!this.chosen.has(column)) continue;
+      const [start, end] = edges(bars, column);
+      frame(start, end - start, Math.max(Math.round(this.level[column] * room), 2 * line));
+    }
+  }
+
+  /** Where runs of chosen bins stand on the screen. */
+  #runsInView() {
+    return this.#runs().map(([first, last]) => {
+      const start = this.#pixels(this.scale.xOf(first));
+      return { start, width: Math.max(this.#pixels(this.scale.xOf(last + 1)) - start, this.#line(2)) };
+    });
+  }
+
+  /** First and last places of chosen bins that stand side by side. */
+  #runs() {
+    const runs = [];
+    for (const place of this.taken) {
+      if (runs.at(-1)?.[1] === place - 1) runs.at(-1)[1] = place;
+      else runs.push([place, place]);
+    }
+    return runs;
+  }
+
+  /** Ticks below matches: a bar of no height, or one among thousands, would not be seen. */
+  #paintTicks(context, found, { base }) {
+    for (const column of found) {
+      const [from, to] = [this.from[column], this.to[column]];
+      const width = Math.max(Math.min((to - from) * 0.6, this.#pixels(6)), this.#line(2));
+      context.fillRect(Math.round((from + to - width) / 2), base + this.#line(2), Math.round(width), this.#pixels(4));
+    }
+  }
+
+  #paintMatrix(context, bars, { width, base, colors }) {
+    const height = Math.max(Math.floor(this.#rowHeight * this.density), 1);
+    paintRows(context, bars, {
+      width,
+      top: base + this.#pixels(MARKS),
+      height,
+      gap: height > 3 ? this.#line(1) : 0,
+      colors,
+      rows: this.features,
+    });
+  }
+
+  #paintNames(context, visible, { base }) {
+    Object.assign(context, { fillStyle: this.ink, textAlign: "right", textBaseline: "middle" });
+    // On a low window, names are a little smaller rather than cut.
+    const plain = `${(this.foot < FOOT[0] ? 10 : 11) * this.density}px ${this.family}`;
+    for (const column of visible) {
+      context.font = this.chosen.has(column) || this.matched?.has(column) ? `600 ${plain}` : plain;
+      context.setTransform(0, -1, 1, 0, (this.from[column] + this.to[column]) / 2, base + this.#pixels(MARKS));
+      context.fillText(this.bins.shortName(column, NAME), 0, 0);
+    }
+    context.resetTransform();
+  }
+
+  get #rowHeight() {
+    return Math.min((this.foot - MARKS) / Math.max(this.features.length, 1), ROW);
+  }
+
+  /** The names of the features in use, where their rows are high enough for one. */
+  #listRows() {
+    this.node.style.setProperty("--row", `${this.#rowHeight}px`);
+    const named = this.#rowHeight >= 10 ? this.features : [];
+    this.rows.replaceChildren(...named.map((feature) => element("li", { dir: "auto", title: this.bins.features[feature].title }, this.bins.features[feature].name)));
+  }
+
+  #placeMarks() {
+    const place = this.pointed === null ? -1 : this.placeOf[this.pointed];
+    this.#span(this.pointer, place < 0 ? null : [place, place], 3);
+    this.#span(this.brush, this.range, 1);
+  }
+
+  #span(node, range, least) {
+    node.classList.toggle("shown", range !== null);
+    if (range === null) return;
+    const [start, end] = [this.scale.xOf(Math.min(...range)), this.scale.xOf(Math.max(...range) + 1)];
+    const width = Math.max(end - start, least);
+    node.setAttribute("x", (start + end - width) / 2);
+    node.setAttribute("width", width);
+    node.setAttribute("height", this.height);
+  }
+}

@@ -1,0 +1,78 @@
+"""The rooms of the site's scripts: imports go one way, as those of the package do."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from shapeviz_report.pages import PAGES
+from shapeviz_report.site.resources import site_folder
+
+#: From the scripts that start a page down to what knows nothing of the site. Rooms of one layer do not meet.
+LAYERS = (
+    ("pages", "opening"),
+    ("overview", "shapes", "shape", "compare", "features", "workbench", "bins", "about"),
+    ("tray",),
+    ("addresses",),
+    ("map", "bins-kit"),
+    ("database",),
+    ("base",),
+)
+
+#: Any room may use these; they import nothing of the others.
+APART = ("engine", "viewer")
+
+_IMPORT = re.compile(r'^import .* from "([^"]+)";$', re.MULTILINE)
+
+
+def _scripts() -> Path:
+    return (site_folder() / "scripts").resolve()
+
+
+def _imports() -> list[tuple[Path, Path]]:
+    """Every import that leaves its room: who imports, and what; below the folder of scripts."""
+    root = _scripts()
+    pairs = [
+        (path.relative_to(root), (path.parent / source).resolve().relative_to(root))
+        for path in sorted(root.rglob("*.js"))
+        for source in _IMPORT.findall(path.read_text(encoding="utf-8"))
+    ]
+    return [(one, other) for one, other in pairs if one.parts[0] != other.parts[0]]
+
+
+def test_imports_go_one_way():
+    layer = {room: number for number, rooms in enumerate(LAYERS) for room in rooms}
+    wrong = [
+        f"{one} imports {other}"
+        for one, other in _imports()
+        if one.parts[0] in APART
+        or (other.parts[0] not in APART and layer[other.parts[0]] <= layer[one.parts[0]])
+    ]
+    assert wrong == [], "move what both need to a room below them"
+
+
+def test_every_script_has_a_room():
+    root = _scripts()
+    rooms = {path.relative_to(root).parts[0] for path in root.rglob("*.js")}
+    assert rooms == {*APART, *(room for rooms in LAYERS for room in rooms)}
+
+
+def test_every_page_has_one_script_that_starts_it():
+    entries = {path.stem for path in (_scripts() / "pages").glob("*.js")}
+    assert entries == {page.name for page in PAGES}
+
+
+def test_no_script_is_left_over():
+    root = _scripts()
+    imported = {
+        (path.parent / source).resolve()
+        for path in root.rglob("*.js")
+        for source in _IMPORT.findall(path.read_text(encoding="utf-8"))
+    }
+    starts = {
+        *(root / "pages").glob("*.js"),
+        root / "opening" / "first.js",
+        root / "opening" / "single-file.js",
+    }
+    unused = set(root.rglob("*.js")) - imported - starts - {root / "engine" / "worker.js"}
+    assert unused == set()
