@@ -8,44 +8,44 @@ import { readSelection, writeSelection } from "../database/selection.js";
  * Features and bins stay text here: which ones there are is only known with the features themselves, which are large
  * and come later. `unknown` is an id that the database does not have.
  */
-export function readShapeAddress(model) {
+export function readShapeAddress(database) {
   const query = readHash();
   const id = query.get("id");
-  const shape = model.indexOfId.get(id) ?? null;
+  const shape = database.indexOfId.get(id) ?? null;
   return {
     shape,
     unknown: shape === null ? id : null,
-    method: Math.max(model.methods.findIndex(({ key }) => key === query.get("map")), 0),
+    method: Math.max(database.methods.findIndex(({ key }) => key === query.get("map")), 0),
     features: query.get("features") ?? "",
     bins: query.get("bins") ?? "",
     bin: query.get("bin"),
     parts: query.get("parts") ?? "",
-    selection: readSelection(query, model),
+    selection: readSelection(query, database),
   };
 }
 
 /** Write what is shown into the address. */
-export function writeShapeAddress(model, state) {
-  replaceHash(shapeQuery(model, state, state.get("shape")));
+export function writeShapeAddress(database, state) {
+  replaceHash(shapeQuery(database, state, state.get("shape")));
 }
 
 /** The address of another shape's page, seen in the same way. */
-export function shapeAddress(model, state, shape) {
-  return pageAddress("shape.html", shapeQuery(model, state, shape));
+export function shapeAddress(database, state, shape) {
+  return pageAddress("shape.html", shapeQuery(database, state, shape));
 }
 
 /** Go to another shape's page, from which the way back leads here. */
-export function goToShape(model, state, shape) {
-  pushHash(shapeQuery(model, state, shape));
+export function goToShape(database, state, shape) {
+  pushHash(shapeQuery(database, state, shape));
   state.set({ shape, unknown: null });
 }
 
-function shapeQuery(model, state, shape) {
+function shapeQuery(database, state, shape) {
   const query = new URLSearchParams();
-  const id = shape === null ? state.get("unknown") : model.ids[shape];
+  const id = shape === null ? state.get("unknown") : database.ids[shape];
   if (id !== null) query.set("id", id);
-  if (state.get("method") > 0) query.set("map", model.methods[state.get("method")].key);
+  if (state.get("method") > 0) query.set("map", database.methods[state.get("method")].key);
   for (const name of ["features", "bins", "bin", "parts"]) if (state.get(name)) query.set(name, state.get(name));
-  writeSelection(query, model, state.get("selection"));
+  writeSelection(query, database, state.get("selection"));
   return query;
 }

@@ -1,8 +1,8 @@
 // The state of the gallery in its address: filters and groups by name, so that a link stays good when the database grows.
 
 import { pageAddress, readHash, replaceHash } from "../base/place.js";
-import { readSelection, writeSelection } from "../database/selection.js";
 import { NONE } from "../database/fields.js";
+import { readSelection, writeSelection } from "../database/selection.js";
 
 export const SIZES = { least: 56, usual: 148, most: 320 };
 
@@ -10,16 +10,16 @@ export const SIZES = { least: 56, usual: 148, most: 320 };
 const [IS, LACKS, RANGE] = ["is.", "lacks.", "range."];
 
 /** How the gallery is arranged where the address says nothing. */
-function usual(model, fields) {
-  return { group: model.separable ? (fields.active?.key ?? "") : "", sort: "", size: SIZES.usual };
+function usual(database, fields) {
+  return { group: database.separable ? (fields.active?.key ?? "") : "", sort: "", size: SIZES.usual };
 }
 
-export function readGalleryAddress(model, fields) {
+export function readGalleryAddress(database, fields) {
   const query = readHash();
-  const standard = usual(model, fields);
+  const standard = usual(database, fields);
   const group = query.get("group");
   const sort = query.get("sort") ?? "";
-  const selection = readSelection(query, model);
+  const selection = readSelection(query, database);
   const size = Number(query.get("size") ?? standard.size);
   return {
     query: query.get("find") ?? "",
@@ -31,17 +31,17 @@ export function readGalleryAddress(model, fields) {
     size: size >= SIZES.least && size <= SIZES.most ? size : standard.size,
     closed: new Set(query.getAll("closed")),
     selection,
-    at: model.indexOfId.get(query.get("at")) ?? null,
+    at: database.indexOfId.get(query.get("at")) ?? null,
   };
 }
 
-export function writeGalleryAddress(model, fields, state) {
-  replaceHash(galleryQuery(model, fields, state));
+export function writeGalleryAddress(database, fields, state) {
+  replaceHash(galleryQuery(database, fields, state));
 }
 
-function galleryQuery(model, fields, state) {
+function galleryQuery(database, fields, state) {
   const query = new URLSearchParams();
-  const standard = usual(model, fields);
+  const standard = usual(database, fields);
   if (state.get("query") !== "") query.set("find", state.get("query"));
   if (state.get("only")) query.set("only", "");
   for (const [key, filter] of state.get("filters")) writeFilter(query, fields.byKey.get(key), filter);
@@ -50,8 +50,8 @@ function galleryQuery(model, fields, state) {
   if (state.get("down")) query.set("down", "");
   if (state.get("size") !== standard.size) query.set("size", state.get("size"));
   for (const key of state.get("closed")) query.append("closed", key);
-  writeSelection(query, model, state.get("selection"));
-  if (state.get("at") !== null) query.set("at", model.ids[state.get("at")]);
+  writeSelection(query, database, state.get("selection"));
+  if (state.get("at") !== null) query.set("at", database.ids[state.get("at")]);
   return query;
 }
 
@@ -92,8 +92,8 @@ function valueOf(field, name) {
 }
 
 /** The address of the gallery with some shapes selected, and none but these shown. */
-export function galleryOf(model, shapes) {
+export function galleryOf(database, shapes) {
   const query = new URLSearchParams([["only", ""]]);
-  writeSelection(query, model, shapes);
+  writeSelection(query, database, shapes);
   return pageAddress("shapes.html", query);
 }

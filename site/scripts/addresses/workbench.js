@@ -1,9 +1,9 @@
 // The work in the address: a link, and a reload, bring back the same maps and the same figures.
 
-import { joinNames, splitNames } from "./names.js";
 import { readHash } from "../base/place.js";
 import { readSelection, writeSelection } from "../database/selection.js";
 import { readShortNames, shortNames } from "./bin-names.js";
+import { joinNames, splitNames } from "./names.js";
 
 const PROJECTIONS = ["tsne", "umap"];
 
@@ -18,9 +18,9 @@ export function isSame(bins, ofSite) {
   return ofSite !== null && bins.size === ofSite.length && ofSite.every((column) => bins.has(column));
 }
 
-export function readWorkAddress(model, data) {
+export function readWorkAddress(database, data) {
   const query = readHash();
-  const groups = new Map(model.classes.map((name, group) => [name, group]));
+  const groups = new Map(database.classes.map((name, group) => [name, group]));
   const named = (name) => query.getAll(name).map((label) => groups.get(label)).filter((group) => group !== undefined);
   const known = splitNames(query.get("features"), data.features.map(({ name }) => name));
   const features = new Set(data.features.keys());
@@ -29,7 +29,7 @@ export function readWorkAddress(model, data) {
   const bins = [...chosen].filter((column) => features.has(featureOf(column, data)));
   const scorers = data.scorers.map(({ key }) => key);
   return {
-    hidden: readHidden(query, named, model),
+    hidden: readHidden(query, named, database),
     features,
     bins: new Set(bins),
     projection: PROJECTIONS.includes(query.get("map")) ? query.get("map") : PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0],
@@ -40,19 +40,19 @@ export function readWorkAddress(model, data) {
       each: !query.has("together"),
     },
     sample: query.has("sample"),
-    color: query.get("color") === "hit" && model.labelled ? "hit" : "class",
-    selection: readSelection(query, model),
+    color: query.get("color") === "hit" && database.labelled ? "hit" : "class",
+    selection: readSelection(query, database),
   };
 }
 
 /** Classes are named as in use or as not in use, whichever are fewer. */
-function readHidden(query, named, model) {
-  const everyone = [...model.classes.keys(), -1];
+function readHidden(query, named, database) {
+  const everyone = [...database.classes.keys(), -1];
   if (query.has("class") || query.has("unlabelled")) {
     const used = new Set([...named("class"), ...(query.has("unlabelled") ? [-1] : [])]);
-    return new Set(everyone.filter((group) => model.sizes.has(group) && !used.has(group)));
+    return new Set(everyone.filter((group) => database.sizes.has(group) && !used.has(group)));
   }
-  return new Set([...named("hide"), ...(query.has("hide-unlabelled") && model.sizes.has(-1) ? [-1] : [])]);
+  return new Set([...named("hide"), ...(query.has("hide-unlabelled") && database.sizes.has(-1) ? [-1] : [])]);
 }
 
 function featureOf(column, data) {
@@ -60,14 +60,14 @@ function featureOf(column, data) {
 }
 
 /** The parameters of the work's address. */
-export function workAddress(model, data, state) {
+export function workAddress(database, data, state) {
   const query = new URLSearchParams();
   const hidden = state.get("hidden");
-  const used = [...model.sizes.keys()].filter((group) => !hidden.has(group)).sort((a, b) => a - b);
+  const used = [...database.sizes.keys()].filter((group) => !hidden.has(group)).sort((a, b) => a - b);
   const fewer = used.length < hidden.size;
   for (const group of fewer ? used : [...hidden].sort((a, b) => a - b)) {
     if (group < 0) query.set(fewer ? "unlabelled" : "hide-unlabelled", "");
-    else query.append(fewer ? "class" : "hide", model.classes[group]);
+    else query.append(fewer ? "class" : "hide", database.classes[group]);
   }
   // No class in use has no name to give.
   if (used.length === 0) query.append("class", "");
@@ -78,7 +78,7 @@ export function workAddress(model, data, state) {
   if (state.get("scorer") !== DEFAULT_SCORER) query.set("scorer", state.get("scorer"));
   const { from, against, each } = state.get("separation");
   const names = (name, groups) => {
-    for (const group of groups) query.append(name, model.classes[group]);
+    for (const group of groups) query.append(name, database.classes[group]);
     if (groups.size === 0) query.set(name, "");
   };
   if (from !== null) names("separate", from);
@@ -86,6 +86,6 @@ export function workAddress(model, data, state) {
   if (!each) query.set("together", "");
   if (state.get("sample")) query.set("sample", "");
   if (state.get("color") !== "class") query.set("color", state.get("color"));
-  writeSelection(query, model, state.get("selection"));
+  writeSelection(query, database, state.get("selection"));
   return query;
 }

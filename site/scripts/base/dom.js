@@ -32,9 +32,9 @@ export function swatch(path, color) {
 }
 
 /** A thumbnail; `name` is said where the picture is all there is to read. */
-export function picture(model, index, size, name = "") {
+export function picture(database, index, size, name = "") {
   return element("img", {
-    src: model.picture(index),
+    src: database.picture(index),
     alt: name,
     width: size,
     height: size,
@@ -52,4 +52,9 @@ export function dataLink(path) {
 /** Whether the reader asked for less movement. */
 export function calm() {
   return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+}
+
+/** Whether readers point with fingers. */
+export function coarse() {
+  return window.matchMedia("(pointer: coarse)").matches;
 }

@@ -1,9 +1,9 @@
 // The card of a bin: what it is, how well it separates, and which classes have much of it.
 
-import { axisEnd } from "./bin-bars.js";
 import { element, swatch } from "../base/dom.js";
 import { styleColor } from "../base/theme.js";
 import { figure, grouped } from "../base/words.js";
+import { axisEnd } from "./bin-bars.js";
 
 const WIDTH = 190;
 const ROW = 16;
@@ -16,16 +16,16 @@ const BESIDE = 24;
 const MARGIN = 8;
 
 export class BinCard {
-  /** `bins` is a Bins, `model` the Model of the shapes, whose classes give names and colours. */
-  constructor(bins, model) {
+  /** `bins` is a Bins, `database` the shapes, whose classes give names and colours. */
+  constructor(bins, database) {
     this.bins = bins;
-    this.model = model;
+    this.database = database;
     this.node = element("div", { class: "card bin-card", hidden: true });
     document.getElementById("content").append(this.node);
     // It stands where its bar stood.
     window.addEventListener("scroll", () => this.hide(), { passive: true });
     this.members = new Map();
-    model.groups.forEach((group, row) => {
+    database.groups.forEach((group, row) => {
       if (!this.members.has(group)) this.members.set(group, []);
       this.members.get(group).push(row);
     });
@@ -95,7 +95,7 @@ export class BinCard {
 
   /** The classes in use with their sorted values, those to be separated first, those with most of the bin on top. */
   rows(column) {
-    const { model, members } = this;
+    const { database, members } = this;
     const row = (rows, apart, name, mark, color) => {
       const values = rows.map((index) => this.bins.share(column, index)).sort((a, b) => a - b);
       return { apart, name, mark, color, values, median: quantile(values, 0.5), mean: values.reduce((a, b) => a + b, 0) / values.length };
@@ -104,10 +104,10 @@ export class BinCard {
     const of = (groups, apart) =>
       groups
         .filter((group) => members.has(group))
-        .map((group) => row(members.get(group), apart, model.className(group), swatch(model.symbol(group), model.color(group)), model.color(group)))
+        .map((group) => row(members.get(group), apart, database.className(group), swatch(database.symbol(group), database.color(group)), database.color(group)))
         .sort(byHeight);
     const rows = [...of(this.separated, true), ...of(this.others, false)];
-    return rows.length > 0 ? rows : [row(model.groups.map((_, index) => index), false, "all shapes", null, model.color(-1))];
+    return rows.length > 0 ? rows : [row(database.groups.map((_, index) => index), false, "all shapes", null, database.color(-1))];
   }
 
   #place({ left, top, width, height, free }) {

@@ -1,17 +1,17 @@
 // One bin (paper, Fig. 8): what it is in words, which classes have much of it, and pictures of it on two shapes.
 
-import { percent } from "./bin-card.js";
 import { element, swatch } from "../base/dom.js";
-import { resource } from "../base/place.js";
 import { Finder } from "../base/finder.js";
+import { resource } from "../base/place.js";
+import { percent } from "./bin-card.js";
 import { Legend } from "./legend.js";
 
 const MOST_PICTURED = 4;
 const LONGEST = 32;
 
 export class Look {
-  constructor(model, bins, selection, state, card) {
-    Object.assign(this, { model, bins, selection, state, card });
+  constructor(database, bins, selection, state, card) {
+    Object.assign(this, { database, bins, selection, state, card });
     this.words = document.getElementById("bin-words");
     this.paintings = document.getElementById("paintings");
     this.legend = new Legend(selection);
@@ -42,8 +42,8 @@ export class Look {
 
   /** The bins of this page in a list: those of each class, and those that separate all. */
   #offer(column) {
-    const { model, bins, selection } = this;
-    const lists = selection.minimal.map(({ group, sets }) => [group, model.className(group), [...new Set(sets.flatMap((found) => found.bins))]]);
+    const { database, bins, selection } = this;
+    const lists = selection.minimal.map(({ group, sets }) => [group, database.className(group), [...new Set(sets.flatMap((found) => found.bins))]]);
     if (selection.path.length > 0) lists.push([-1, "all classes", selection.path.at(-1).bins]);
     const group = this.state.get("group") ?? -1;
     const known = lists.some(([own, , columns]) => own === group && columns.includes(column));
@@ -57,12 +57,12 @@ export class Look {
   }
 
   #tell(column) {
-    const { bins, card, model } = this;
+    const { bins, card, database } = this;
     const feature = bins.features[bins.featureOf(column)];
     const end = bins.binOf(column) < feature.bins / 2 ? ["Low values mean ", feature.lowMeans] : ["High values mean ", feature.highMeans];
     const measured = bins.isShare(column) && feature.measures !== "";
     const group = this.state.get("group");
-    const groups = model.labelled ? [...model.sizes.keys()].sort((a, b) => a - b) : [];
+    const groups = database.labelled ? [...database.sizes.keys()].sort((a, b) => a - b) : [];
     card.know({ scores: new Float64Array(bins.count).fill(NaN), scorer: "", separated: groups.filter((other) => other === group), others: groups.filter((other) => other !== group) });
     return [
       element("h3", {}, hue(bins, column), element("bdi", {}, bins.names[column])),
@@ -75,8 +75,8 @@ export class Look {
 
   /** Which classes have much of a bin, as one would say it. */
   #who(column) {
-    const { bins, card, model } = this;
-    if (!model.separable) return [];
+    const { bins, card, database } = this;
+    if (!database.separable) return [];
     const told = bins.isShare(column) ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
     const rows = card.rows(column).sort((a, b) => b.median - a.median || b.mean - a.mean);
     const [most, ...rest] = rows;
@@ -97,7 +97,7 @@ export class Look {
   #contrast(rows, told, name) {
     const own = this.selection.minimal.find(({ group }) => group === this.state.get("group"));
     if (own === undefined) return null;
-    const named = (group) => rows.find((row) => row.name === this.model.className(group));
+    const named = (group) => rows.find((row) => row.name === this.database.className(group));
     const [row, rival] = [named(own.group), named(own.other)];
     const rank = rows.indexOf(row);
     const place = rank === 0 ? " has most of it of all classes: " : rank === rows.length - 1 ? " has least of it of all classes: " : ": ";
@@ -108,19 +108,19 @@ export class Look {
   }
 
   #paint(column) {
-    const { bins, model, selection } = this;
+    const { bins, database, selection } = this;
     if (!bins.isShare(column)) return [element("p", { class: "notice" }, "This feature was brought along: it has one value a shape, and none on the surface, so there is nothing to paint.")];
-    const own = pictured(selection, model, column, this.state.get("group"));
+    const own = pictured(selection, database, column, this.state.get("group"));
     if (own.length === 0) {
       return [element("p", { class: "quiet" }, selection.models === null ? "No pictures were drawn of this bin." : "No pictures were drawn of this bin beforehand; the 3D view shows it on any shape.")];
     }
     return own.map(({ shape, value, inside }) =>
       element(
         "button",
-        { type: "button", class: "painting", "data-shape": shape, title: `${model.names[shape]}: show in the 3D view`, onclick: () => this.state.set({ shape }) },
-        element("span", { class: "whose" }, shapeLine(model, bins, column, shape)),
+        { type: "button", class: "painting", "data-shape": shape, title: `${database.names[shape]}: show in the 3D view`, onclick: () => this.state.set({ shape }) },
+        element("span", { class: "whose" }, shapeLine(database, bins, column, shape)),
         [["value", value, "its values in colours"], ["in the bin", inside, "what falls into the bin"]].map(([word, address, alt]) =>
-          element("span", { class: "reading" }, element("img", { src: resource(address), alt: `${model.names[shape]}, ${alt}`, width: 320, height: 320, decoding: "async" }), element("i", {}, word)),
+          element("span", { class: "reading" }, element("img", { src: resource(address), alt: `${database.names[shape]}, ${alt}`, width: 320, height: 320, decoding: "async" }), element("i", {}, word)),
         ),
       ),
     );
@@ -128,21 +128,21 @@ export class Look {
 }
 
 /** The pictures of a bin; of one that separates a class, those that show this contrast. */
-export function pictured({ paintings, minimal }, model, column, group) {
+export function pictured({ paintings, minimal }, database, column, group) {
   const own = paintings.filter((painting) => painting.column === column);
   const other = minimal.find((separated) => separated.group === group)?.other;
-  const order = (painting) => [group, other].indexOf(model.groups[painting.shape]);
+  const order = (painting) => [group, other].indexOf(database.groups[painting.shape]);
   const contrast = own.filter((painting) => order(painting) >= 0).sort((a, b) => order(a) - order(b));
   return (contrast.length > 0 ? contrast : own).slice(0, MOST_PICTURED);
 }
 
 /** Class, and how much of the bin: what stands above a picture of a shape. */
-export function shapeLine(model, bins, column, shape) {
-  const group = model.groups[shape];
+export function shapeLine(database, bins, column, shape) {
+  const group = database.groups[shape];
   const value = bins.share(column, shape);
   return [
-    model.labelled && swatch(model.symbol(group), model.color(group)),
-    element("bdi", {}, model.labelled ? model.className(group) : model.names[shape]),
+    database.labelled && swatch(database.symbol(group), database.color(group)),
+    element("bdi", {}, database.labelled ? database.className(group) : database.names[shape]),
     element("span", { class: "quiet" }, bins.isShare(column) ? `${percent(value)} in the bin` : String(Number(value.toPrecision(3)))),
   ].filter(Boolean);
 }

@@ -12,8 +12,8 @@ export class Stage {
    * `load(shape)` gives the bytes of a shape's model; null where the site has none. `keys` is the id of the words that
    * say how a shape is turned.
    */
-  constructor(node, { model, load, keys }) {
-    Object.assign(this, { node, model, load, keys });
+  constructor(node, { database, load, keys }) {
+    Object.assign(this, { node, database, load, keys });
     this.asked = false;
   }
 
@@ -51,7 +51,7 @@ export class Stage {
   }
 
   #picture(shape) {
-    return element("img", { src: this.model.picture(shape), alt: "", width: 320, height: 320 });
+    return element("img", { src: this.database.picture(shape), alt: "", width: 320, height: 320 });
   }
 
   #clear(...nodes) {
@@ -68,7 +68,7 @@ export class Stage {
     try {
       solid = await this.#solid(shape);
     } catch {
-      if (latest === this.latest) this.#say(shape, `There is no 3D data of ${this.model.names[shape]} in this site.`);
+      if (latest === this.latest) this.#say(shape, `There is no 3D data of ${this.database.names[shape]} in this site.`);
       return false;
     }
     const colors = await paint(solid);

@@ -39,8 +39,8 @@ export class BinChips {
   }
 
   #show(column, group, node) {
-    const { model } = this.card;
-    const groups = model.labelled ? [...model.sizes.keys()].sort((a, b) => a - b) : [];
+    const { database } = this.card;
+    const groups = database.labelled ? [...database.sizes.keys()].sort((a, b) => a - b) : [];
     this.card.know({
       scores: this.#none,
       scorer: "",

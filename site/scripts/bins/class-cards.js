@@ -1,17 +1,17 @@
 // Each class from the rest (paper, Fig. 6): a small map of few bins, the class in its colour, all others grey.
 
 import { element, swatch } from "../base/dom.js";
-import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { styleColor } from "../base/theme.js";
 import { count, figure } from "../base/words.js";
+import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { mapOf, Plot } from "../map/plot.js";
 
 /** The share of what NH_c can be, in the space of the bins and on their map, at which a class counts as separated. */
 const SEPARATED = 0.9;
 
 export class ClassCards {
-  constructor(model, selection, state, chips, { open }) {
-    Object.assign(this, { model, selection, state, chips, open });
+  constructor(database, selection, state, chips, { open }) {
+    Object.assign(this, { database, selection, state, chips, open });
     this.list = document.getElementById("class-cards");
     const inputs = document.querySelectorAll("#sizes input");
     for (const input of inputs) {
@@ -37,24 +37,24 @@ export class ClassCards {
 
   #card(group, found, { highest, byChance }) {
     const random = byChance[found.bins.length - 1];
-    const { model, selection } = this;
-    const name = model.className(group);
-    const plot = new Plot(model, {
+    const { database, selection } = this;
+    const name = database.className(group);
+    const plot = new Plot(database, {
       label: `Map of ${count(found.bins.length, "bin")}: ${name} against the rest`,
-      first: (index) => model.groups[index] !== group,
+      first: (index) => database.groups[index] !== group,
       selection: () => this.state.get("selection"),
       mark: (index) => {
-        const own = model.groups[index] === group;
-        return { path: model.symbol(own ? group : -1), color: own ? model.color(group) : styleColor("quiet"), radius: own ? 3.2 : 1.7, alpha: own ? 0.95 : 0.45 };
+        const own = database.groups[index] === group;
+        return { path: database.symbol(own ? group : -1), color: own ? database.color(group) : styleColor("quiet"), radius: own ? 3.2 : 1.7, alpha: own ? 0.95 : 0.45 };
       },
     });
     this.plots.push(plot);
-    plot.show(mapOf(found, selection, model.count));
+    plot.show(mapOf(found, selection, database.count));
     return [
       element(
         "div",
         { class: "card-head" },
-        element("h3", {}, swatch(model.symbol(group), model.color(group)), element("bdi", {}, name)),
+        element("h3", {}, swatch(database.symbol(group), database.color(group)), element("bdi", {}, name)),
         element("p", { class: "nh", title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the class has others`}` }, element("span", { class: "unseen" }, "NH "), element("b", {}, figure(found.nh)), isBelowOne(highest) && element("span", { class: "quiet" }, ` / ${figure(highest)}`)),
       ),
       element("a", { class: "open-map", href: this.open(found.bins), title: "Open these bins in the Workbench" }, plot.node),

@@ -1,20 +1,20 @@
 // The way from no bins to those that separate all classes (paper, Fig. 7): a strip of maps that plays.
 
 import { calm, element, svg } from "../base/dom.js";
-import { Labels } from "../map/labels.js";
 import { difference, symbol } from "../base/figures.js";
 import { count, figure } from "../base/words.js";
 import { watchBrush } from "../map/brush.js";
+import { Labels } from "../map/labels.js";
 import { mapOf, Plot } from "../map/plot.js";
 
 const PACE = 900;
 const THUMBNAIL = 64;
 
 export class PathPlayer {
-  constructor(model, selection, bins, state, chips, { open, pointing, choose, announce }) {
-    Object.assign(this, { model, selection, bins, state, chips, open, announce });
+  constructor(database, selection, bins, state, chips, { open, pointing, choose, announce }) {
+    Object.assign(this, { database, selection, bins, state, chips, open, announce });
     this.steps = selection.path;
-    this.maps = this.steps.map((step) => mapOf(step, selection, model.count));
+    this.maps = this.steps.map((step) => mapOf(step, selection, database.count));
     this.list = document.getElementById("path-steps");
     this.button = document.getElementById("play");
     this.button.addEventListener("click", () => (this.timer ? this.pause() : this.play()));
@@ -70,17 +70,17 @@ export class PathPlayer {
   }
 
   #makeMap(pointing, choose) {
-    const { model } = this;
+    const { database } = this;
     const surface = document.getElementById("step-surface");
     const overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
-    const labels = new Labels(model, overlay);
-    this.plot = new Plot(model, {
+    const labels = new Labels(database, overlay);
+    this.plot = new Plot(database, {
       label: "Map of the step",
       margin: 30,
       selection: () => this.state.get("selection"),
       mark: (index) => {
-        const group = model.groups[index];
-        return { path: model.symbol(group), color: model.color(group), radius: this.#radius, alpha: 0.92 };
+        const group = database.groups[index];
+        return { path: database.symbol(group), color: database.color(group), radius: this.#radius, alpha: 0.92 };
       },
       drawn: () => {
         const { width, height } = this.plot.view;
@@ -90,10 +90,10 @@ export class PathPlayer {
           labels.clear();
           return;
         }
-        const points = model.ids.flatMap((_, index) => {
+        const points = database.ids.flatMap((_, index) => {
           if (Number.isNaN(this.plot.map.x[index])) return [];
           const [x, y] = this.plot.screen(index);
-          return [{ index, group: model.groups[index], x, y }];
+          return [{ index, group: database.groups[index], x, y }];
         });
         labels.place(points, width, height, this.#radius);
         labels.follow((index) => this.plot.screen(index));
@@ -105,15 +105,15 @@ export class PathPlayer {
   }
 
   get #radius() {
-    return Math.min(Math.max(92 / Math.sqrt(this.model.count), 2.4), 5.5) * (this.plot.node.clientWidth < 420 ? 0.75 : 1);
+    return Math.min(Math.max(92 / Math.sqrt(this.database.count), 2.4), 5.5) * (this.plot.node.clientWidth < 420 ? 0.75 : 1);
   }
 
   #thumbnail(step, place) {
-    const { model } = this;
-    const radius = Math.min(Math.max(24 / Math.sqrt(model.count), 0.8), 2);
-    const plot = new Plot(model, {
+    const { database } = this;
+    const radius = Math.min(Math.max(24 / Math.sqrt(database.count), 0.8), 2);
+    const plot = new Plot(database, {
       margin: 4,
-      mark: (index) => ({ path: model.data.marks.plain, color: model.color(model.groups[index]), radius, alpha: 1 }),
+      mark: (index) => ({ path: database.data.marks.plain, color: database.color(database.groups[index]), radius, alpha: 1 }),
     });
     plot.node.style.width = plot.node.style.height = `${THUMBNAIL}px`;
     plot.show(this.maps[place]);

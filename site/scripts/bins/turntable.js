@@ -3,18 +3,18 @@
 import { modelBytes } from "../base/chunks.js";
 import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { Paint } from "../viewer/paint.js";
+import { dimensionOf, pictured } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
-import { watchBrush } from "../map/brush.js";
-import { dimensionOf, pictured, shapeLine } from "../bins-kit/look.js";
-import { Plot } from "../map/plot.js";
 import { findShapes } from "../database/shape-finder.js";
+import { watchBrush } from "../map/brush.js";
+import { Plot } from "../map/plot.js";
+import { Paint } from "../viewer/paint.js";
 
 export class Turntable {
-  constructor(model, bins, selection, state, { pointing, announce }) {
-    Object.assign(this, { model, bins, selection, state, announce });
+  constructor(database, bins, selection, state, { pointing, announce }) {
+    Object.assign(this, { database, bins, selection, state, announce });
     const load = selection.models && ((index) => modelBytes(selection.models[index]));
-    this.stage = new Stage(document.getElementById("stage"), { model, load, keys: "turn-keys" });
+    this.stage = new Stage(document.getElementById("stage"), { database, load, keys: "turn-keys" });
     this.paint = new Paint(selection);
     this.name = document.getElementById("turn-name");
     this.#watchReadings();
@@ -31,7 +31,7 @@ export class Turntable {
     const [shape, bin] = [this.state.get("shape"), this.state.get("bin")];
     if (shape === "least") return this.#extreme(bin, -1);
     if (shape === "most") return this.#extreme(bin, 1);
-    return shape ?? pictured(this.selection, this.model, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1);
+    return shape ?? pictured(this.selection, this.database, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1);
   }
 
   #extremes = null;
@@ -48,26 +48,26 @@ export class Turntable {
   }
 
   start() {
-    this.pick.show(this.model.methods[0]);
+    this.pick.show(this.database.methods[0]);
     this.render();
   }
 
   async render() {
-    const { model, bins, state, shape } = this;
+    const { database, bins, state, shape } = this;
     const bin = state.get("bin");
-    this.name.replaceChildren(...shapeLine(model, bins, bin, shape), element("a", { class: "which", href: pageAddress("shape.html", { id: model.ids[shape] }), title: "All about this shape" }, element("bdi", {}, model.labelled ? model.names[shape] : "its page")));
+    this.name.replaceChildren(...shapeLine(database, bins, bin, shape), element("a", { class: "which", href: pageAddress("shape.html", { id: database.ids[shape] }), title: "All about this shape" }, element("bdi", {}, database.labelled ? database.names[shape] : "its page")));
     for (const end of ["most", "least"]) document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
     this.pick.draw();
     const inside = state.get("reading") === "inside";
     const shown = await this.stage.show(shape, {
-      label: `${model.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
+      label: `${database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
       paint: (solid) => {
         const dimension = dimensionOf(bin, bins);
         return inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension);
       },
       reason: bins.isShare(bin) ? null : "This feature has no values on the surface.",
     });
-    if (shown) this.announce(`${model.names[shape]}, ${bins.names[bin]}`);
+    if (shown) this.announce(`${database.names[shape]}, ${bins.names[bin]}`);
   }
 
   #watchReadings() {
@@ -82,24 +82,24 @@ export class Turntable {
   }
 
   #watchShapes() {
-    const { model, state } = this;
+    const { database, state } = this;
     for (const end of ["most", "least"]) {
       document.getElementById(`${end}-of-it`).addEventListener("click", () => state.set({ shape: end }));
     }
-    findShapes(model, (shape) => state.set({ shape }));
+    findShapes(database, (shape) => state.set({ shape }));
   }
 
   /** The map of all shapes, on which one can be pointed at; large marks have much of the bin. */
   #makePick(pointing) {
-    const { model } = this;
-    this.pick = new Plot(model, {
+    const { database } = this;
+    this.pick = new Plot(database, {
       margin: 14,
       first: (index) => index !== this.shape,
       selection: () => this.state.get("selection"),
       mark: (index) => {
-        const group = model.groups[index];
+        const group = database.groups[index];
         const share = this.#share(index);
-        return { path: model.symbol(group), color: model.color(group), radius: 1.4 + 5 * Math.sqrt(share), alpha: 0.35 + 0.6 * Math.sqrt(share) };
+        return { path: database.symbol(group), color: database.color(group), radius: 1.4 + 5 * Math.sqrt(share), alpha: 0.35 + 0.6 * Math.sqrt(share) };
       },
       drawn: () => this.#ring(),
     });

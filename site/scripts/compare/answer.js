@@ -1,8 +1,8 @@
 // The answer to "what makes these two groups alike or different?", before all figures: a few sentences.
 
-import { percent } from "../bins-kit/bin-card.js";
 import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
+import { percent } from "../bins-kit/bin-card.js";
 import { varied } from "./contrasts.js";
 import { mean } from "./distribution.js";
 import { binCount, called, meaning, share, statement } from "./words.js";

@@ -7,8 +7,8 @@ import { isSame, nameOf } from "./groups.js";
 const SIDES = ["a", "b"];
 
 export class Chooser {
-  constructor(model, clusters, state) {
-    Object.assign(this, { model, state });
+  constructor(database, clusters, state) {
+    Object.assign(this, { database, state });
     this.lists = new Map(SIDES.map((side) => [side, document.getElementById(`group-${side}`)]));
     this.offers = this.#offers(clusters);
     for (const side of SIDES) {
@@ -29,8 +29,8 @@ export class Chooser {
 
   /** What every database offers: its classes and clusters with their sizes. */
   #offers(clusters) {
-    const { model } = this;
-    const classes = model.classes.map((name, group) => ({ spec: { kind: "class", group }, text: `${name} (${model.sizes.get(group) ?? 0})` }));
+    const { database } = this;
+    const classes = database.classes.map((name, group) => ({ spec: { kind: "class", group }, text: `${name} (${database.sizes.get(group) ?? 0})` }));
     const found = clusters === null || clusters.standIn ? [] : clusters.clusters;
     return [
       [clusters?.standIn ? "Clusters" : "Classes", classes],
@@ -54,7 +54,7 @@ export class Chooser {
       // The set of shapes that came along can be chosen on both sides.
       for (const known of [spec, other]) {
         if (known?.kind === "shapes" || known?.kind === "search") {
-          if (!own.some((offer) => isSame(offer.spec, known))) own.push({ spec: known, text: textOf(known, this.model) });
+          if (!own.some((offer) => isSame(offer.spec, known))) own.push({ spec: known, text: textOf(known, this.database) });
         }
       }
       const lists = [...this.offers, ["Other groups", own]].filter(([, offers]) => offers.length > 0);
@@ -72,7 +72,7 @@ export class Chooser {
   }
 }
 
-function textOf(spec, model) {
-  if (spec.kind === "search") return `found by ${nameOf(spec, model)}`;
-  return spec.shapes.size === 1 ? nameOf(spec, model) : `${count(spec.shapes.size, "selected shape")}`;
+function textOf(spec, database) {
+  if (spec.kind === "search") return `found by ${nameOf(spec, database)}`;
+  return spec.shapes.size === 1 ? nameOf(spec, database) : `${count(spec.shapes.size, "selected shape")}`;
 }

@@ -1,7 +1,6 @@
 // What sets two groups apart and what they share, worked out by the engine.
 
 import { startEngine } from "../engine/client.js";
-import { sampled } from "../database/sample.js";
 
 /** Of a larger group a sample speaks: enough to know a share to two parts in a hundred. */
 export const MOST_COMPARED = 500;
@@ -16,13 +15,13 @@ export class Contrasts {
   #engine = null;
 
   /** `bins` is a promise of the Bins, which are loaded when two groups are first compared. */
-  constructor(model, data, bins) {
-    Object.assign(this, { model, data, bins });
+  constructor(database, data, bins) {
+    Object.assign(this, { database, data, bins });
   }
 
   /** The rows of a group that speak for it, rising. */
   #sample(shapes) {
-    return [...sampled(Int32Array.from(shapes), this.model.groups, MOST_COMPARED)];
+    return [...sampled(Int32Array.from(shapes), this.database.groups, MOST_COMPARED)];
   }
 
   /** Begin to compare: { done, cancel }. */
@@ -32,7 +31,7 @@ export class Contrasts {
     const done = (async () => {
       const bins = await this.bins();
       const taken = new Set([...a, ...b]);
-      const outside = [...this.model.ids.keys()].filter((index) => !taken.has(index));
+      const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
       const sample = { a: this.#sample(a), b: this.#sample(b), rest: this.#sample(outside) };
       const rows = [...sample.a, ...sample.b, ...sample.rest];
       const numbers = (from, count) => Int32Array.from({ length: count }, (_, place) => from + place);

@@ -1,8 +1,8 @@
 // How much of a bin each of some groups has: a row a group, all on one axis.
 
+import { element, svg } from "../base/dom.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { percent } from "../bins-kit/bin-card.js";
-import { element, svg } from "../base/dom.js";
 
 /** Above so many shapes in a group, dots would only be a smear: then bars say how many lie where. */
 const MOST_DOTS = 60;

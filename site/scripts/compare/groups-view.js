@@ -1,17 +1,16 @@
 // Two groups beside each other: the answer in sentences, then bins, features and shapes.
 
-import { element, picture } from "../base/dom.js";
-import { writeSelection } from "../database/selection.js";
-import { galleryOf } from "../addresses/shapes.js";
-import { pageAddress } from "../base/place.js";
 import { shortNames } from "../addresses/bin-names.js";
-import { Inquiry } from "../engine/inquiry.js";
+import { galleryOf } from "../addresses/shapes.js";
+import { element, picture } from "../base/dom.js";
+import { pageAddress } from "../base/place.js";
 import { count, grouped } from "../base/words.js";
+import { writeSelection } from "../database/selection.js";
+import { Inquiry } from "../engine/inquiry.js";
 import { answer, kinship } from "./answer.js";
 import { binCard } from "./bin-cards.js";
 import { Chooser } from "./chooser.js";
 import { Contrasts, MOST_COMPARED, varied } from "./contrasts.js";
-import { featureRows } from "./feature-rows.js";
 import { Groups } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
 import { called } from "./words.js";
@@ -23,12 +22,12 @@ const FACES = 5;
 const SIDES = ["a", "b"];
 
 export class GroupsView {
-  constructor(model, data, clusters, neighbours, state, { bins, announce }) {
-    Object.assign(this, { model, data, neighbours, state, announce });
-    this.groups = new Groups(model, clusters);
-    this.chooser = new Chooser(model, clusters, state);
-    this.contrasts = new Contrasts(model, data, bins);
-    this.seen = new OnShapes(model, state, announce);
+  constructor(database, data, clusters, neighbours, state, { bins, announce }) {
+    Object.assign(this, { database, data, neighbours, state, announce });
+    this.groups = new Groups(database, clusters);
+    this.chooser = new Chooser(database, clusters, state);
+    this.contrasts = new Contrasts(database, data, bins);
+    this.seen = new OnShapes(database, state, announce);
     this.status = document.getElementById("status");
     this.result = document.getElementById("result");
     this.inquiry = new Inquiry((told) => this.#tell(told));
@@ -65,10 +64,10 @@ export class GroupsView {
 
   /** Why these groups cannot be compared, in words; or null. */
   #problem({ a, b }) {
-    const { model } = this;
-    if (model.count < 2) return ["This database has one shape: there is nothing to compare it with yet."];
+    const { database } = this;
+    if (database.count < 2) return ["This database has one shape: there is nothing to compare it with yet."];
     if (a === null || b === null) {
-      return model.labelled
+      return database.labelled
         ? ["Choose a group on each side: a class, shapes that a search finds, or all other shapes."]
         : ["This database has no labels. Find shapes by words above, or select some on the ", element("a", { href: pageAddress("index.html") }, "Overview"), " and choose “Compare with the rest” there."];
     }
@@ -91,26 +90,26 @@ export class GroupsView {
 
   /** Counts and faces of both groups. */
   #heads({ a, b, common }) {
-    const { model } = this;
+    const { database } = this;
     for (const [side, group] of [["a", a], ["b", b]]) {
       const node = document.getElementById(`head-${side}`);
       node.replaceChildren();
       if (!group || group.shapes.length === 0) continue;
       const query = new URLSearchParams();
-      writeSelection(query, model, new Set(group.shapes));
+      writeSelection(query, database, new Set(group.shapes));
       node.replaceChildren(
-        element("p", {}, group.mark(), element("b", {}, count(group.shapes.length, "shape")), " ", element("a", { href: galleryOf(model, new Set(group.shapes)) }, "Show in Shapes"), " ", element("a", { href: pageAddress("index.html", query) }, "on the map")),
-        element("div", { class: "faces" }, faces(group.shapes).map((index) => picture(model, index, 64))),
+        element("p", {}, group.mark(), element("b", {}, count(group.shapes.length, "shape")), " ", element("a", { href: galleryOf(database, new Set(group.shapes)) }, "Show in Shapes"), " ", element("a", { href: pageAddress("index.html", query) }, "on the map")),
+        element("div", { class: "faces" }, faces(group.shapes).map((index) => picture(database, index, 64))),
       );
     }
     document.getElementById("common").textContent = common > 0 ? `${count(common, "shape")} would be in both groups; the smaller one keeps ${common === 1 ? "it" : "them"}.` : "";
   }
 
   #tell({ kind, progress, message }) {
-    const { model, status } = this;
+    const { database, status } = this;
     document.getElementById("groups").setAttribute("aria-busy", String(kind === "working"));
     if (kind === "working") {
-      const words = progress > 0 ? "Dealing the shapes out at random, to know what chance does …" : `Reading the bins of ${count(model.count, "shape")} …`;
+      const words = progress > 0 ? "Dealing the shapes out at random, to know what chance does …" : `Reading the bins of ${count(database.count, "shape")} …`;
       if (!this.bar) {
         this.bar = { words: element("p", {}), progress: element("progress", { max: 1, "aria-label": "Comparing" }) };
         status.replaceChildren(element("div", { class: "working" }, this.bar.words, this.bar.progress));
@@ -125,7 +124,7 @@ export class GroupsView {
   }
 
   #answered(contrast, { a, b }) {
-    const { model } = this;
+    const { database } = this;
     const { bins } = contrast;
     const named = this.state.get("bin");
     const best = contrast.ranked[0] ?? 0;
@@ -135,7 +134,7 @@ export class GroupsView {
     this.shown = FIRST;
     this.result.hidden = false;
     this.#render();
-    this.announce(`${model.count > 0 ? document.querySelector("#answer h2").textContent : ""}`);
+    this.announce(`${database.count > 0 ? document.querySelector("#answer h2").textContent : ""}`);
     this.seen.show(this.view);
   }
 
@@ -151,7 +150,7 @@ export class GroupsView {
     this.#bins();
     this.#shared();
     document.getElementById("feature-rows").replaceChildren(...featureRows(view));
-    const classes = [a, b].every(({ spec }) => spec.kind === "class") ? [a, b].map(({ spec }) => ["class", this.model.classes[spec.group]]) : [];
+    const classes = [a, b].every(({ spec }) => spec.kind === "class") ? [a, b].map(({ spec }) => ["class", this.database.classes[spec.group]]) : [];
     const columns = varied(contrast.ranked, bins, FIRST);
     document.getElementById("to-workbench").href = pageAddress("workbench.html", [...classes, ["bins", shortNames(columns, bins.features)]]);
     if (this.seen.view === view) this.seen.draw();

@@ -1,14 +1,14 @@
 // The two groups: who belongs to them, what they are called, and how they are marked.
 
 import { swatch } from "../base/dom.js";
-import { findWords, searchTexts } from "../database/search.js";
 import { shortened } from "../base/words.js";
+import { findWords, searchTexts } from "../database/search.js";
 
 const LONGEST = 40;
 
 export class Groups {
-  constructor(model, clusters) {
-    this.model = model;
+  constructor(database, clusters) {
+    this.database = database;
     // Clusters that stand in for labels are the classes already.
     this.clusters = clusters !== null && !clusters.standIn ? clusters : null;
   }
@@ -39,17 +39,17 @@ export class Groups {
 
   /** The shapes of a group, rising; null for the rest. */
   async #shapes(spec) {
-    const { model } = this;
-    const where = (holds) => [...model.ids.keys()].filter(holds);
+    const { database } = this;
+    const where = (holds) => [...database.ids.keys()].filter(holds);
     switch (spec?.kind) {
       case "class":
-        return where((index) => model.groups[index] === spec.group);
+        return where((index) => database.groups[index] === spec.group);
       case "cluster": {
         const place = this.clusters?.clusters.findIndex(({ name }) => name === spec.name) ?? -1;
         return place < 0 ? [] : where((index) => this.clusters.of[index] === place);
       }
       case "search":
-        this.texts ??= await searchTexts(model);
+        this.texts ??= await searchTexts(database);
         return findWords(this.texts, spec.text);
       case "shapes":
         return [...spec.shapes].sort((one, other) => one - other);
@@ -60,30 +60,30 @@ export class Groups {
 
   #rest(other) {
     const taken = new Set(other ?? []);
-    return [...this.model.ids.keys()].filter((index) => !taken.has(index));
+    return [...this.database.ids.keys()].filter((index) => !taken.has(index));
   }
 
   /** Name and mark of a group. A class keeps its colour; other groups have that of their side. */
   #look(spec, side, other) {
-    const { model } = this;
+    const { database } = this;
     const own = spec.kind === "class";
-    const color = () => (own ? model.color(spec.group) : spec.kind === "rest" ? "var(--quiet)" : `var(--${side === "a" ? "accent" : "warn"})`);
+    const color = () => (own ? database.color(spec.group) : spec.kind === "rest" ? "var(--quiet)" : `var(--${side === "a" ? "accent" : "warn"})`);
     return {
       spec,
       side,
-      name: nameOf(spec, model, other),
+      name: nameOf(spec, database, other),
       color,
-      mark: () => swatch(own ? model.symbol(spec.group) : model.data.marks.plain, color()),
+      mark: () => swatch(own ? database.symbol(spec.group) : database.data.marks.plain, color()),
     };
   }
 }
 
-export function nameOf(spec, model, other = null) {
-  if (spec.kind === "class") return shortened(model.className(spec.group), LONGEST);
+export function nameOf(spec, database, other = null) {
+  if (spec.kind === "class") return shortened(database.className(spec.group), LONGEST);
   if (spec.kind === "cluster") return shortened(spec.name, LONGEST);
   if (spec.kind === "search") return `“${shortened(spec.text, LONGEST)}”`;
   if (spec.kind === "rest") return "the rest";
-  if (spec.shapes.size === 1) return shortened(model.names[[...spec.shapes][0]], LONGEST);
+  if (spec.shapes.size === 1) return shortened(database.names[[...spec.shapes][0]], LONGEST);
   return other?.kind === "shapes" ? `${spec.shapes.size} selected shapes` : "the selected shapes";
 }
 

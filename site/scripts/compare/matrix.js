@@ -1,11 +1,11 @@
 // Which classes are alike: of the nearest neighbours of each class, how many belong to each other class.
 
-import { element, picture, swatch } from "../base/dom.js";
-import { galleryOf } from "../addresses/shapes.js";
-import { pageAddress } from "../base/place.js";
-import { writeSelection } from "../database/selection.js";
-import { count, shortened } from "../base/words.js";
 import { compareAddress } from "../addresses/compare.js";
+import { galleryOf } from "../addresses/shapes.js";
+import { element, picture, swatch } from "../base/dom.js";
+import { pageAddress } from "../base/place.js";
+import { count, shortened } from "../base/words.js";
+import { writeSelection } from "../database/selection.js";
 
 const PAIRS = 8;
 const MOST_BEHIND = 24;
@@ -15,8 +15,8 @@ const NEAR = 3;
 const MOST_FIGURES = 20;
 
 export class Matrix {
-  constructor(model, data, neighbours, state, { announce }) {
-    Object.assign(this, { model, data, neighbours, state, announce });
+  constructor(database, data, neighbours, state, { announce }) {
+    Object.assign(this, { database, data, neighbours, state, announce });
     this.node = document.getElementById("matrix");
     if (this.node === null) return;
     this.words = document.getElementById("cell-words");
@@ -48,11 +48,11 @@ export class Matrix {
 
   /** Of the neighbours of a class, the share that belongs to another. */
   share(row, column) {
-    return this.counts[row][column] / (this.model.sizes.get(row) * this.neighbours.k);
+    return this.counts[row][column] / (this.database.sizes.get(row) * this.neighbours.k);
   }
 
   #likest() {
-    const { model, state } = this;
+    const { database, state } = this;
     const pairs = this.neighbours.likest(state.get("space")).slice(0, PAIRS);
     document.getElementById("likest").replaceChildren(
       ...pairs.map(({ group, other, there, back }) => {
@@ -66,11 +66,11 @@ export class Matrix {
       }),
     );
     document.getElementById("likest-none").hidden = pairs.length > 0;
-    document.getElementById("likest-none").textContent = model.classes.length > 1 ? "No shape has a neighbour of another class: the classes are all apart." : "";
+    document.getElementById("likest-none").textContent = database.classes.length > 1 ? "No shape has a neighbour of another class: the classes are all apart." : "";
   }
 
   #draw() {
-    const { model, data, node, state } = this;
+    const { database, data, node, state } = this;
     const order = data.order;
     const figures = order.length <= MOST_FIGURES;
     const highest = Math.max(...order.flatMap((row) => order.filter((column) => column !== row).map((column) => this.share(row, column))), 1e-9);
@@ -79,13 +79,13 @@ export class Matrix {
       "tr",
       {},
       element("td", { class: "corner" }, element("span", { class: "quiet" }, "neighbours →")),
-      order.map((column) => element("th", { scope: "col", title: model.className(column) }, element("span", {}, swatch(model.symbol(column), model.color(column)), element("bdi", {}, shortened(model.className(column), 24))))),
+      order.map((column) => element("th", { scope: "col", title: database.className(column) }, element("span", {}, swatch(database.symbol(column), database.color(column)), element("bdi", {}, shortened(database.className(column), 24))))),
     );
     const rows = order.map((row) =>
       element(
         "tr",
         {},
-        element("th", { scope: "row", title: model.className(row) }, element("bdi", {}, shortened(model.className(row), 24)), swatch(model.symbol(row), model.color(row))),
+        element("th", { scope: "row", title: database.className(row) }, element("bdi", {}, shortened(database.className(row), 24)), swatch(database.symbol(row), database.color(row))),
         order.map((column) => {
           const share = this.share(row, column);
           const cell = element(
@@ -105,14 +105,14 @@ export class Matrix {
   }
 
   #name(group) {
-    const { model } = this;
-    return element("span", { class: "called" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, shortened(model.className(group), 32)));
+    const { database } = this;
+    return element("span", { class: "called" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, shortened(database.className(group), 32)));
   }
 
   #sentence(row, column) {
-    const { model, neighbours } = this;
-    const names = [row, column].map((group) => model.className(group));
-    const all = model.sizes.get(row) * neighbours.k;
+    const { database, neighbours } = this;
+    const names = [row, column].map((group) => database.className(group));
+    const all = database.sizes.get(row) * neighbours.k;
     return row === column
       ? `${names[0]}: ${percents(this.share(row, row))} of the neighbours of its shapes are of its own class`
       : `${names[0]} to ${names[1]}: ${percents(this.share(row, column))}, ${this.counts[row][column]} of ${all} neighbours`;
@@ -160,7 +160,7 @@ export class Matrix {
 
   /** The shapes behind the chosen cell. */
   #behind() {
-    const { model, state, neighbours } = this;
+    const { database, state, neighbours } = this;
     const node = document.getElementById("behind");
     const [row, column] = [state.get("row"), state.get("column")];
     for (const cell of this.node.querySelectorAll("[aria-selected]")) cell.removeAttribute("aria-selected");
@@ -172,11 +172,11 @@ export class Matrix {
     const pairs = neighbours.pairs(row, column, state.get("space"));
     const all = new Set(pairs.flatMap(({ index, near }) => [index, ...near]));
     const query = new URLSearchParams();
-    writeSelection(query, model, all);
+    writeSelection(query, database, all);
     const ways = [
-      row !== column && element("a", { href: compareAddress(model, { kind: "class", group: row }, { kind: "class", group: column }) }, "Compare these classes"),
-      row !== column && element("a", { href: pageAddress("workbench.html", [["class", model.classes[row]], ["class", model.classes[column]]]) }, "Into the Workbench"),
-      all.size > 0 && element("a", { href: galleryOf(model, all) }, `Show the ${count(all.size, "shape")}`),
+      row !== column && element("a", { href: compareAddress(database, { kind: "class", group: row }, { kind: "class", group: column }) }, "Compare these classes"),
+      row !== column && element("a", { href: pageAddress("workbench.html", [["class", database.classes[row]], ["class", database.classes[column]]]) }, "Into the Workbench"),
+      all.size > 0 && element("a", { href: galleryOf(database, all) }, `Show the ${count(all.size, "shape")}`),
       all.size > 0 && element("a", { href: pageAddress("index.html", query) }, "On the map"),
     ].filter(Boolean);
     const own = row === column;
@@ -184,7 +184,7 @@ export class Matrix {
       element("h3", {}, this.#name(row), " → ", this.#name(column)),
       element("p", {}, pairs.length === 0
         ? own ? "No shape of this class has another one of it among its neighbours." : "No shape of the one is a neighbour of a shape of the other."
-        : [element("b", {}, `${pairs.length} of ${count(model.sizes.get(row), "shape")}`), ` of `, element("bdi", {}, model.className(row)), ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? "of their own class" : "of "}`, !own && element("bdi", {}, model.className(column)), ": ", `${percents(this.share(row, column))} of all their neighbours.`]),
+        : [element("b", {}, `${pairs.length} of ${count(database.sizes.get(row), "shape")}`), ` of `, element("bdi", {}, database.className(row)), ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? "of their own class" : "of "}`, !own && element("bdi", {}, database.className(column)), ": ", `${percents(this.share(row, column))} of all their neighbours.`]),
       element("p", { class: "ways" }, ways.flatMap((way) => [way, " "])),
       element("ul", { class: "behind-list" }, pairs.slice(0, MOST_BEHIND).map(({ index, near }) =>
         element("li", {}, this.#face(index), element("span", { class: "arrow", "aria-hidden": "true" }, "→"), near.slice(0, NEAR).map((other) => this.#face(other)), near.length > NEAR && element("span", { class: "quiet" }, `+${near.length - NEAR}`)),
@@ -195,8 +195,8 @@ export class Matrix {
   }
 
   #face(index) {
-    const { model } = this;
-    return element("a", { href: pageAddress("shape.html", { id: model.ids[index] }), title: model.names[index], "aria-label": model.names[index] }, picture(model, index, 64));
+    const { database } = this;
+    return element("a", { href: pageAddress("shape.html", { id: database.ids[index] }), title: database.names[index], "aria-label": database.names[index] }, picture(database, index, 64));
   }
 }
 

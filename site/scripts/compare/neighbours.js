@@ -2,14 +2,14 @@
 
 export class Neighbours {
   /** `data` is the chunk "compare", `bytes` the ArrayBuffer of the chunk "neighbours". */
-  constructor(model, { k, spaces }, bytes) {
-    Object.assign(this, { model, k, spaces });
+  constructor(database, { k, spaces }, bytes) {
+    Object.assign(this, { database, k, spaces });
     this.rows = new Uint32Array(bytes);
   }
 
   /** Of one shape, nearest first. */
   of(index, space = this.spaces[0]) {
-    const start = (this.spaces.indexOf(space) * this.model.count + index) * this.k;
+    const start = (this.spaces.indexOf(space) * this.database.count + index) * this.k;
     return this.rows.subarray(start, start + this.k);
   }
 
@@ -24,11 +24,11 @@ export class Neighbours {
 
   /** How many neighbours of a shape of each class (rows) belong to each class (columns). */
   matrix(space) {
-    const { model } = this;
-    const counts = model.classes.map(() => new Array(model.classes.length).fill(0));
-    for (const [index, group] of model.groups.entries()) {
+    const { database } = this;
+    const counts = database.classes.map(() => new Array(database.classes.length).fill(0));
+    for (const [index, group] of database.groups.entries()) {
       if (group < 0) continue;
-      for (const other of this.of(index, space)) if (model.groups[other] >= 0) counts[group][model.groups[other]] += 1;
+      for (const other of this.of(index, space)) if (database.groups[other] >= 0) counts[group][database.groups[other]] += 1;
     }
     return counts;
   }
@@ -39,7 +39,7 @@ export class Neighbours {
    */
   likest(space = this.spaces[0]) {
     const counts = this.matrix(space);
-    const shares = counts.map((row, group) => row.map((number) => number / (this.model.sizes.get(group) * this.k)));
+    const shares = counts.map((row, group) => row.map((number) => number / (this.database.sizes.get(group) * this.k)));
     const pairs = [];
     for (let group = 0; group < counts.length; group += 1) {
       for (let other = group + 1; other < counts.length; other += 1) {
@@ -52,11 +52,11 @@ export class Neighbours {
 
   /** The pairs behind a cell: shapes of a class with those of their neighbours that belong to another. */
   pairs(group, other, space) {
-    const { model } = this;
+    const { database } = this;
     const found = [];
-    for (const [index, own] of model.groups.entries()) {
+    for (const [index, own] of database.groups.entries()) {
       if (own !== group) continue;
-      const near = [...this.of(index, space)].filter((neighbour) => model.groups[neighbour] === other);
+      const near = [...this.of(index, space)].filter((neighbour) => database.groups[neighbour] === other);
       if (near.length > 0) found.push({ index, near });
     }
     return found.sort((a, b) => b.near.length - a.near.length || a.index - b.index);

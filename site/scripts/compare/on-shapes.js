@@ -1,20 +1,20 @@
 // A bin on the most central shapes of both groups: pictures first, and 3D where a reader asks for it.
 
-import { percent } from "../bins-kit/bin-card.js";
-import { dimensionOf } from "../bins-kit/look.js";
-import { Legend } from "../bins-kit/legend.js";
 import { chunk, modelBytes } from "../base/chunks.js";
 import { element, picture } from "../base/dom.js";
 import { pageAddress, resource } from "../base/place.js";
-import { Paint } from "../viewer/paint.js";
+import { percent } from "../bins-kit/bin-card.js";
+import { Legend } from "../bins-kit/legend.js";
+import { dimensionOf } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
+import { Paint } from "../viewer/paint.js";
 
 const EXAMPLES = 6;
 const SIDES = ["a", "b"];
 
 export class OnShapes {
-  constructor(model, state, announce) {
-    Object.assign(this, { model, state, announce });
+  constructor(database, state, announce) {
+    Object.assign(this, { database, state, announce });
     this.asked = false;
     const inputs = document.querySelectorAll("#readings input");
     this.check = () => {
@@ -56,22 +56,22 @@ export class OnShapes {
   }
 
   #makeStages() {
-    const { selection, model } = this;
+    const { selection, database } = this;
     this.legend = new Legend(selection);
     this.paint = new Paint(selection);
     const load = selection.models && ((index) => modelBytes(selection.models[index]));
-    return Object.fromEntries(SIDES.map((side) => [side, new Stage(document.getElementById(`stage-${side}`), { model, load, keys: "turn-keys" })]));
+    return Object.fromEntries(SIDES.map((side) => [side, new Stage(document.getElementById(`stage-${side}`), { database, load, keys: "turn-keys" })]));
   }
 
   #side(side, share) {
-    const { view, model } = this;
+    const { view, database } = this;
     const { bins, bin } = view;
     const shape = this.chosen[side];
     const group = view[side];
     const told = (index) => (share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3))));
     document.getElementById(`seen-${side}`).replaceChildren(
       element("p", { class: "of" }, group.mark(), element("b", {}, element("bdi", {}, group.name))),
-      element("p", {}, element("a", { href: pageAddress("shape.html", { id: model.ids[shape] }) }, element("bdi", {}, model.names[shape])), " ", element("span", { class: "quiet" }, told(shape))),
+      element("p", {}, element("a", { href: pageAddress("shape.html", { id: database.ids[shape] }) }, element("bdi", {}, database.names[shape])), " ", element("span", { class: "quiet" }, told(shape))),
     );
     document.getElementById(`examples-${side}`).replaceChildren(
       ...view.contrast.central[side].slice(0, EXAMPLES).map((index) =>
@@ -81,15 +81,15 @@ export class OnShapes {
             type: "button",
             class: "example",
             "aria-pressed": String(index === shape),
-            "aria-label": `${model.names[index]}, ${told(index)}`,
-            title: model.names[index],
+            "aria-label": `${database.names[index]}, ${told(index)}`,
+            title: database.names[index],
             onclick: () => {
               this.chosen[side] = index;
               this.#side(side, share);
               document.querySelector(`#examples-${side} [aria-pressed="true"]`)?.focus();
             },
           },
-          picture(model, index, 56),
+          picture(database, index, 56),
         ),
       ),
     );
@@ -103,14 +103,14 @@ export class OnShapes {
     if (!this.asked && share) {
       const painting = this.selection.paintings.find((painted) => painted.column === bin && painted.shape === shape);
       stage.node.replaceChildren(painting === undefined
-        ? picture(this.model, shape, 320)
-        : element("img", { src: resource(inside ? painting.inside : painting.value), alt: `${this.model.names[shape]}, ${inside ? "what falls into the bin" : "its values in colours"}`, width: 320, height: 320 }));
+        ? picture(this.database, shape, 320)
+        : element("img", { src: resource(inside ? painting.inside : painting.value), alt: `${this.database.names[shape]}, ${inside ? "what falls into the bin" : "its values in colours"}`, width: 320, height: 320 }));
       return;
     }
     stage.asked = true;
     const dimension = share ? dimensionOf(bin, bins) : null;
     stage.show(shape, {
-      label: `${this.model.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
+      label: `${this.database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
       paint: (solid) => (inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension)),
       reason: share ? null : "This feature has no values on the surface.",
     });

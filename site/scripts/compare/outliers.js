@@ -1,10 +1,10 @@
 // Shapes that fit their class least: where they would rather belong, and what sets them apart.
 
+import { compareAddress } from "../addresses/compare.js";
 import { element, picture, swatch } from "../base/dom.js";
-import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure } from "../base/words.js";
-import { compareAddress } from "../addresses/compare.js";
+import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { distribution, mean, toldAs } from "./distribution.js";
 
 const PAGE = 12;
@@ -23,8 +23,8 @@ const LEAST_SPREAD = 0.2;
 export class Outliers {
   #usual = new Map();
 
-  constructor(model, data, neighbours, state, { bins, announce }) {
-    Object.assign(this, { model, data, neighbours, state, announce, load: bins });
+  constructor(database, data, neighbours, state, { bins, announce }) {
+    Object.assign(this, { database, data, neighbours, state, announce, load: bins });
     this.list = document.getElementById("outlier-list");
     this.more = document.getElementById("more-outliers");
     this.filter = document.getElementById("outliers-of");
@@ -46,24 +46,24 @@ export class Outliers {
 
   /** Shapes by rising fit, of one class or of all. */
   ranked(of = this.state.get("of")) {
-    const { model, data } = this;
-    return [...model.ids.keys()]
-      .filter((index) => data.fit[index] !== null && (of === null || model.groups[index] === of))
+    const { database, data } = this;
+    return [...database.ids.keys()]
+      .filter((index) => data.fit[index] !== null && (of === null || database.groups[index] === of))
       .sort((a, b) => data.fit[a] - data.fit[b] || a - b);
   }
 
   #offer() {
-    const { model } = this;
-    const below = model.classes.map(() => 0);
-    for (const index of this.ranked(null)) if (this.data.fit[index] < 0) below[model.groups[index]] += 1;
+    const { database } = this;
+    const below = database.classes.map(() => 0);
+    for (const index of this.ranked(null)) if (this.data.fit[index] < 0) below[database.groups[index]] += 1;
     this.filter.replaceChildren(
       element("option", { value: "" }, "all shapes"),
-      ...model.classes.map((name, group) => element("option", { value: group }, below[group] > 0 ? `${name} (${below[group]} closer to another)` : name)),
+      ...database.classes.map((name, group) => element("option", { value: group }, below[group] > 0 ? `${name} (${below[group]} closer to another)` : name)),
     );
   }
 
   async render() {
-    const { model, state, list } = this;
+    const { database, state, list } = this;
     if (state.get("view") !== "outliers" || list === null) return;
     const of = state.get("of");
     this.filter.value = of === null ? "" : String(of);
@@ -85,38 +85,38 @@ export class Outliers {
   }
 
   #item(index) {
-    const { model, data, neighbours } = this;
-    const [own, rival] = [model.groups[index], data.rival[index]];
+    const { database, data, neighbours } = this;
+    const [own, rival] = [database.groups[index], data.rival[index]];
     const near = [...neighbours.of(index)];
     const fit = data.fit[index];
     return element(
       "li",
       { class: "outlier", "data-index": index },
-      element("a", { class: "face", href: pageAddress("shape.html", { id: model.ids[index] }), "aria-label": model.names[index] }, picture(model, index, 128)),
+      element("a", { class: "face", href: pageAddress("shape.html", { id: database.ids[index] }), "aria-label": database.names[index] }, picture(database, index, 128)),
       element(
         "div",
         { class: "whereabouts" },
-        element("p", { class: "name" }, element("a", { href: pageAddress("shape.html", { id: model.ids[index] }) }, element("bdi", {}, model.names[index])), " ", name(model, own)),
-        element("p", {}, fit < 0 ? ["Closer to ", name(model, rival), " than to its own class."] : ["Of its own class, but next to ", name(model, rival), "."]),
-        element("p", { class: "quiet" }, "Fit ", element("b", { class: "figure" }, signed(fit)), model.methods.map((method) => method.hit[index] !== null && [", NH on ", method.title, " ", figure(method.hit[index]), ofAtMost(highestOf(model, method, index))])),
+        element("p", { class: "name" }, element("a", { href: pageAddress("shape.html", { id: database.ids[index] }) }, element("bdi", {}, database.names[index])), " ", name(database, own)),
+        element("p", {}, fit < 0 ? ["Closer to ", name(database, rival), " than to its own class."] : ["Of its own class, but next to ", name(database, rival), "."]),
+        element("p", { class: "quiet" }, "Fit ", element("b", { class: "figure" }, signed(fit)), database.methods.map((method) => method.hit[index] !== null && [", NH on ", method.title, " ", figure(method.hit[index]), ofAtMost(highestOf(database, method, index))])),
         element("p", { class: "quiet" }, this.#census(near)),
-        element("div", { class: "near" }, near.slice(0, NEAREST).map((other) => element("a", { href: pageAddress("shape.html", { id: model.ids[other] }), title: `${model.names[other]}, ${model.className(model.groups[other])}`, "aria-label": `${model.names[other]}, ${model.className(model.groups[other])}` }, picture(model, other, 56), element("i", {}, swatch(model.symbol(model.groups[other]), model.color(model.groups[other])))))),
-        element("p", { class: "ways" }, element("a", { href: compareAddress(model, { kind: "shapes", shapes: new Set([index]) }, { kind: "class", group: own }) }, "Compare with its class"), " ", element("a", { href: compareAddress(model, { kind: "class", group: own }, { kind: "class", group: rival }) }, "Compare the two classes")),
+        element("div", { class: "near" }, near.slice(0, NEAREST).map((other) => element("a", { href: pageAddress("shape.html", { id: database.ids[other] }), title: `${database.names[other]}, ${database.className(database.groups[other])}`, "aria-label": `${database.names[other]}, ${database.className(database.groups[other])}` }, picture(database, other, 56), element("i", {}, swatch(database.symbol(database.groups[other]), database.color(database.groups[other])))))),
+        element("p", { class: "ways" }, element("a", { href: compareAddress(database, { kind: "shapes", shapes: new Set([index]) }, { kind: "class", group: own }) }, "Compare with its class"), " ", element("a", { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group: rival }) }, "Compare the two classes")),
       ),
       element("div", { class: "reasons", "aria-live": "off" }),
     );
   }
 
   #census(near) {
-    const { model } = this;
-    const parts = model.census(near).slice(0, 3).map(([group, number], place) => [place > 0 && ", ", `${number} of `, element("bdi", {}, model.className(group))]);
+    const { database } = this;
+    const parts = database.census(near).slice(0, 3).map(([group, number], place) => [place > 0 && ", ", `${number} of `, element("bdi", {}, database.className(group))]);
     return [`Its ${count(near.length, "nearest neighbour")}: `, parts];
   }
 
   /** Bins in which a shape is unlike its class and like the other one. */
   #reasons(index, bins) {
-    const { model, data } = this;
-    const [group, other] = [model.groups[index], data.rival[index]];
+    const { database, data } = this;
+    const [group, other] = [database.groups[index], data.rival[index]];
     const [own, rival] = [this.#usualOf(group, bins), this.#usualOf(other, bins)];
     const size = own.rows.length - 1;
     const scored = [];
@@ -141,12 +141,12 @@ export class Outliers {
   }
 
   #reason(index, column, group, other, bins) {
-    const { model, data } = this;
+    const { database, data } = this;
     const share = bins.isShare(column);
     const told = toldAs(share);
     const row = (of) => {
       const rows = this.#usualOf(of, bins).rows.filter((shape) => shape !== index);
-      return { mark: swatch(model.symbol(of), model.color(of)), name: model.className(of), color: model.color(of), values: rows.map((shape) => bins.share(column, shape)) };
+      return { mark: swatch(database.symbol(of), database.color(of)), name: database.className(of), color: database.color(of), values: rows.map((shape) => bins.share(column, shape)) };
     };
     const rows = [{ ...row(group), at: bins.share(column, index) }, row(other)];
     const means = rows.map(({ values }) => mean(values));
@@ -156,7 +156,7 @@ export class Outliers {
     return element(
       "div",
       { class: "reason" },
-      element("p", {}, hue, element("b", {}, element("bdi", {}, bins.shortName(column, 18))), " ", words, "; in ", element("bdi", {}, model.className(group)), ` on average ${told(means[0])}, in `, element("bdi", {}, model.className(other)), ` ${told(means[1])}.`),
+      element("p", {}, hue, element("b", {}, element("bdi", {}, bins.shortName(column, 18))), " ", words, "; in ", element("bdi", {}, database.className(group)), ` on average ${told(means[0])}, in `, element("bdi", {}, database.className(other)), ` ${told(means[1])}.`),
       distribution(rows, share),
     );
   }
@@ -164,7 +164,7 @@ export class Outliers {
   /** Means and spreads of a class in every bin. */
   #usualOf(group, bins) {
     if (this.#usual.has(group)) return this.#usual.get(group);
-    const all = [...this.model.ids.keys()].filter((index) => this.model.groups[index] === group);
+    const all = [...this.database.ids.keys()].filter((index) => this.database.groups[index] === group);
     const step = Math.max(all.length / MOST_USUAL, 1);
     const rows = Array.from({ length: Math.min(all.length, MOST_USUAL) }, (_, place) => all[Math.floor(place * step)]);
     const usual = { rows, means: new Float64Array(bins.count), shares: new Float64Array(bins.count), spreads: new Float64Array(bins.count) };
@@ -195,8 +195,8 @@ export class Outliers {
   }
 }
 
-function name(model, group) {
-  return element("span", { class: "called" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, model.className(group)));
+function name(database, group) {
+  return element("span", { class: "called" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group)));
 }
 
 /** A fit with its sign. */

@@ -1,8 +1,8 @@
 // What the page shows, as tables.
 
-import { highestOf } from "../database/hit-range.js";
 import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
+import { highestOf } from "../database/hit-range.js";
 import { mean, toldAs } from "./distribution.js";
 import { signed } from "./outliers.js";
 import { share } from "./words.js";
@@ -10,8 +10,8 @@ import { share } from "./words.js";
 const MOST_BINS = 100;
 const MOST_SHAPES = 300;
 
-export function compareTables(model, data, state, { groups, outliers, matrix }) {
-  const tables = { groups: () => ofGroups(groups.view), outliers: () => ofOutliers(model, data, outliers), classes: () => ofClasses(model, data, matrix) };
+export function compareTables(database, data, state, { groups, outliers, matrix }) {
+  const tables = { groups: () => ofGroups(groups.view), outliers: () => ofOutliers(database, data, outliers), classes: () => ofClasses(database, data, matrix) };
   return { title: "This comparison in figures", tables: tables[state.get("view")]() };
 }
 
@@ -37,21 +37,21 @@ function ofGroups(view) {
   ].filter(Boolean);
 }
 
-function ofOutliers(model, data, outliers) {
+function ofOutliers(database, data, outliers) {
   const ranked = outliers.list === null ? [] : outliers.ranked().slice(0, MOST_SHAPES);
   return [
-    table("Shapes by how well they fit their class", ["Shape", "Class", "Fit", "Closest other class", ...model.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"])], ranked.map((index) => [
-      model.names[index], model.className(model.groups[index]), signed(data.fit[index]), model.className(data.rival[index]), ...model.methods.flatMap((method) => [figure(method.hit[index]), figure(highestOf(model, method, index))]),
+    table("Shapes by how well they fit their class", ["Shape", "Class", "Fit", "Closest other class", ...database.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"])], ranked.map((index) => [
+      database.names[index], database.className(database.groups[index]), signed(data.fit[index]), database.className(data.rival[index]), ...database.methods.flatMap((method) => [figure(method.hit[index]), figure(highestOf(database, method, index))]),
     ])),
   ];
 }
 
-function ofClasses(model, data, matrix) {
+function ofClasses(database, data, matrix) {
   if (matrix.node === null) return [];
   const { order } = data;
   return [
-    table("Of the nearest neighbours of a class (rows), the share in each class (columns)", ["Class", ...order.map((column) => model.className(column))], order.map((row) => [
-      model.className(row), ...order.map((column) => figure(matrix.share(row, column))),
+    table("Of the nearest neighbours of a class (rows), the share in each class (columns)", ["Class", ...order.map((column) => database.className(column))], order.map((row) => [
+      database.className(row), ...order.map((column) => figure(matrix.share(row, column))),
     ])),
   ];
 }

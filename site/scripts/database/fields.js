@@ -8,7 +8,7 @@ const HIT_EDGES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
 export const NONE = -1;
 
 export class Fields {
-  constructor(model, { byName, fields }, { trees }) {
+  constructor(database, { byName, fields }, { trees }) {
     this.byName = byName;
     // A tree of one level is a list.
     const deep = trees.filter(({ key, nodes }) => key === "folders" || nodes.some(({ parent }) => parent >= 0));
@@ -18,12 +18,12 @@ export class Fields {
       .map((tree) => ({ ...NOTHING, key: tree.key, title: tree.title, tree }));
     const measured = own.filter(({ key }) => key.startsWith("fact:"));
     const given = own.filter((field) => !measured.includes(field));
-    this.all = [...given, ...folders, ...hits(model), ...measured];
+    this.all = [...given, ...folders, ...hits(database), ...measured];
     for (const field of this.all) if (field.tree) field.tree.ways = ways(field.tree.nodes);
     this.byKey = new Map(this.all.map((field) => [field.key, field]));
     this.active = this.all.find(({ active }) => active) ?? null;
-    // Classes stand in the order that people sort by, and the model numbers them in another.
-    if (this.active) this.active.groups = this.active.names.map((name) => model.classes.indexOf(name));
+    // Classes stand in the order that people sort by, and the database numbers them in another.
+    if (this.active) this.active.groups = this.active.names.map((name) => database.classes.indexOf(name));
   }
 
   /** Those that make groups: few values, or intervals. */
@@ -47,16 +47,16 @@ const first = ({ active, tree }) => active || tree !== null;
 
 const NOTHING = { unit: "", active: false, names: null, of: null, notes: null, numbers: null, edges: null, tree: null };
 
-function hits(model) {
-  if (!model.separable) return [];
-  return model.methods.map((method) => ({
+function hits(database) {
+  if (!database.separable) return [];
+  return database.methods.map((method) => ({
     ...NOTHING,
     key: `nh:${method.key}`,
     title: `NH on the ${method.title} map`,
     numbers: method.hit,
     edges: HIT_EDGES,
     hit: true,
-    highest: (row) => highestOf(model, method, row),
+    highest: (row) => highestOf(database, method, row),
   }));
 }
 

@@ -30,20 +30,20 @@ export function hitRange(groups, k) {
 
 const ranges = new WeakMap();
 
-/** The range of a map as the Model has them; of the shapes that have a place on it. */
-export function rangeOf(model, map) {
-  if (!ranges.has(map)) ranges.set(map, hitRange(model.groups.filter((_, index) => !Number.isNaN(map.x[index])), map.neighbours));
+/** The range of a map as the Database has them; of the shapes that have a place on it. */
+export function rangeOf(database, map) {
+  if (!ranges.has(map)) ranges.set(map, hitRange(database.groups.filter((_, index) => !Number.isNaN(map.x[index])), map.neighbours));
   return ranges.get(map);
 }
 
 /** The highest NH that a shape can have on a map; null without a label. */
-export function highestOf(model, map, index) {
-  return rangeOf(model, map).highestOfClass.get(model.groups[index]) ?? null;
+export function highestOf(database, map, index) {
+  return rangeOf(database, map).highestOfClass.get(database.groups[index]) ?? null;
 }
 
 /** The share of what it can be that NH of a shape reaches, which its colour shows; null where it cannot but be 0. */
-export function reachOf(model, map, index) {
-  const highest = highestOf(model, map, index);
+export function reachOf(database, map, index) {
+  const highest = highestOf(database, map, index);
   return highest && map.hit[index] !== null ? map.hit[index] / highest : null;
 }
 

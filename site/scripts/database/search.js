@@ -4,8 +4,8 @@ import { chunk } from "../base/chunks.js";
 import { count } from "../base/words.js";
 
 export class Search {
-  constructor(model, state, announce) {
-    this.model = model;
+  constructor(database, state, announce) {
+    this.database = database;
     this.state = state;
     this.announce = announce;
     this.field = document.getElementById("search");
@@ -28,7 +28,7 @@ export class Search {
       this.state.set({ matches: null });
       return;
     }
-    this.texts ??= await searchTexts(this.model);
+    this.texts ??= await searchTexts(this.database);
     if (this.state.get("query") !== query) return;
     const found = findWords(this.texts, query);
     this.select.hidden = false;
@@ -46,10 +46,10 @@ export class Search {
 }
 
 /** One searchable text a shape: its id, name, labels and metadata. */
-export async function searchTexts(model) {
+export async function searchTexts(database) {
   const { shapes } = await chunk("details");
   return shapes.map(({ labels, metadata }, index) =>
-    plain([model.ids[index], model.names[index], ...labels.filter(Boolean), ...metadata.map(([, value]) => value)].join("\n")),
+    plain([database.ids[index], database.names[index], ...labels.filter(Boolean), ...metadata.map(([, value]) => value)].join("\n")),
   );
 }
 

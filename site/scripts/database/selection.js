@@ -9,17 +9,17 @@ export function isSelection(name) {
 }
 
 /** Add a selection to the parameters of an address. */
-export function writeSelection(query, model, selection) {
+export function writeSelection(query, database, selection) {
   if (selection.size === 0) return;
-  if (selection.size <= MOST_NAMED) for (const index of selection) query.append("select", model.ids[index]);
-  else query.set("selected", `${mark(model)}.${packed(model, selection)}`);
+  if (selection.size <= MOST_NAMED) for (const index of selection) query.append("select", database.ids[index]);
+  else query.set("selected", `${mark(database)}.${packed(database, selection)}`);
 }
 
 /** The selection that an address names; shapes that are no longer there are left out. */
-export function readSelection(query, model) {
-  const named = query.getAll("select").map((id) => model.indexOfId.get(id)).filter((index) => index !== undefined);
+export function readSelection(query, database) {
+  const named = query.getAll("select").map((id) => database.indexOfId.get(id)).filter((index) => index !== undefined);
   const [whose, bits] = (query.get("selected") ?? "").split(".");
-  return new Set(bits !== undefined && whose === mark(model) ? unpacked(model, bits) : named);
+  return new Set(bits !== undefined && whose === mark(database) ? unpacked(database, bits) : named);
 }
 
 /** The selection with one shape more, or less. */
@@ -29,23 +29,23 @@ export function toggled(selection, index) {
   return next;
 }
 
-function packed(model, selection) {
-  const bytes = new Uint8Array(Math.ceil(model.count / 8));
+function packed(database, selection) {
+  const bytes = new Uint8Array(Math.ceil(database.count / 8));
   for (const index of selection) bytes[index >> 3] |= 1 << (index & 7);
   return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
 }
 
-function unpacked(model, text) {
+function unpacked(database, text) {
   const whole = /^[\w-]*$/.test(text) && text.length % 4 !== 1;
   const bytes = whole ? atob(text.replaceAll("-", "+").replaceAll("_", "/")) : "";
-  return [...Array(model.count).keys()].filter((index) => (bytes.charCodeAt(index >> 3) >> (index & 7)) & 1);
+  return [...Array(database.count).keys()].filter((index) => (bytes.charCodeAt(index >> 3) >> (index & 7)) & 1);
 }
 
 const marks = new WeakMap();
 
-function mark(model) {
-  if (!marks.has(model)) marks.set(model, hashed(model.ids));
-  return marks.get(model);
+function mark(database) {
+  if (!marks.has(database)) marks.set(database, hashed(database.ids));
+  return marks.get(database);
 }
 
 /** FNV-1a of all ids. */

@@ -4,9 +4,9 @@ import { element } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 
 /** `choose` is told of the shape. */
-export function findShapes(model, choose) {
-  const names = model.names.map((name) => name.toLocaleLowerCase());
-  const texts = names.map((name, index) => `${name}\n${model.ids[index]}\n${model.className(model.groups[index])}`.toLocaleLowerCase());
+export function findShapes(database, choose) {
+  const names = database.names.map((name) => name.toLocaleLowerCase());
+  const texts = names.map((name, index) => `${name}\n${database.ids[index]}\n${database.className(database.groups[index])}`.toLocaleLowerCase());
   return new Finder("shape", {
     find: (text) => {
       const whole = text.toLocaleLowerCase();
@@ -16,7 +16,7 @@ export function findShapes(model, choose) {
       const rank = (index) => (names[index] === whole ? 0 : names[index].includes(whole) ? 1 : 2);
       return found.sort((a, b) => rank(a) - rank(b) || a - b);
     },
-    label: (index) => [element("bdi", {}, model.names[index]), " ", model.labelled && element("span", { class: "quiet" }, element("bdi", {}, model.className(model.groups[index])))].filter(Boolean),
+    label: (index) => [element("bdi", {}, database.names[index]), " ", database.labelled && element("span", { class: "quiet" }, element("bdi", {}, database.className(database.groups[index])))].filter(Boolean),
     choose,
   });
 }

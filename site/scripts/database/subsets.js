@@ -37,7 +37,7 @@ export class Subsets {
     return code.indexOf("1") === code.lastIndexOf("1") ? code.indexOf("1") : -1;
   }
 
-  /** The map of a subset, as the Model has projections; classes are numbered as there. */
+  /** The map of a subset, as the Database has projections; classes are numbered as there. */
   async map(place, classCount) {
     const maps = await chunk("subsets");
     const { data } = this;

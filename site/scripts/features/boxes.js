@@ -5,8 +5,8 @@ import { element, swatch } from "../base/dom.js";
 import { hitRange } from "../database/hit-range.js";
 
 export class Boxes {
-  constructor(model, subsets, state, marks) {
-    this.model = model;
+  constructor(database, subsets, state, marks) {
+    this.database = database;
     this.subsets = subsets;
     this.state = state;
     this.marks = marks;
@@ -22,21 +22,21 @@ export class Boxes {
   async start() {
     for (const [, vega] of this.vegas ?? []) vega.finalize();
     this.vegas = [];
-    const { model, subsets } = this;
+    const { database, subsets } = this;
     const point = (pointedGroup) => () => this.state.set({ pointedGroup });
     this.list.replaceChildren(
       ...this.order.map((column) => {
         const group = subsets.data.classes[column];
         return element(
           "li",
-          { title: model.className(group), onpointerenter: point(group), onpointerleave: point(null) },
-          swatch(model.symbol(group), model.color(group)),
-          element("span", { class: "name", dir: "auto" }, model.className(group)),
+          { title: database.className(group), onpointerenter: point(group), onpointerleave: point(null) },
+          swatch(database.symbol(group), database.color(group)),
+          element("span", { class: "name", dir: "auto" }, database.className(group)),
         );
       }),
     );
-    const bars = await drawChart(document.getElementById("bars"), model.data.charts.bars, model.marks.config, "svg");
-    const boxes = await drawChart(document.getElementById("boxes"), subsets.data.charts.boxes, model.marks.config, "svg");
+    const bars = await drawChart(document.getElementById("bars"), database.data.charts.bars, database.marks.config, "svg");
+    const boxes = await drawChart(document.getElementById("boxes"), subsets.data.charts.boxes, database.marks.config, "svg");
     const { ink, bar, accent, ground } = this.marks();
     bars.signal("ink", ink).signal("chance", subsets.data.chance ?? -1);
     boxes.signal("ink", ink).signal("bar", bar).signal("accent", accent).signal("ground", ground);
@@ -50,7 +50,7 @@ export class Boxes {
   render() {
     const { subsets } = this;
     const hits = subsets.data.hitOfClass[this.state.get("chosen")];
-    const { highestOfClass } = hitRange(subsets.data.rows === null ? this.model.groups : subsets.data.rows.map((row) => this.model.groups[row]), subsets.data.neighbours);
+    const { highestOfClass } = hitRange(subsets.data.rows === null ? this.database.groups : subsets.data.rows.map((row) => this.database.groups[row]), subsets.data.neighbours);
     const most = (column) => highestOfClass.get(subsets.data.classes[column]) ?? null;
     const rows = this.order.map((column, row) => ({ row, ...subsets.data.boxes[column], hit: hits[column], highest: most(column), present: true }));
     const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;

@@ -2,8 +2,8 @@
 
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
-import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { count, figure } from "../base/words.js";
+import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 
 const BARS = 150;
 const ROW = 15;

@@ -1,23 +1,23 @@
 // The charts of the Features page as tables.
 
 import { dataLink, element } from "../base/dom.js";
-import { shapesTable } from "../map/tables.js";
 import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
+import { shapesTable } from "../map/tables.js";
 
 const MOST_ROWS = 300;
 
-export function subsetTables(model, subsets, state) {
+export function subsetTables(database, subsets, state) {
   const { data } = subsets;
   const chosen = state.get("chosen");
   const names = (place) => subsets.names(place).join(", ");
   const places = Array.from({ length: Math.min(subsets.count, MOST_ROWS) }, (_, place) => place);
   const greedy = data.greedy.find(({ s }) => s === state.get("s"));
   const classes = data.boxes.map((box, column) => [
-    model.className(data.classes[column]),
+    database.className(data.classes[column]),
     ...[data.hitOfClass[chosen][column], box.least, box.lower, box.median, box.upper, box.most].map(figure),
   ]);
-  const map = state.get("method") === null ? null : model.methods[state.get("method")];
+  const map = state.get("method") === null ? null : database.methods[state.get("method")];
   const tables = [
     greedy && table(`Greedy search, s = ${greedy.s}`, ["Step", "NH", "Features"], greedy.path.map((place, step) => [String(step + 1), figure(data.hit[place]), names(place)])),
     classes.length > 0 && table(
@@ -31,7 +31,7 @@ export function subsetTables(model, subsets, state) {
       places.map((place) => [String(place + 1), subsets.labelled && figure(data.hit[place]), names(place)].filter(Boolean)),
     ),
     subsets.count > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `, dataLink("data/subsets.csv"), "."),
-    map && shapesTable("The map of the chosen subset", model, map, [...model.ids.keys()]),
+    map && shapesTable("The map of the chosen subset", database, map, [...database.ids.keys()]),
   ].filter(Boolean);
   return { title: "Subsets of the features in figures", tables };
 }

@@ -1,8 +1,8 @@
 // The card at the pointer: picture, name, class, and who the neighbours are.
 
 import { element, picture, swatch } from "../base/dom.js";
-import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { figure, shortened } from "../base/words.js";
+import { highestOf, ofAtMost } from "../database/hit-range.js";
 
 const MOST_CLASSES = 4;
 
@@ -22,28 +22,28 @@ export class Card {
     const view = this.state.get("pointedFrom");
     this.node.hidden = index === null || !view.scene.visible(index);
     if (this.node.hidden) return;
-    const map = view.model.methods[view.scene.target];
-    if (this.shown !== index || this.map !== map) this.#fill(index, view.model, map);
+    const map = view.database.methods[view.scene.target];
+    if (this.shown !== index || this.map !== map) this.#fill(index, view.database, map);
     this.#place(index);
   }
 
-  #fill(index, model, map) {
+  #fill(index, database, map) {
     [this.shown, this.map] = [index, map];
-    const group = model.groups[index];
-    const neighbours = model.count > 1 ? model.census(model.neighbours(index, model.methods.indexOf(map))) : [];
+    const group = database.groups[index];
+    const neighbours = database.count > 1 ? database.census(database.neighbours(index, database.methods.indexOf(map))) : [];
     this.node.replaceChildren(
-      picture(model, index, 112),
+      picture(database, index, 112),
       element(
         "div",
         {},
-        element("p", { class: "name", dir: "auto" }, shortened(model.names[index], 48)),
-        model.labelled && classLine(model, group),
-        map.hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(map.hit[index])), ofAtMost(highestOf(model, map, index))),
-        neighbours.length > 0 && model.labelled && element(
+        element("p", { class: "name", dir: "auto" }, shortened(database.names[index], 48)),
+        database.labelled && classLine(database, group),
+        map.hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(map.hit[index])), ofAtMost(highestOf(database, map, index))),
+        neighbours.length > 0 && database.labelled && element(
           "p",
           { class: "census" },
           "near it: ",
-          neighbours.slice(0, MOST_CLASSES).map(([other, number], place) => `${place > 0 ? ", " : ""}${number} ${shortened(model.className(other), 18)}`),
+          neighbours.slice(0, MOST_CLASSES).map(([other, number], place) => `${place > 0 ? ", " : ""}${number} ${shortened(database.className(other), 18)}`),
           neighbours.length > MOST_CLASSES && " …",
         ),
       ),
@@ -64,6 +64,6 @@ export class Card {
 }
 
 /** The mark and the name of a class. */
-export function classLine(model, group) {
-  return element("p", { class: "of-class", dir: "auto" }, swatch(model.symbol(group), model.color(group)), shortened(model.className(group), 60));
+export function classLine(database, group) {
+  return element("p", { class: "of-class", dir: "auto" }, swatch(database.symbol(group), database.color(group)), shortened(database.className(group), 60));
 }

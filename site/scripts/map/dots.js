@@ -26,7 +26,7 @@ export class Dots {
 
   draw() {
     const { view, pen } = this;
-    const { scene, model, pictured } = view;
+    const { scene, database, pictured } = view;
     const dense = window.devicePixelRatio || 1;
     const [width, height] = [Math.round(view.width * dense), Math.round(view.height * dense)];
     if (this.node.width !== width || this.node.height !== height) {
@@ -41,7 +41,7 @@ export class Dots {
       const opacity = (among ? OPACITY_AMONG_PICTURES : OPACITY)[level];
       const reach = dense * radius * (level === CHOSEN ? Math.sqrt(1.5) : 1);
       const stamps = this.#stamps(reach);
-      for (let index = 0; index < model.count; index += 1) {
+      for (let index = 0; index < database.count; index += 1) {
         if (scene.emphasis[index] !== level || (among && pictured[index])) continue;
         const x = dense * (left + scene.x[index] * scale);
         const y = dense * (top - scene.y[index] * scale);
@@ -71,13 +71,13 @@ export class Dots {
   /** The marks of shapes, `radius` pixels large: each kind is drawn once, for all shapes that are of it. */
   #stamps(radius) {
     const { view } = this;
-    const { model, scene } = view;
-    const { marks } = model;
-    const { symbols, plain } = model.data.marks;
+    const { database, scene } = view;
+    const { marks } = database;
+    const { symbols, plain } = database.data.marks;
     const none = () => [plain, marks.unlabelled];
     const kinds = {
-      class: [(index) => model.groups[index], (group) => (group < 0 ? none() : [symbols[group], marks.classes[group]])],
-      hit: [(index) => reachOf(model, model.methods[scene.target], index), (reach) => (reach === null ? none() : [plain, shade(marks.hit, reach)])],
+      class: [(index) => database.groups[index], (group) => (group < 0 ? none() : [symbols[group], marks.classes[group]])],
+      hit: [(index) => reachOf(database, database.methods[scene.target], index), (reach) => (reach === null ? none() : [plain, shade(marks.hit, reach)])],
       thumbnail: [() => 0, none],
     };
     const [kindOf, look] = kinds[view.name];
@@ -125,7 +125,7 @@ export class Dots {
   #picture(index) {
     if (!this.#pictures.has(index)) {
       if (this.#pictures.size >= MOST_PICTURES_KEPT) this.#pictures.clear();
-      this.#pictures.set(index, element("img", { src: this.view.model.picture(index), decoding: "async", onload: () => this.view.scene.draw() }));
+      this.#pictures.set(index, element("img", { src: this.view.database.picture(index), decoding: "async", onload: () => this.view.scene.draw() }));
     }
     return this.#pictures.get(index);
   }

@@ -186,7 +186,7 @@ export class Gestures {
     const from = this.state.get("pointed");
     const [x, y] = from === null ? [view.width / 2, view.clearHeight / 2] : view.screen(from);
     let [best, least] = [null, Infinity];
-    for (let index = 0; index < view.model.count; index += 1) {
+    for (let index = 0; index < view.database.count; index += 1) {
       if (index === from || !scene.visible(index)) continue;
       const [px, py] = view.screen(index);
       const along = (px - x) * dx + (py - y) * dy;

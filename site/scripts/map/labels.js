@@ -1,7 +1,7 @@
 // Class names at their places on the map: each beside the densest part of its class, none over another.
 
-import { shortened } from "../base/words.js";
 import { svg } from "../base/dom.js";
+import { shortened } from "../base/words.js";
 
 const CELL = 8;
 const HEIGHT = 18;
@@ -15,8 +15,8 @@ export class Labels {
   #placed = [];
   #widths = new Map();
 
-  constructor(model, overlay) {
-    this.model = model;
+  constructor(database, overlay) {
+    this.database = database;
     overlay.append(this.#layer);
   }
 
@@ -44,7 +44,7 @@ export class Labels {
     this.#placed = [];
     for (const [group, members] of order) {
       const anchor = densest(members);
-      const text = shortened(this.model.className(group), LONGEST);
+      const text = shortened(this.database.className(group), LONGEST);
       const box = this.#best(anchor, this.#width(text), crowd, group, boxes, width, height, radius);
       if (box === null) continue;
       boxes.push(box);

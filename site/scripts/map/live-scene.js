@@ -2,7 +2,7 @@
 // they are, so that neither a new step of the layout nor a new layout makes anything jump.
 
 import { calm } from "../base/dom.js";
-import { bounds } from "../database/model.js";
+import { bounds } from "../database/database.js";
 import { Scene } from "./scene.js";
 
 /** In this many milliseconds a shape goes two thirds of its way. */
@@ -25,7 +25,7 @@ export class LiveScene extends Scene {
     if (!calm()) this.#glide({ x, y }, null);
   }
 
-  /** The finished map, as the model has maps. */
+  /** The finished map, as the database has maps. */
   show(map) {
     if (calm()) this.#arrive(map);
     else this.#glide(map, map);
@@ -33,7 +33,7 @@ export class LiveScene extends Scene {
 
   /** A layout was given up: go back to the map that is shown. */
   rest() {
-    if (this.moving) this.show(this.model.methods[this.target]);
+    if (this.moving) this.show(this.database.methods[this.target]);
   }
 
   #glide(goal, last) {
@@ -79,10 +79,10 @@ export class LiveScene extends Scene {
     this.#frame = null;
     this.#goal = null;
     this.moving = false;
-    this.model.replace(map);
+    this.database.replace(map);
     this.x = Float64Array.from(map.x);
     this.y = Float64Array.from(map.y);
-    this.bounds = this.model.bounds[this.target];
+    this.bounds = this.database.bounds[this.target];
     this.weigh();
     for (const view of this.views) view.settle();
   }

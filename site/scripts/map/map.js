@@ -1,22 +1,22 @@
 // One of the linked maps: a chart, and above it names, rings and the brush.
 
-import { Labels } from "./labels.js";
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
 import { Dots } from "./dots.js";
+import { Labels } from "./labels.js";
 import { CHOSEN, crowded } from "./scene.js";
 
 export class MapView {
   constructor(scene, figure) {
     this.scene = scene;
-    this.model = scene.model;
+    this.database = scene.database;
     this.state = scene.state;
     this.figure = figure;
     this.name = figure.dataset.view;
     this.surface = figure.querySelector(".surface");
     this.node = element("div", { class: "chart", "aria-hidden": "true" });
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
-    this.labels = new Labels(this.model, this.overlay);
+    this.labels = new Labels(this.database, this.overlay);
     this.ties = this.overlay.insertBefore(svg("path", { class: "ties" }), this.overlay.firstChild);
     this.opened = this.overlay.appendChild(svg("circle", { class: "ring opened" }));
     this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
@@ -34,7 +34,7 @@ export class MapView {
 
   /** Draw the map with the colours of the theme in use; called again when the theme changes. */
   async start() {
-    if (!crowded(this.model)) await this.#startChart();
+    if (!crowded(this.database)) await this.#startChart();
     this.started = true;
     performance.mark(`drawn: ${this.name}`);
     this.settle();
@@ -44,10 +44,10 @@ export class MapView {
     this.vega?.finalize();
     this.vega = null;
     this.sent.clear();
-    const spec = this.model.data.charts[this.name];
+    const spec = this.database.data.charts[this.name];
     // Browsers scale SVG pictures down better than canvas does, and many dots are quicker on canvas.
     const renderer = this.name === "thumbnail" ? "svg" : "canvas";
-    const vega = await drawChart(this.node, spec, this.model.marks.config, renderer);
+    const vega = await drawChart(this.node, spec, this.database.marks.config, renderer);
     this.vega = vega;
     this.#choosePictures();
     this.#send();
@@ -118,7 +118,7 @@ export class MapView {
 
   /** Size of a picture when the whole map is shown. */
   get #wholeSize() {
-    const room = Math.sqrt((this.width * this.height * 0.7) / this.model.count);
+    const room = Math.sqrt((this.width * this.height * 0.7) / this.database.count);
     return Math.min(Math.max(room, this.large ? Math.min(44, this.width / 11) : 15), this.large ? 110 : 40);
   }
 
@@ -127,7 +127,7 @@ export class MapView {
     const { scale, left, top } = this.lay();
     const [pictureReach, markReach] = [this.pictureSize / 2, this.markRadius + reach];
     let [best, least] = [null, Infinity];
-    for (let index = 0; index < this.model.count; index += 1) {
+    for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
       const distance = Math.hypot(left + this.scene.x[index] * scale - x, top - this.scene.y[index] * scale - y);
       if (distance <= (this.pictured[index] ? pictureReach : markReach) && distance < least) [best, least] = [index, distance];
@@ -139,7 +139,7 @@ export class MapView {
   inside(west, north, east, south) {
     const { scale, left, top } = this.lay();
     const found = [];
-    for (let index = 0; index < this.model.count; index += 1) {
+    for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
       const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
       if (x >= west && x <= east && y >= north && y <= south) found.push(index);
@@ -153,7 +153,7 @@ export class MapView {
     this.drawRings();
     this.labels.follow((index) => this.screen(index));
     if (!this.started) return;
-    if (this.scene.moving || crowded(this.model)) this.#drawDots();
+    if (this.scene.moving || crowded(this.database)) this.#drawDots();
     else if (this.vega) {
       this.#send();
       this.#run();
@@ -169,7 +169,7 @@ export class MapView {
   settle() {
     if (!this.started || this.scene.moving) return;
     this.#choosePictures();
-    if (crowded(this.model)) this.#drawDots();
+    if (crowded(this.database)) this.#drawDots();
     else if (this.vega) {
       this.#send();
       this.#run();
@@ -202,9 +202,9 @@ export class MapView {
       vega.width(this.width).height(this.height);
       this.sent.set("width", this.width).set("height", this.height);
     }
-    if (this.sent.get("revision") !== this.model.revision) {
-      vega.data("shapes", this.model.rows());
-      this.sent.set("revision", this.model.revision);
+    if (this.sent.get("revision") !== this.database.revision) {
+      vega.data("shapes", this.database.rows());
+      this.sent.set("revision", this.database.revision);
     }
     const [left, bottom] = this.toPlane(0, this.height);
     const [right, top] = this.toPlane(this.width, 0);
@@ -216,8 +216,8 @@ export class MapView {
       progress: scene.progress,
       emphasis: scene.emphasis,
       mark_size: this.markSize,
-      unlabelled: this.model.marks.unlabelled,
-      outline: this.model.marks.outline,
+      unlabelled: this.database.marks.unlabelled,
+      outline: this.database.marks.outline,
     };
     if (this.name === "thumbnail") Object.assign(values, { pictured: this.pictured, picture_size: this.pictureSize });
     for (const [name, value] of Object.entries(values)) {
@@ -253,7 +253,7 @@ export class MapView {
     this.ties.classList.toggle("shown", shown);
     if (!shown) return;
     const from = this.screen(index);
-    const near = this.model.neighbours(index, this.scene.target).filter((other) => this.scene.visible(other));
+    const near = this.database.neighbours(index, this.scene.target).filter((other) => this.scene.visible(other));
     this.ties.setAttribute("d", near.map((other) => `M${from}L${this.screen(other)}`).join(""));
   }
 
@@ -261,7 +261,7 @@ export class MapView {
   #choosePictures() {
     if (this.name !== "thumbnail") return;
     const { emphasis } = this.scene;
-    const apart = this.pictureSize * (this.model.count > MOST_PICTURES ? 0.8 : 0.5);
+    const apart = this.pictureSize * (this.database.count > MOST_PICTURES ? 0.8 : 0.5);
     const taken = new Map();
     const cell = (column, row) => row * 100000 + column;
     const free = (x, y) => {
@@ -280,7 +280,7 @@ export class MapView {
     };
     const half = this.pictureSize / 2;
     const { scale, left, top } = this.lay();
-    const pictured = new Array(this.model.count).fill(false);
+    const pictured = new Array(this.database.count).fill(false);
     let room = MOST_PICTURES;
     for (const chosen of [true, false]) {
       for (const index of this.#scattered()) {
@@ -297,18 +297,18 @@ export class MapView {
 
   /** All shapes in an order that favours no class and is always the same, so that pictures stay when others come. */
   #scattered() {
-    this.order ??= this.model.ids.map((_, index) => index).sort((a, b) => scatter(a) - scatter(b) || a - b);
+    this.order ??= this.database.ids.map((_, index) => index).sort((a, b) => scatter(a) - scatter(b) || a - b);
     return this.order;
   }
 
   #name() {
     const { scale, left, top } = this.lay();
     const points = [];
-    for (let index = 0; index < this.model.count; index += 1) {
+    for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
       const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
       if (x < 0 || y < 0 || x > this.width || y > this.clearHeight) continue;
-      points.push({ index, group: this.model.groups[index], x, y });
+      points.push({ index, group: this.database.groups[index], x, y });
     }
     this.labels.place(points, this.width, this.clearHeight, this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius);
     this.labels.follow((index) => this.screen(index));

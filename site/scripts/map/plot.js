@@ -1,7 +1,7 @@
 // A map of shapes on one canvas: the Bins page shows dozens, each of few marks, and none needs more than a picture.
 
 import { calm, element } from "../base/dom.js";
-import { bounds } from "../database/model.js";
+import { bounds } from "../database/database.js";
 
 const DURATION = 450;
 
@@ -24,8 +24,8 @@ export class Plot {
    * `mark(index)` says how a shape is drawn: `{ color, path, radius, faint }`; `first(index)` puts shapes below the
    * others; `selection()` are the shapes that stand out, all where there are none; `drawn` is called after every drawing.
    */
-  constructor(model, { mark, first = () => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} }) {
-    Object.assign(this, { model, mark, first, selection, margin, drawn });
+  constructor(database, { mark, first = () => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} }) {
+    Object.assign(this, { database, mark, first, selection, margin, drawn });
     this.node = element("canvas", { class: "few-plot", role: label === null ? null : "img", "aria-label": label, "aria-hidden": label === null ? "true" : null });
     this.pen = this.node.getContext("2d");
     this.map = null;
@@ -62,7 +62,7 @@ export class Plot {
   /** The shape at a point, or null. */
   at(left, top, reach) {
     let [best, least] = [null, reach];
-    for (let index = 0; index < this.model.count; index += 1) {
+    for (let index = 0; index < this.database.count; index += 1) {
       if (Number.isNaN(this.map.x[index])) continue;
       const [x, y] = this.screen(index);
       const distance = Math.hypot(x - left, y - top);
@@ -73,14 +73,14 @@ export class Plot {
 
   /** The shapes in a rectangle. */
   inside(left, top, right, bottom) {
-    return [...this.model.ids.keys()].filter((index) => {
+    return [...this.database.ids.keys()].filter((index) => {
       const [x, y] = this.screen(index);
       return x >= left && x <= right && y >= top && y <= bottom;
     });
   }
 
   draw() {
-    const { node, pen, map, model } = this;
+    const { node, pen, map, database } = this;
     const [width, height] = [node.clientWidth, node.clientHeight];
     if (map === null || width === 0 || height === 0) return;
     const dense = window.devicePixelRatio || 1;
@@ -88,11 +88,11 @@ export class Plot {
     const extent = bounds(map);
     const scale = Math.min((width - 2 * this.margin) / extent.width, (height - 2 * this.margin) / extent.height);
     this.view = { x: extent.x, y: extent.y, scale, width, height };
-    pen.strokeStyle = model.marks.outline;
+    pen.strokeStyle = database.marks.outline;
     const chosen = this.selection();
     const faint = (index) => chosen.size > 0 && !chosen.has(index);
     for (const below of [true, false]) {
-      for (let index = 0; index < model.count; index += 1) {
+      for (let index = 0; index < database.count; index += 1) {
         if (Number.isNaN(map.x[index]) || (this.first(index) || faint(index)) !== below) continue;
         const { color, path, radius, alpha } = this.mark(index);
         const [x, y] = this.screen(index);

@@ -6,8 +6,8 @@ const REACH = 14;
 const GAP = 14;
 
 export class Pointing {
-  constructor(model) {
-    this.model = model;
+  constructor(database) {
+    this.database = database;
     this.node = element("div", { class: "card", hidden: true });
     document.getElementById("content").append(this.node);
     window.addEventListener("scroll", () => this.#hide(), { passive: true });
@@ -30,16 +30,16 @@ export class Pointing {
   }
 
   #show(index, { clientX, clientY }) {
-    const { model, node } = this;
+    const { database, node } = this;
     if (this.shown !== index) {
-      const group = model.groups[index];
+      const group = database.groups[index];
       node.replaceChildren(
-        picture(model, index, 96),
+        picture(database, index, 96),
         element(
           "div",
           {},
-          element("p", { class: "name", dir: "auto" }, model.names[index]),
-          model.labelled && element("p", { class: "of-class" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, model.className(group))),
+          element("p", { class: "name", dir: "auto" }, database.names[index]),
+          database.labelled && element("p", { class: "of-class" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group))),
         ),
       );
       this.shown = index;

@@ -1,7 +1,7 @@
 // Where every shape is at this moment, how present it is, and which part of the plane is in view.
 // All maps draw the same scene, which is what links them.
 
-import { calm } from "../base/dom.js";
+import { calm, coarse } from "../base/dom.js";
 
 const DURATION = 650;
 const COVER_DURATION = 180;
@@ -14,22 +14,30 @@ export const NORMAL = 2;
 export const CHOSEN = 3;
 
 /** Whether there are so many shapes that maps draw them themselves: a chart would take a second for every change. */
-export function crowded(model) {
-  return model.count > CROWD;
+export function crowded(database) {
+  return database.count > CROWD;
+}
+
+/** The part of a page's state that says what is under the pointer: nothing, at first. */
+export const NOTHING_POINTED = Object.freeze({ pointed: null, pointedFrom: null, pointedGroup: null });
+
+/** The part that says what dragging does, at first: fingers move a map, a mouse selects. */
+export function dragging() {
+  return { drag: coarse() ? "move" : "select" };
 }
 
 export class Scene {
   /** `camera` names the state's value for the part of the plane in view. */
-  constructor(model, state, camera = "camera") {
-    this.model = model;
+  constructor(database, state, camera = "camera") {
+    this.database = database;
     this.state = state;
     this.cameraName = camera;
     this.origin = state.get("method");
     this.target = state.get("method");
     this.progress = 1;
-    this.x = Float64Array.from(model.methods[this.target].x);
-    this.y = Float64Array.from(model.methods[this.target].y);
-    this.bounds = model.bounds[this.target];
+    this.x = Float64Array.from(database.methods[this.target].x);
+    this.y = Float64Array.from(database.methods[this.target].y);
+    this.bounds = database.bounds[this.target];
     this.emphasis = [];
     this.matches = null;
     this.views = [];
@@ -48,7 +56,7 @@ export class Scene {
     this.#frame ??= requestAnimationFrame(() => {
       this.#frame = null;
       this.#frames += 1;
-      const few = crowded(this.model) && this.#frames % 4 > 0;
+      const few = crowded(this.database) && this.#frames % 4 > 0;
       for (const view of this.views) if (view.large || !few) view.draw();
     });
     clearTimeout(this.#settling);
@@ -93,7 +101,7 @@ export class Scene {
     this.origin = this.target;
     this.target = target;
     const from = this.bounds;
-    const to = this.model.bounds[target];
+    const to = this.database.bounds[target];
     const camera = this.state.get(this.cameraName) && this.camera();
     this.#voyage?.abort();
     this.#voyage = new AbortController();
@@ -117,7 +125,7 @@ export class Scene {
 
   #place(progress) {
     this.progress = progress;
-    const [from, to] = [this.model.methods[this.origin], this.model.methods[this.target]];
+    const [from, to] = [this.database.methods[this.origin], this.database.methods[this.target]];
     for (let index = 0; index < this.x.length; index += 1) {
       this.x[index] = from.x[index] + progress * (to.x[index] - from.x[index]);
       this.y[index] = from.y[index] + progress * (to.y[index] - from.y[index]);
@@ -131,7 +139,7 @@ export class Scene {
     const matches = this.state.get("matches");
     const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
     this.present = this.x.reduce((number, value) => number + !Number.isNaN(value), 0);
-    this.emphasis = this.model.groups.map((group, index) => {
+    this.emphasis = this.database.groups.map((group, index) => {
       if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
       if (pointed !== null) return group === pointed ? CHOSEN : FAINT;
       if (selection.size > 0) return selection.has(index) ? CHOSEN : FAINT;

@@ -1,8 +1,8 @@
 // Runs in the head of every page, before anything is painted.
 
-import { watchAnchors } from "./anchors.js";
-import { applyStoredTheme } from "../base/theme.js";
 import { openReception } from "../base/chunks.js";
+import { applyStoredTheme } from "../base/theme.js";
+import { watchAnchors } from "./anchors.js";
 import { startWorker, trustOnlyOurselves } from "./trusted.js";
 
 trustOnlyOurselves();

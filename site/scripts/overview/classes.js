@@ -2,12 +2,12 @@
 
 import { drawChart } from "../base/chart.js";
 import { element, swatch } from "../base/dom.js";
-import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 import { count, figure } from "../base/words.js";
+import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 
 export class ClassList {
-  constructor(model, state) {
-    this.model = model;
+  constructor(database, state) {
+    this.database = database;
     this.state = state;
     this.list = document.getElementById("legend");
     this.node = document.getElementById("bars");
@@ -23,18 +23,18 @@ export class ClassList {
   async start() {
     this.vega?.finalize();
     this.vega = null;
-    if (this.model.labelled) {
-      this.vega = await drawChart(this.node, this.model.data.charts.bars, this.model.marks.config, "svg");
+    if (this.database.labelled) {
+      this.vega = await drawChart(this.node, this.database.data.charts.bars, this.database.marks.config, "svg");
     }
     this.render();
   }
 
   /** Groups by falling NH on the map in view; shapes without a label come last. */
   get order() {
-    const { hitOfClass } = this.model.methods[this.state.get("method")];
-    const groups = this.model.classes.map((_, group) => group);
+    const { hitOfClass } = this.database.methods[this.state.get("method")];
+    const groups = this.database.classes.map((_, group) => group);
     groups.sort((a, b) => (hitOfClass[b] ?? -1) - (hitOfClass[a] ?? -1) || a - b);
-    return this.model.sizes.has(-1) && this.model.labelled ? [...groups, -1] : groups;
+    return this.database.sizes.has(-1) && this.database.labelled ? [...groups, -1] : groups;
   }
 
   render() {
@@ -47,11 +47,11 @@ export class ClassList {
   }
 
   #button(group) {
-    const { model } = this;
-    const name = model.className(group);
-    const method = model.methods[this.state.get("method")];
+    const { database } = this;
+    const name = database.className(group);
+    const method = database.methods[this.state.get("method")];
     const hit = group < 0 ? null : method.hitOfClass[group];
-    const most = hit === null ? "" : ofAtMost(rangeOf(model, method).highestOfClass.get(group));
+    const most = hit === null ? "" : ofAtMost(rangeOf(database, method).highestOfClass.get(group));
     const point = (value) => () => this.state.set({ pointedGroup: value });
     return element(
       "button",
@@ -64,9 +64,9 @@ export class ClassList {
         onpointerenter: point(group),
         onpointerleave: point(null),
       },
-      swatch(model.symbol(group), model.color(group)),
+      swatch(database.symbol(group), database.color(group)),
       element("span", { class: "name", dir: "auto" }, name),
-      element("span", { class: "size" }, String(model.sizes.get(group) ?? 0)),
+      element("span", { class: "size" }, String(database.sizes.get(group) ?? 0)),
     );
   }
 
@@ -89,13 +89,13 @@ export class ClassList {
     for (const [group, button] of this.buttons) button.setAttribute("aria-pressed", String(!hidden.has(group)));
     this.all.hidden = hidden.size === 0;
     if (!this.vega) return;
-    const method = this.model.methods[this.state.get("method")];
+    const method = this.database.methods[this.state.get("method")];
     const { hitOfClass, chance } = method;
-    const { highestOfClass } = rangeOf(this.model, method);
+    const { highestOfClass } = rangeOf(this.database, method);
     const rows = this.order.map((group, row) => ({ row, hit: group < 0 ? null : hitOfClass[group], highest: highestOfClass.get(group) ?? null, present: !hidden.has(group) }));
     const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
     this.vega.width(this.node.clientWidth).height(height);
-    this.vega.signal("chance", chance ?? -1).signal("ink", this.model.marks.ink);
+    this.vega.signal("chance", chance ?? -1).signal("ink", this.database.marks.ink);
     this.vega.data("classes", rows).runAsync();
   }
 
@@ -105,14 +105,14 @@ export class ClassList {
 
   /** That the labels chose a subset, and what the best one reaches by chance. */
   #chosen(features) {
-    const { best, bestByChance } = this.model.data.subsets ?? {};
+    const { best, bestByChance } = this.database.data.subsets ?? {};
     if (!best || best.join() !== features.join()) return "";
     return ` The labels chose them, the best of all subsets; with labels dealt at random the best typically reaches ${figure(bestByChance)}.`;
   }
 
   /** What the best map would reach. */
   #best(method) {
-    const { highest } = rangeOf(this.model, method);
+    const { highest } = rangeOf(this.database, method);
     if (!isBelowOne(highest)) return "1 is a map whose classes never mix.";
     const share = shareOfRange(method.hitOfAll, method.chance, highest);
     const stands = share === null ? "" : ` This one is ${(share * 100).toFixed(0)} % of the way there from chance.`;
@@ -120,13 +120,13 @@ export class ClassList {
   }
 
   #quality() {
-    const { model } = this;
-    const method = model.methods[this.state.get("method")];
+    const { database } = this;
+    const method = database.methods[this.state.get("method")];
     const { title, features, base, hitOfAll, withoutCopies, chance, chanceSpread, neighbours } = method;
-    if (model.count === 1) {
+    if (database.count === 1) {
       return [element("p", {}, "One shape: there is nothing to compare it with yet.")];
     }
-    if (!model.labelled) {
+    if (!database.labelled) {
       return [
         element("p", {}, "This database has no labels, so there is no neighbourhood hit to tell how well classes keep together. "),
         element("p", {}, "The map needs none: it places shapes by their surfaces alone."),
@@ -137,9 +137,9 @@ export class ClassList {
       { class: "headline" },
       element("span", { class: "symbol" }, "NH", element("sub", {}, "s")),
       element("output", { class: "value" }, figure(hitOfAll)),
-      element("span", { class: "beside" }, element("b", {}, figure(chance)), chanceSpread !== null && ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random", isBelowOne(rangeOf(model, method).highest) && [element("br"), element("b", {}, figure(rangeOf(model, method).highest)), " at most"]),
+      element("span", { class: "beside" }, element("b", {}, figure(chance)), chanceSpread !== null && ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random", isBelowOne(rangeOf(database, method).highest) && [element("br"), element("b", {}, figure(rangeOf(database, method).highest)), " at most"]),
     );
-    if (model.classes.length === 1) {
+    if (database.classes.length === 1) {
       return [headline, element("p", {}, "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.")];
     }
     return [
@@ -147,8 +147,8 @@ export class ClassList {
       element(
         "p",
         {},
-        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its ${model.data.standIn ? "cluster" : "class"} on average. `,
-        model.data.standIn
+        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its ${database.data.standIn ? "cluster" : "class"} on average. `,
+        database.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
           : this.#best(method),
         withoutCopies && ` Without ${count(withoutCopies.copies, "copy", "copies")} of other shapes the map has ${figure(withoutCopies.hitOfAll)}${ofAtMost(withoutCopies.highest)}.`,

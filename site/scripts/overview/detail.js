@@ -1,15 +1,15 @@
 // What is known of one shape: picture, labels, facts, and its nearest neighbours on the map.
 
-import { classLine } from "../map/card.js";
 import { chunk } from "../base/chunks.js";
 import { element, picture } from "../base/dom.js";
-import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
+import { highestOf, ofAtMost } from "../database/hit-range.js";
+import { classLine } from "../map/card.js";
 
 export class Detail {
-  constructor(model, state, { point }) {
-    this.model = model;
+  constructor(database, state, { point }) {
+    this.database = database;
     this.point = point;
     this.state = state;
     this.node = document.getElementById("detail");
@@ -38,26 +38,26 @@ export class Detail {
   }
 
   #content(index, labelings, known) {
-    const { model } = this;
-    const method = model.methods[this.state.get("method")];
+    const { database } = this;
+    const method = database.methods[this.state.get("method")];
     const others = labelings
       .map((labeling, place) => [labeling, known.labels[place]])
-      .filter(([labeling, label]) => label !== null && label !== undefined && labeling !== model.data.labeling);
+      .filter(([labeling, label]) => label !== null && label !== undefined && labeling !== database.data.labeling);
     return [
       element(
         "div",
         { class: "detail-head" },
-        element("h2", { dir: "auto" }, model.names[index]),
+        element("h2", { dir: "auto" }, database.names[index]),
         element("button", { type: "button", class: "plain", "aria-label": "Close", onclick: () => this.state.set({ opened: null }) }, "Close"),
       ),
-      element("div", { class: "portrait" }, picture(model, index, 256, model.names[index])),
+      element("div", { class: "portrait" }, picture(database, index, 256, database.names[index])),
       element("p", {}, element("a", { href: pageAddress("shape.html", this.#pageQuery(index)) }, "All about this shape")),
-      model.labelled && classLine(model, model.groups[index]),
+      database.labelled && classLine(database, database.groups[index]),
       ...this.#neighbours(index, method),
       others.length > 0 && facts("Other labels", others),
       known.metadata.length > 0 && facts("Metadata", known.metadata),
       facts("Mesh", [
-        ["id", model.ids[index]],
+        ["id", database.ids[index]],
         ["as read", `${count(known.facesRead, "face")}, ${count(known.verticesRead, "vertex", "vertices")}`],
         ["prepared", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
         ["parts", grouped(known.components)],
@@ -70,19 +70,19 @@ export class Detail {
 
   /** Its page, on the map that is seen here. */
   #pageQuery(index) {
-    const { ids, methods } = this.model;
+    const { ids, methods } = this.database;
     const { base } = methods[this.state.get("method")];
     return { id: ids[index], ...(base > 0 && { map: methods[base].key }) };
   }
 
   #neighbours(index, method) {
-    const { model } = this;
-    if (model.count === 1) return [];
-    const near = model.neighbours(index, this.state.get("method"));
+    const { database } = this;
+    if (database.count === 1) return [];
+    const near = database.neighbours(index, this.state.get("method"));
     const hit = method.hit[index];
     return [
       element("h3", {}, `${count(near.length, "nearest neighbour")} on the ${method.title} map`),
-      hit !== null && element("p", {}, "NH ", element("b", {}, figure(hit)), `${ofAtMost(highestOf(model, method, index))}: the share of them in its own class.`),
+      hit !== null && element("p", {}, "NH ", element("b", {}, figure(hit)), `${ofAtMost(highestOf(database, method, index))}: the share of them in its own class.`),
       element(
         "div",
         { class: "neighbours" },
@@ -91,18 +91,18 @@ export class Detail {
             "button",
             {
               type: "button",
-              class: model.groups[other] === model.groups[index] || model.groups[index] < 0 ? "shape" : "shape stranger",
-              "aria-label": `Open ${model.names[other]}, ${model.className(model.groups[other])}`,
-              title: `${model.names[other]}\n${model.className(model.groups[other])}`,
+              class: database.groups[other] === database.groups[index] || database.groups[index] < 0 ? "shape" : "shape stranger",
+              "aria-label": `Open ${database.names[other]}, ${database.className(database.groups[other])}`,
+              title: `${database.names[other]}\n${database.className(database.groups[other])}`,
               onclick: () => this.state.set({ opened: other }),
               onpointerenter: () => this.point(other),
               onpointerleave: () => this.point(null),
             },
-            picture(model, other, 64),
+            picture(database, other, 64),
           ),
         ),
       ),
-      model.groups[index] >= 0 && near.some((other) => model.groups[other] !== model.groups[index]) && element("p", { class: "key" }, "Underlined: of another class."),
+      database.groups[index] >= 0 && near.some((other) => database.groups[other] !== database.groups[index]) && element("p", { class: "key" }, "Underlined: of another class."),
     ].filter(Boolean);
   }
 }

@@ -11,11 +11,11 @@ const CHOSEN = "chosen";
 export class FeatureChoice {
   #chosen = null;
 
-  constructor(model, state) {
-    this.model = model;
+  constructor(database, state) {
+    this.database = database;
     this.state = state;
-    this.searched = model.data.subsets;
-    this.base = model.methods.findIndex(({ key }) => key === this.searched.method);
+    this.searched = database.data.subsets;
+    this.base = database.methods.findIndex(({ key }) => key === this.searched.method);
     this.node = document.getElementById("features");
     this.node.addEventListener("change", (event) => this.#choose(event.target.value));
     state.listen((changed) => {
@@ -28,13 +28,13 @@ export class FeatureChoice {
     if (value === ALL) this.state.set({ method: this.base });
     else {
       const names = value === BEST ? this.searched.best : this.#chosen;
-      this.state.set({ method: await subsetMethod(this.model, names) });
+      this.state.set({ method: await subsetMethod(this.database, names) });
     }
   }
 
   show() {
     const index = this.state.get("method");
-    const { base, features } = this.model.methods[index];
+    const { base, features } = this.database.methods[index];
     const best = base !== index && same(features, this.searched.best);
     if (base !== index && !best) this.#chosen = features;
     const value = base === index ? ALL : best ? BEST : CHOSEN;
@@ -47,14 +47,14 @@ export class FeatureChoice {
   }
 }
 
-/** The index of a subset's map in the model, where it is added when first asked for; null if it was not evaluated. */
-export async function subsetMethod(model, names) {
-  const { method, features, bins } = model.data.subsets;
-  const base = model.methods.findIndex(({ key }) => key === method);
+/** The index of a subset's map in the database, where it is added when first asked for; null if it was not evaluated. */
+export async function subsetMethod(database, names) {
+  const { method, features, bins } = database.data.subsets;
+  const base = database.methods.findIndex(({ key }) => key === method);
   if (bins === null && names.length === features.length) return base;
   const subsets = new Subsets(await chunk("search"));
   const place = subsets.find(names);
-  return place === undefined ? null : model.add(await subsets.map(place, model.classes.length), base);
+  return place === undefined ? null : database.add(await subsets.map(place, database.classes.length), base);
 }
 
 function same(one, other) {

@@ -1,8 +1,8 @@
 // The About page is plain HTML; scripts serve the theme button, and the search among the meshes.
 
-import { carryAddress } from "../tray/carry.js";
 import { watchCopying } from "../about/copying.js";
 import { watchTheme } from "../base/theme.js";
+import { carryAddress } from "../tray/carry.js";
 
 watchTheme(() => {});
 watchCopying();

@@ -1,35 +1,31 @@
 // The Bins page (paper, 4.4 and Fig. 6, 7, 8): the few bins that separate a class, or all, and how they look on shapes.
 
-import { BinCard } from "../bins-kit/bin-card.js";
-import { Bins } from "../database/bins.js";
 import { readBinsAddress, workbenchAddress, writeBinsAddress } from "../addresses/bins.js";
-import { BinChips } from "../bins/bin-chip.js";
-import { binsTables } from "../bins/tables.js";
-import { chooseSet, ClassCards } from "../bins/class-cards.js";
-import { Look } from "../bins-kit/look.js";
-import { PathPlayer } from "../bins/path-player.js";
-import { Pointing } from "../map/pointing.js";
-import { Turntable } from "../bins/turntable.js";
-import { carrySelection } from "../tray/carry.js";
 import { chunk } from "../base/chunks.js";
 import { calm } from "../base/dom.js";
-import { Model } from "../database/model.js";
-import { State } from "../base/state.js";
+import { delayed, openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
-import { currentTheme, watchTheme } from "../base/theme.js";
-import { Tray } from "../tray/tray.js";
+import { currentTheme } from "../base/theme.js";
+import { BinCard } from "../bins-kit/bin-card.js";
+import { Look } from "../bins-kit/look.js";
+import { BinChips } from "../bins/bin-chip.js";
+import { ClassCards } from "../bins/class-cards.js";
+import { PathPlayer } from "../bins/path-player.js";
+import { binsTables } from "../bins/tables.js";
+import { Turntable } from "../bins/turntable.js";
+import { Bins } from "../database/bins.js";
+import { Database } from "../database/database.js";
+import { Pointing } from "../map/pointing.js";
+import { carrySelection } from "../tray/carry.js";
+import { clearOnEscape, Tray } from "../tray/tray.js";
 
 async function main() {
   const [overview, selection, data, bytes] = await Promise.all(["overview", "selection", "workbench", "bins"].map(chunk));
   const bins = new Bins(data, bytes);
-  const model = new Model(overview, currentTheme);
-  const live = document.getElementById("live");
-  const announce = (text) => {
-    live.textContent = text;
-  };
+  const database = new Database(overview, currentTheme);
   const first = firstBin(selection);
-  const state = new State({ ...readBinsAddress(model, bins, selection, first), brushing: false, theme: currentTheme() });
-  const card = new BinCard(bins, model);
+  const { state, announce, ready } = await openPage({ read: () => readBinsAddress(database, bins, selection, first) });
+  const card = new BinCard(bins, database);
   const chips = new BinChips(bins, card, state, {
     look: (bin, group) => {
       card.hide();
@@ -37,38 +33,32 @@ async function main() {
       goToLook();
     },
   });
-  const pointing = new Pointing(model);
+  const pointing = new Pointing(database);
   const choose = (shape) => {
     state.set({ shape });
     goToLook();
   };
   const open = (columns) => workbenchAddress(columns, data.features);
-  if (selection.minimal.length > 0) new ClassCards(model, selection, state, chips, { open }).render();
-  if (selection.path.length > 0) new PathPlayer(model, selection, bins, state, chips, { open, pointing, choose, announce }).start();
-  new Look(model, bins, selection, state, card).render();
-  new Turntable(model, bins, selection, state, { pointing, announce }).start();
-  new Tray(model, state, { open: choose });
-  carrySelection(model, state);
-  watchTables(() => binsTables(model, bins, selection, state, card));
+  if (selection.minimal.length > 0) new ClassCards(database, selection, state, chips, { open }).render();
+  if (selection.path.length > 0) new PathPlayer(database, selection, bins, state, chips, { open, pointing, choose, announce }).start();
+  new Look(database, bins, selection, state, card).render();
+  new Turntable(database, bins, selection, state, { pointing, announce }).start();
+  new Tray(database, state, { open: choose });
+  carrySelection(database, state);
+  watchTables(() => binsTables(database, bins, selection, state, card));
   document.querySelector(".lead a")?.addEventListener("click", (event) => {
     // The address holds the state of the view, not a place on the page.
     event.preventDefault();
     goToLook();
   });
-  const write = () => writeBinsAddress(model, bins, selection, state, first);
+  const write = () => writeBinsAddress(database, bins, selection, state, first);
+  const later = delayed(write);
   state.listen((changed) => {
     if (["size", "step", "bin", "group", "shape", "reading"].some((name) => changed.has(name))) write();
-    if (changed.has("selection")) {
-      clearTimeout(main.writing);
-      main.writing = setTimeout(write, 250);
-    }
+    if (changed.has("selection")) later();
   });
-  document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) state.set({ selection: new Set() });
-  });
-  window.addEventListener("hashchange", () => state.set(readBinsAddress(model, bins, selection, first)));
-  watchTheme(() => state.set({ theme: currentTheme() }));
-  document.documentElement.dataset.ready = "";
+  clearOnEscape(state);
+  ready();
 }
 
 /** The bin to look at first, and its class: one that separates a class alone, if any does, the best of these. */

@@ -1,51 +1,50 @@
 // The Shapes page: all shapes as pictures, to search, filter, group, sort, and select.
 
-import { carrySelection, follow } from "../tray/carry.js";
-import { chunk } from "../base/chunks.js";
 import { readGalleryAddress, writeGalleryAddress } from "../addresses/shapes.js";
+import { chunk } from "../base/chunks.js";
+import { delayed, openPage } from "../base/page.js";
+import { pageAddress } from "../base/place.js";
+import { watchTables } from "../base/tables.js";
+import { currentTheme } from "../base/theme.js";
+import { count } from "../base/words.js";
+import { Database } from "../database/database.js";
+import { Fields } from "../database/fields.js";
+import { watchActions } from "../shapes/actions.js";
 import { Arrangement } from "../shapes/arrangement.js";
 import { Cells } from "../shapes/cells.js";
 import { Chips } from "../shapes/chips.js";
 import { Controls } from "../shapes/controls.js";
 import { Facets } from "../shapes/facets.js";
-import { Fields } from "../database/fields.js";
-import { galleryTables } from "../shapes/tables.js";
 import { Grid } from "../shapes/grid.js";
 import { Keys } from "../shapes/keys.js";
-import { Sieve } from "../shapes/sieve.js";
-import { watchActions } from "../shapes/actions.js";
 import { Panel } from "../shapes/panel.js";
-import { Model } from "../database/model.js";
-import { pageAddress } from "../base/place.js";
-import { findWords, searchTexts } from "../database/search.js";
-import { State } from "../base/state.js";
-import { watchTables } from "../base/tables.js";
-import { currentTheme, watchTheme } from "../base/theme.js";
+import { search, watchSearch } from "../shapes/search.js";
+import { Sieve } from "../shapes/sieve.js";
+import { galleryTables } from "../shapes/tables.js";
+import { carrySelection, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
-import { count } from "../base/words.js";
 
-const WRITE_AFTER = 250;
 const SAY_AFTER = 500;
 
 async function main() {
   const [overview, described, hierarchy] = await Promise.all(["overview", "fields", "hierarchy"].map(chunk));
-  const model = new Model(overview, currentTheme);
-  const fields = new Fields(model, described, hierarchy);
-  const state = new State({ ...readGalleryAddress(model, fields), matches: null, theme: currentTheme(), opened: null, brushing: false });
-  const sieve = new Sieve(model, fields);
-  const arrangement = new Arrangement(model, fields);
-  const grid = new Grid(model, state);
+  const database = new Database(overview, currentTheme);
+  const fields = new Fields(database, described, hierarchy);
+  const { state, announce, ready } = await openPage({ read: () => readGalleryAddress(database, fields), values: { matches: null, opened: null } });
+  const sieve = new Sieve(database, fields);
+  const arrangement = new Arrangement(database, fields);
+  const grid = new Grid(database, state);
   const chips = new Chips(fields, sieve, state);
-  const facets = new Facets(model, fields, sieve, state);
+  const facets = new Facets(database, fields, sieve, state);
   const panel = new Panel(sieve, state);
-  const showActions = watchActions(model, sieve, grid, state);
-  new Controls(model, fields, state);
+  const showActions = watchActions(database, sieve, grid, state);
+  new Controls(database, fields, state);
 
   let cells = null;
   const arrange = (fromTop) => {
     const how = { group: state.get("group"), sort: state.get("sort"), down: state.get("down") };
     if (cells === null || cells.how !== JSON.stringify([how, state.get("theme")])) {
-      cells = new Cells(model, fields, how);
+      cells = new Cells(database, fields, how);
       cells.how = JSON.stringify([how, state.get("theme")]);
     }
     grid.show(arrangement.arrange((row) => sieve.passes(row), how), cells, fromTop);
@@ -58,15 +57,13 @@ async function main() {
     panel.show();
     showActions();
   };
-  const write = () => writeGalleryAddress(model, fields, state);
-  const later = delayed(write, WRITE_AFTER);
-  const say = delayed(() => {
-    document.getElementById("live").textContent = `${count(sieve.size, "shape")} shown`;
-  }, SAY_AFTER);
+  const write = () => writeGalleryAddress(database, fields, state);
+  const later = delayed(write);
+  const say = delayed(() => announce(`${count(sieve.size, "shape")} shown`), SAY_AFTER);
 
   state.listen((changed) => {
     const has = (...names) => names.some((name) => changed.has(name));
-    if (has("query")) search(model, state);
+    if (has("query")) search(database, state);
     // Who takes back the last of the selected shapes sees all again.
     if (has("selection") && state.get("only") && state.get("selection").size === 0) state.set({ only: false });
     const taken = has("selection") && state.get("only");
@@ -88,65 +85,17 @@ async function main() {
       write();
     },
   });
-  const open = (index) => follow(pageAddress("shape.html", { id: model.ids[index] }));
-  new Tray(model, state, { open });
-  carrySelection(model, state);
+  const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
+  new Tray(database, state, { open });
+  carrySelection(database, state);
   watchSearch(state);
-  watchTables(() => galleryTables(model, fields, sieve, grid.groups));
-  window.addEventListener("hashchange", () => state.set(readGalleryAddress(model, fields)));
-  watchTheme(() => state.set({ theme: currentTheme() }));
+  watchTables(() => galleryTables(database, fields, sieve, grid.groups));
 
-  if (state.get("query") !== "") await search(model, state);
+  if (state.get("query") !== "") await search(database, state);
   sift();
   arrange(false);
   if (state.get("at") !== null) grid.start(state.get("at"));
-  document.documentElement.dataset.ready = "";
-}
-
-/** The shapes that the words of the search find; null without words. */
-async function search(model, state) {
-  const query = state.get("query");
-  if (query === "") {
-    state.set({ matches: null });
-    return;
-  }
-  search.texts ??= searchTexts(model);
-  const texts = await search.texts;
-  if (state.get("query") === query) state.set({ matches: new Set(findWords(texts, query)) });
-}
-
-function watchSearch(state) {
-  const field = document.getElementById("search");
-  const show = () => {
-    if (field.value.trim() !== state.get("query")) field.value = state.get("query");
-  };
-  field.addEventListener("input", () => state.set({ query: field.value.trim() }));
-  state.listen((changed) => {
-    if (changed.has("query")) show();
-  });
-  document.addEventListener("keydown", (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-    if (event.key === "Escape") escape(state);
-    else if (event.key === "/" && !event.target.matches("input[type=search]")) {
-      field.focus();
-      event.preventDefault();
-    }
-  });
-  show();
-}
-
-/** One press takes back the last thing: the search, then the selection. */
-function escape(state) {
-  if (state.get("query") !== "") state.set({ query: "" });
-  else state.set({ selection: new Set() });
-}
-
-function delayed(work, wait) {
-  let timer = null;
-  return () => {
-    clearTimeout(timer);
-    timer = setTimeout(work, wait);
-  };
+  ready();
 }
 
 main();

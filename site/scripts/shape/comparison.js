@@ -1,7 +1,7 @@
 // What similar means on this page: which features are compared, or which bins. The address has it as text.
 
+import { shortNames } from "../addresses/bin-names.js";
 import { joinNames, splitNames } from "../addresses/names.js";
-import { readShortNames, shortNames } from "../addresses/bin-names.js";
 import { count } from "../base/words.js";
 
 export class Comparison {

@@ -10,8 +10,8 @@ const RIGHTS = ["license", "licence", "rights", "author", "creator", "attributio
 const DIGITS = 4;
 
 export class Facts {
-  constructor(model, state, { links }) {
-    Object.assign(this, { model, state, links });
+  constructor(database, state, { links }) {
+    Object.assign(this, { database, state, links });
     this.node = document.getElementById("facts");
     this.groups = [];
     state.listen((changed) => {
@@ -24,12 +24,12 @@ export class Facts {
     if (shape === null) return;
     const [{ labelings, shapes }, clusters] = await Promise.all([chunk("details"), chunk("clusters")]);
     if (this.state.get("shape") !== shape) return;
-    this.groups = factGroups(this.model, shape, labelings, shapes[shape], clusters);
+    this.groups = factGroups(this.database, shape, labelings, shapes[shape], clusters);
     this.node.replaceChildren(...this.groups.map((group) => this.#section(group)));
   }
 
   #section({ title, rows, note, shapes }) {
-    const named = (name, place) => (shapes ? this.links.link(shapes[place], { title: this.model.ids[shapes[place]] }, name) : name);
+    const named = (name, place) => (shapes ? this.links.link(shapes[place], { title: this.database.ids[shapes[place]] }, name) : name);
     return element(
       "section",
       {},
@@ -41,7 +41,7 @@ export class Facts {
 }
 
 /** All facts of a shape: `{ title, rows: [[name, value]], note, shapes }` a group, whose it is first; where rows are of other shapes, `shapes` says which. */
-function factGroups(model, shape, labelings, known, clusters) {
+function factGroups(database, shape, labelings, known, clusters) {
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
   const others = known.metadata.filter((pair) => rank(pair) < 0);
@@ -51,13 +51,13 @@ function factGroups(model, shape, labelings, known, clusters) {
   const [wide, high, deep] = known.extents.map(measured);
   return [
     { title: "Licence and source", rows: rights },
-    { title: "The same shape as", rows: known.copies.map(([other, evidence]) => [model.names[other], evidence]), shapes: known.copies.map(([other]) => other) },
+    { title: "The same shape as", rows: known.copies.map(([other, evidence]) => [database.names[other], evidence]), shapes: known.copies.map(([other]) => other) },
     { title: labels.length > 1 ? "Labels" : "", rows: labels.length > 1 ? labels : [] },
     { title: "From the database", rows: others },
     {
       title: "Shape",
       rows: [
-        ["id", model.ids[shape]],
+        ["id", database.ids[shape]],
         ["size", `${wide} × ${high} × ${deep}`],
         ["surface", measured(known.area)],
         ["volume", known.volume === null && !known.watertight ? "– (it is not closed)" : measured(known.volume)],

@@ -1,15 +1,15 @@
 // Which shape it is, the way back to all shapes, and those before and after it in its class.
 
-import { findShapes } from "../database/shape-finder.js";
 import { element, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { writeSelection } from "../database/selection.js";
 import { grouped } from "../base/words.js";
+import { writeSelection } from "../database/selection.js";
+import { findShapes } from "../database/shape-finder.js";
 
 export class Heading {
-  constructor(model, state, { links, go, site }) {
-    Object.assign(this, { model, state, links, site });
-    findShapes(model, go);
+  constructor(database, state, { links, go, site }) {
+    Object.assign(this, { database, state, links, site });
+    findShapes(database, go);
     this.choose = document.getElementById("choose");
     this.choose.addEventListener("click", () => this.#toggle());
     state.listen((changed) => {
@@ -18,12 +18,12 @@ export class Heading {
   }
 
   render() {
-    const { model, state } = this;
+    const { database, state } = this;
     const shape = state.get("shape");
-    const name = shape === null ? "No such shape" : model.names[shape];
+    const name = shape === null ? "No such shape" : database.names[shape];
     document.title = `${name} · ${this.site}`;
     document.getElementById("name").textContent = name;
-    document.getElementById("of-class").replaceChildren(...(shape !== null && model.labelled ? this.#group(model.groups[shape]) : []));
+    document.getElementById("of-class").replaceChildren(...(shape !== null && database.labelled ? this.#group(database.groups[shape]) : []));
     document.getElementById("way-back").replaceChildren(element("a", { href: this.#gallery(), title: shape === null ? null : "The gallery, at this shape" }, "All shapes"));
     this.#offerSelection(shape);
     document.getElementById("turn-over").replaceChildren(...(shape === null ? [] : this.#turnOver(shape)));
@@ -34,14 +34,14 @@ export class Heading {
   }
 
   #group(group) {
-    const { model } = this;
-    return [swatch(model.symbol(group), model.color(group)), element("bdi", {}, model.className(group))];
+    const { database } = this;
+    return [swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group))];
   }
 
   #gallery() {
     const query = new URLSearchParams();
-    writeSelection(query, this.model, this.state.get("selection"));
-    if (this.state.get("shape") !== null) query.set("at", this.model.ids[this.state.get("shape")]);
+    writeSelection(query, this.database, this.state.get("selection"));
+    if (this.state.get("shape") !== null) query.set("at", this.database.ids[this.state.get("shape")]);
     return pageAddress("shapes.html", query);
   }
 
@@ -71,15 +71,15 @@ export class Heading {
 
   /** Links to the shapes before and after in the class; the last is followed by the first. */
   #turnOver(shape) {
-    const { model, links } = this;
-    const own = model.groups[shape];
-    const fellows = [...model.groups.keys()].filter((index) => model.groups[index] === own);
+    const { database, links } = this;
+    const own = database.groups[shape];
+    const fellows = [...database.groups.keys()].filter((index) => database.groups[index] === own);
     if (fellows.length < 2) return [];
     const place = fellows.indexOf(shape);
     const step = (by, words, rel, said) => links.link(fellows.at((place + by) % fellows.length), { rel, "aria-label": said }, words);
     return [
       step(-1, "‹ Previous", "prev", "Previous shape"),
-      element("span", { class: "quiet" }, `${grouped(place + 1)} of ${grouped(fellows.length)}`, model.labelled && [own < 0 ? " without label" : [" in ", element("bdi", {}, model.className(own))]]),
+      element("span", { class: "quiet" }, `${grouped(place + 1)} of ${grouped(fellows.length)}`, database.labelled && [own < 0 ? " without label" : [" in ", element("bdi", {}, database.className(own))]]),
       step(1, "Next ›", "next", "Next shape"),
     ];
   }

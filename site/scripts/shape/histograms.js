@@ -1,12 +1,12 @@
 // The histograms of a shape, one a feature, against those of its class and of all shapes.
 
 import { joinNames } from "../addresses/names.js";
+import { element } from "../base/dom.js";
+import { shortened } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { percent } from "../bins-kit/bin-card.js";
 import { quantityInWords } from "../bins-kit/legend.js";
 import { dimensionOf } from "../bins-kit/look.js";
-import { element } from "../base/dom.js";
-import { shortened } from "../base/words.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 import { whole } from "./similar-shapes.js";
@@ -17,8 +17,8 @@ const FLAT = 0.02;
 
 export class Histograms {
   /** `dimensions` are those of the chunk "selection": what each measures, and where its bins end. */
-  constructor(model, bins, state, { spread, dimensions, card }) {
-    Object.assign(this, { model, bins, state, spread, dimensions, card });
+  constructor(database, bins, state, { spread, dimensions, card }) {
+    Object.assign(this, { database, bins, state, spread, dimensions, card });
     this.section = document.getElementById("histograms");
     this.grid = document.getElementById("histogram-grid");
     this.panels = bins.features.map((_, feature) => {
@@ -59,8 +59,8 @@ export class Histograms {
     return {
       own: told(this.bins.share(column, shape)),
       fellows: fellows && half(fellows),
-      all: this.model.count > 1 ? half(all) : null,
-      rank: this.model.count > 1 ? `${whole(this.spread.rank(column, shape))} of all` : null,
+      all: this.database.count > 1 ? half(all) : null,
+      rank: this.database.count > 1 ? `${whole(this.spread.rank(column, shape))} of all` : null,
     };
   }
 
@@ -77,8 +77,8 @@ export class Histograms {
   }
 
   #key(shape) {
-    const { model } = this;
-    const group = model.groups[shape];
+    const { database } = this;
+    const group = database.groups[shape];
     const mark = (name, color) => {
       const node = element("i", { class: `mark ${name}` });
       if (color) node.style.borderColor = color;
@@ -86,8 +86,8 @@ export class Histograms {
     };
     return [
       element("span", {}, mark("own"), "this shape"),
-      this.spread.fellows(0, shape) && element("span", {}, mark("fellows", model.color(group)), "the middle half of the others in ", element("bdi", {}, shortened(model.className(group), 40))),
-      model.count > 1 && element("span", {}, mark("all"), "the middle half of all shapes"),
+      this.spread.fellows(0, shape) && element("span", {}, mark("fellows", database.color(group)), "the middle half of the others in ", element("bdi", {}, shortened(database.className(group), 40))),
+      database.count > 1 && element("span", {}, mark("all"), "the middle half of all shapes"),
     ].filter(Boolean);
   }
 
@@ -138,8 +138,8 @@ export class Histograms {
   }
 
   #bars(columns, shape) {
-    const { bins, spread, model } = this;
-    const group = model.groups[shape];
+    const { bins, spread, database } = this;
+    const group = database.groups[shape];
     const own = columns.map((column) => bins.share(column, shape));
     const fellows = columns.map((column) => spread.fellows(column, shape));
     const all = columns.map((column) => spread.all(column));
@@ -162,7 +162,7 @@ export class Histograms {
           const bar = element("i", { class: "own" });
           bar.style.height = height(own[place]);
           bar.style.background = bins.color(column);
-          return this.#button(column, place === 0, shape, [model.count > 1 && band("all", all[place]), bar, fellows[place] && band("fellows", fellows[place], model.color(group))]);
+          return this.#button(column, place === 0, shape, [database.count > 1 && band("all", all[place]), bar, fellows[place] && band("fellows", fellows[place], database.color(group))]);
         }),
       ),
       element("div", { class: "ticks", "aria-hidden": "true" }, edges.slice(1, -1).map((edge) => element("span", {}, measured(edge)))),
@@ -172,7 +172,7 @@ export class Histograms {
 
   /** A value that was brought along, on the range that all shapes have. */
   #strip(column, shape) {
-    const { bins, spread, model } = this;
+    const { bins, spread, database } = this;
     const all = spread.all(column);
     const fellows = spread.fellows(column, shape);
     const across = (value) => `${all.most > all.least ? (100 * (value - all.least)) / (all.most - all.least) : 50}%`;
@@ -187,7 +187,7 @@ export class Histograms {
     own.style.left = across(bins.share(column, shape));
     own.style.background = bins.color(column);
     return [
-      element("div", { class: "value-strip" }, this.#button(column, true, shape, [model.count > 1 && band("all", all), fellows && band("fellows", fellows, model.color(model.groups[shape])), own])),
+      element("div", { class: "value-strip" }, this.#button(column, true, shape, [database.count > 1 && band("all", all), fellows && band("fellows", fellows, database.color(database.groups[shape])), own])),
       element("div", { class: "strip-ends", "aria-hidden": "true" }, [all.least, all.most].map((value) => element("span", {}, measured(value)))),
       element("p", { class: "quantity" }, "A feature that was brought along: its value, from the least to the most of all shapes"),
     ];
@@ -197,7 +197,7 @@ export class Histograms {
     const { bins } = this;
     const show = (event) => this.card.show(column, this.tell(column, this.state.get("shape")), event.currentTarget);
     const { own, fellows, all } = this.tell(column, shape);
-    const said = [`${bins.names[column]}: this shape ${own}`, fellows && `others of its ${kind(this.model)} ${fellows}`, all && `all shapes ${all}`].filter(Boolean).join(", ");
+    const said = [`${bins.names[column]}: this shape ${own}`, fellows && `others of its ${kind(this.database)} ${fellows}`, all && `all shapes ${all}`].filter(Boolean).join(", ");
     return element(
       "button",
       {

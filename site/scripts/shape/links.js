@@ -1,12 +1,12 @@
 // Links from the page of a shape to those of others. They keep what the page shows otherwise, so they follow it.
 
-import { element, picture } from "../base/dom.js";
 import { shapeAddress } from "../addresses/shape.js";
+import { element, picture } from "../base/dom.js";
 
 export class ShapeLinks {
   /** `opened` is told when a reader follows one within this window. */
-  constructor(model, state, { opened }) {
-    Object.assign(this, { model, state });
+  constructor(database, state, { opened }) {
+    Object.assign(this, { database, state });
     state.listen((changed) => {
       if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name))) this.#follow();
     });
@@ -16,22 +16,22 @@ export class ShapeLinks {
   }
 
   #follow() {
-    for (const link of document.querySelectorAll("a[data-shape]")) link.href = shapeAddress(this.model, this.state, Number(link.dataset.shape));
+    for (const link of document.querySelectorAll("a[data-shape]")) link.href = shapeAddress(this.database, this.state, Number(link.dataset.shape));
   }
 
   link(shape, attributes, ...children) {
-    return element("a", { href: shapeAddress(this.model, this.state, shape), "data-shape": shape, ...attributes }, children);
+    return element("a", { href: shapeAddress(this.database, this.state, shape), "data-shape": shape, ...attributes }, children);
   }
 
   /** A shape as a picture, underlined where it is a stranger. */
   pictured(shape, size, { stranger = false, ...attributes } = {}) {
-    const { model } = this;
-    const group = model.groups[shape];
-    const words = model.labelled ? [model.names[shape], model.className(group)] : [model.names[shape]];
+    const { database } = this;
+    const group = database.groups[shape];
+    const words = database.labelled ? [database.names[shape], database.className(group)] : [database.names[shape]];
     return this.link(
       shape,
       { class: stranger ? "shape stranger" : "shape", "aria-label": words.join(", "), title: words.join("\n"), ...attributes },
-      picture(model, shape, size),
+      picture(database, shape, size),
     );
   }
 }

@@ -1,22 +1,22 @@
 // The shape itself: its picture, and in 3D where a reader asks for it, as plain clay or coloured by a bin.
 
-import { Legend } from "../bins-kit/legend.js";
-import { dimensionOf } from "../bins-kit/look.js";
 import { chunk, modelBytes } from "../base/chunks.js";
 import { calm, element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { Paint } from "../viewer/paint.js";
+import { Legend } from "../bins-kit/legend.js";
+import { dimensionOf } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
+import { Paint } from "../viewer/paint.js";
 import { hue } from "./hue.js";
 
 export class Portrait {
   /** `models` is whether the site has 3D data. */
-  constructor(model, state, { models }) {
-    Object.assign(this, { model, state });
+  constructor(database, state, { models }) {
+    Object.assign(this, { database, state });
     this.node = document.getElementById("stage");
     this.words = document.getElementById("painted");
     const load = models ? async (shape) => modelBytes((await chunk("selection")).models[shape]) : null;
-    this.stage = new Stage(this.node, { model, load, keys: "turn-keys" });
+    this.stage = new Stage(this.node, { database, load, keys: "turn-keys" });
     state.listen((changed) => {
       if (["shape", "bin", "theme"].some((name) => changed.has(name))) this.render();
       if (changed.has("bin") && state.get("bin") !== null) this.#bringIntoSight();
@@ -37,7 +37,7 @@ export class Portrait {
   }
 
   render() {
-    const { model, bins } = this;
+    const { database, bins } = this;
     const shape = this.state.get("shape");
     if (shape === null) return;
     const column = this.#column;
@@ -45,7 +45,7 @@ export class Portrait {
     // Who asks for a bin asks for 3D.
     if (column !== null) this.stage.asked = true;
     this.stage.show(shape, {
-      label: `${model.names[shape]} in 3D${column === null ? "" : `, values of ${bins.names[column]}`}`,
+      label: `${database.names[shape]} in 3D${column === null ? "" : `, values of ${bins.names[column]}`}`,
       paint: async (solid) => {
         this.paint ??= new Paint(await chunk("selection"));
         return column === null ? this.paint.plain(solid) : this.paint.values(solid, dimensionOf(column, bins));
@@ -55,7 +55,7 @@ export class Portrait {
   }
 
   #tell(shape, column) {
-    const { bins, legend, model, state, words } = this;
+    const { bins, legend, database, state, words } = this;
     words.replaceChildren();
     if (column === null) {
       legend.clear();
@@ -68,7 +68,7 @@ export class Portrait {
         "p",
         { class: "actions" },
         action("Find shapes with as much of it", () => this.comparison.compareBins([column])),
-        element("a", { href: pageAddress("bins.html", { bin: bins.names[column], id: model.ids[shape] }) }, "Open on the Bins page"),
+        element("a", { href: pageAddress("bins.html", { bin: bins.names[column], id: database.ids[shape] }) }, "Open on the Bins page"),
         action("Plain again", () => state.set({ bin: null })),
       ),
     );

@@ -3,8 +3,8 @@
 import { compareAddress } from "../addresses/compare.js";
 import { element, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { writeSelection } from "../database/selection.js";
 import { count, figure, shortened } from "../base/words.js";
+import { writeSelection } from "../database/selection.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 
@@ -13,8 +13,8 @@ const MOST = 48;
 const MOST_NAMED = 4;
 
 export class SimilarShapes {
-  constructor(model, bins, state, { links, comparison, similarity }) {
-    Object.assign(this, { model, bins, state, links, comparison, similarity });
+  constructor(database, bins, state, { links, comparison, similarity }) {
+    Object.assign(this, { database, bins, state, links, comparison, similarity });
     this.section = document.getElementById("similar");
     this.chips = document.getElementById("compared");
     this.list = document.getElementById("similar-list");
@@ -37,9 +37,9 @@ export class SimilarShapes {
   found = [];
 
   render() {
-    const { model, state } = this;
+    const { database, state } = this;
     const shape = state.get("shape");
-    this.section.hidden = shape === null || model.count === 1;
+    this.section.hidden = shape === null || database.count === 1;
     if (this.section.hidden) return;
     const { choice } = this.comparison;
     this.found = this.similarity.rank(shape, choice, this.shown);
@@ -82,23 +82,23 @@ export class SimilarShapes {
   }
 
   #tell(shape, choice) {
-    const { model, bins, found } = this;
-    const own = model.groups[shape];
+    const { database, bins, found } = this;
+    const own = database.groups[shape];
     const words = [];
     if (choice.columns) {
       const names = choice.columns.slice(0, MOST_NAMED).map((column) => bins.names[column]);
       words.push("Compared by ", element("bdi", {}, names.join(", ")), choice.columns.length > MOST_NAMED ? ` and ${choice.columns.length - MOST_NAMED} more bins. ` : ". ");
     }
-    if (own >= 0 && model.separable) {
-      const fellows = found.filter(({ row }) => model.groups[row] === own).length;
-      words.push(element("b", {}, `${fellows} of these ${found.length}`), ` are of its ${kind(model)}. `);
+    if (own >= 0 && database.separable) {
+      const fellows = found.filter(({ row }) => database.groups[row] === own).length;
+      words.push(element("b", {}, `${fellows} of these ${found.length}`), ` are of its ${kind(database)}. `);
     }
     return [...words, `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. Bars and percentages say how many of all shapes are farther away in one feature alone: 100 % means that no shape is more alike in it.`];
   }
 
   #card(shape, { row, distance, closer }) {
-    const { model } = this;
-    const [own, group] = [model.groups[shape], model.groups[row]];
+    const { database } = this;
+    const [own, group] = [database.groups[shape], database.groups[row]];
     const differ = own >= 0 && group >= 0 && own !== group;
     return element(
       "li",
@@ -107,12 +107,12 @@ export class SimilarShapes {
       element(
         "div",
         {},
-        element("p", { class: "name", dir: "auto" }, this.links.link(row, {}, shortened(model.names[row], 60))),
-        model.labelled && element("p", { class: "class-of" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, shortened(model.className(group), 40))),
+        element("p", { class: "name", dir: "auto" }, this.links.link(row, {}, shortened(database.names[row], 60))),
+        database.labelled && element("p", { class: "class-of" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, shortened(database.className(group), 40))),
         element("p", { class: "quiet" }, `distance ${figure(distance)}`),
         this.#bars(closer),
         element("p", { class: "why" }, this.#reasons(closer)),
-        differ && element("p", {}, element("a", { href: compareAddress(model, { kind: "class", group: own }, { kind: "class", group }) }, `Compare ${model.data.standIn ? "clusters" : "classes"}`)),
+        differ && element("p", {}, element("a", { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group }) }, `Compare ${database.data.standIn ? "clusters" : "classes"}`)),
       ),
     );
   }
@@ -146,7 +146,7 @@ export class SimilarShapes {
   /** This shape and those found, selected on another page. */
   #together(shape, file) {
     const query = new URLSearchParams();
-    writeSelection(query, this.model, new Set([shape, ...this.found.map(({ row }) => row)]));
+    writeSelection(query, this.database, new Set([shape, ...this.found.map(({ row }) => row)]));
     return pageAddress(file, query);
   }
 }

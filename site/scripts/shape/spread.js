@@ -5,8 +5,8 @@ import { quantile } from "../bins-kit/bin-card.js";
 const QUARTERS = [0.25, 0.5, 0.75];
 
 export class Spread {
-  constructor(model, bins) {
-    Object.assign(this, { model, bins });
+  constructor(database, bins) {
+    Object.assign(this, { database, bins });
     this.ofAll = new Map();
   }
 
@@ -19,7 +19,7 @@ export class Spread {
   /** The same of the others of a shape's class; null where it has none. */
   fellows(column, shape) {
     if (this.fellowsOf?.shape !== shape) {
-      const { groups } = this.model;
+      const { groups } = this.database;
       const own = groups[shape];
       this.fellowsOf = { shape, rows: own < 0 ? [] : [...groups.keys()].filter((row) => groups[row] === own && row !== shape) };
     }

@@ -1,11 +1,11 @@
 // Where a shape lies on a map, its nearest neighbours there, and what they say of it.
 
-import { Plot } from "../map/plot.js";
 import { element } from "../base/dom.js";
-import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { pageAddress } from "../base/place.js";
 import { styleColor } from "../base/theme.js";
 import { count, figure } from "../base/words.js";
+import { highestOf, ofAtMost } from "../database/hit-range.js";
+import { Plot } from "../map/plot.js";
 import { kind } from "./kind.js";
 
 /** Above so many shapes, marks are small. */
@@ -13,11 +13,11 @@ const MANY = 1500;
 const MOST_CLASSES = 6;
 
 export class Surroundings {
-  constructor(model, state, { links, pointing, go }) {
-    Object.assign(this, { model, state, links });
+  constructor(database, state, { links, pointing, go }) {
+    Object.assign(this, { database, state, links });
     this.section = document.querySelector(".surroundings");
     this.#offerMaps();
-    this.plot = new Plot(model, {
+    this.plot = new Plot(database, {
       margin: 14,
       first: (index) => !this.near.has(index) && index !== state.get("shape"),
       mark: (index) => this.#mark(index),
@@ -35,38 +35,38 @@ export class Surroundings {
   near = new Set();
 
   #offerMaps() {
-    const { model, state } = this;
-    const inputs = model.methods.map(({ title }, method) =>
+    const { database, state } = this;
+    const inputs = database.methods.map(({ title }, method) =>
       element("input", { type: "radio", name: "map", value: method, onchange: () => state.set({ method }) }),
     );
     const check = () => inputs.forEach((input, method) => (input.checked = method === state.get("method")));
-    document.getElementById("maps").replaceChildren(...inputs.map((input, method) => element("label", {}, input, element("span", {}, model.methods[method].title))));
+    document.getElementById("maps").replaceChildren(...inputs.map((input, method) => element("label", {}, input, element("span", {}, database.methods[method].title))));
     state.listen((changed) => changed.has("method") && check());
     check();
   }
 
   render() {
-    const { model, state } = this;
+    const { database, state } = this;
     const shape = state.get("shape");
-    this.section.hidden = shape === null || model.count === 1;
+    this.section.hidden = shape === null || database.count === 1;
     if (this.section.hidden) return;
     const method = state.get("method");
-    const near = model.neighbours(shape, method);
+    const near = database.neighbours(shape, method);
     this.near = new Set(near);
-    this.plot.show(model.methods[method]);
-    const own = model.groups[shape];
-    const stranger = (other) => own >= 0 && model.groups[other] !== own;
-    document.getElementById("nh").replaceChildren(...this.#tell(shape, near, model.methods[method]));
+    this.plot.show(database.methods[method]);
+    const own = database.groups[shape];
+    const stranger = (other) => own >= 0 && database.groups[other] !== own;
+    document.getElementById("nh").replaceChildren(...this.#tell(shape, near, database.methods[method]));
     document.getElementById("neighbours").replaceChildren(...near.map((other) => this.links.pictured(other, 64, { stranger: stranger(other) })));
     document.getElementById("neighbours-key").replaceChildren(
-      near.some(stranger) ? `Underlined: of another ${kind(model)}. ` : "",
+      near.some(stranger) ? `Underlined: of another ${kind(database)}. ` : "",
       element("a", { href: this.#overview(shape) }, "Open on the Overview"),
     );
   }
 
   #overview(shape) {
     const query = new URLSearchParams();
-    const { methods, ids } = this.model;
+    const { methods, ids } = this.database;
     if (this.state.get("method") > 0) query.set("map", methods[this.state.get("method")].key);
     query.set("open", ids[shape]);
     return pageAddress("index.html", query);
@@ -74,30 +74,30 @@ export class Surroundings {
 
   /** Who its neighbours are, and its neighbourhood hit. */
   #tell(shape, near, method) {
-    const { model } = this;
+    const { database } = this;
     const { title, hit, hitOfClass } = method;
     const words = [`Near on the ${title} map means alike in features. `];
-    if (!model.labelled) return [...words, `These ${count(near.length, "shape")} are nearest.`];
-    const census = model.census(near);
-    const own = model.groups[shape];
+    if (!database.labelled) return [...words, `These ${count(near.length, "shape")} are nearest.`];
+    const census = database.census(near);
+    const own = database.groups[shape];
     const listed = census.slice(0, MOST_CLASSES).flatMap(([group, number], place) => [
       place > 0 ? ", " : "",
       `${number} `,
-      group < 0 ? "without label" : group === own ? `of its own ${kind(model)}` : element("bdi", {}, model.className(group)),
+      group < 0 ? "without label" : group === own ? `of its own ${kind(database)}` : element("bdi", {}, database.className(group)),
     ]);
     words.push(`Its ${count(near.length, "nearest neighbour")}: `, ...listed, census.length > MOST_CLASSES ? ", and others. " : ". ");
     if (hit[shape] === null) return words;
-    return [...words, `Neighbourhood hit (NH), the share that is of its ${kind(model)}: `, element("b", {}, figure(hit[shape])), `${ofAtMost(highestOf(model, method, shape))}; its ${kind(model)} on average ${figure(hitOfClass[own])}.`];
+    return [...words, `Neighbourhood hit (NH), the share that is of its ${kind(database)}: `, element("b", {}, figure(hit[shape])), `${ofAtMost(highestOf(database, method, shape))}; its ${kind(database)} on average ${figure(hitOfClass[own])}.`];
   }
 
   #mark(index) {
-    const { model, state } = this;
-    const [shape, many] = [state.get("shape"), model.count > MANY];
-    const group = model.groups[index];
-    const look = { path: model.symbol(group), color: model.color(group) };
+    const { database, state } = this;
+    const [shape, many] = [state.get("shape"), database.count > MANY];
+    const group = database.groups[index];
+    const look = { path: database.symbol(group), color: database.color(group) };
     if (index === shape) return { ...look, radius: 6, alpha: 1 };
     if (this.near.has(index)) return { ...look, radius: many ? 4 : 4.5, alpha: 1 };
-    const own = group === model.groups[shape] && model.separable;
+    const own = group === database.groups[shape] && database.separable;
     return { ...look, radius: many ? 1.6 : 3, alpha: own ? 0.8 : 0.35 };
   }
 

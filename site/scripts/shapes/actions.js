@@ -2,13 +2,13 @@
 
 import { compareAddress } from "../addresses/compare.js";
 import { pageAddress } from "../base/place.js";
-import { writeSelection } from "../database/selection.js";
 import { grouped } from "../base/words.js";
+import { writeSelection } from "../database/selection.js";
 
 /** Watch the buttons above the gallery; returns what brings them up to date after sifting. */
-export function watchActions(model, sieve, grid, state) {
+export function watchActions(database, sieve, grid, state) {
   const [select, map, compare, fold] = ["select-shown", "on-map", "compare-shown", "fold"].map((id) => document.getElementById(id));
-  const shown = () => model.ids.map((_, row) => row).filter((row) => sieve.passes(row));
+  const shown = () => database.ids.map((_, row) => row).filter((row) => sieve.passes(row));
   select.addEventListener("click", () => state.set({ selection: new Set(shown()) }));
   fold.addEventListener("click", () => {
     const closed = state.get("closed").size > 0 ? [] : grid.groups.map(({ key }) => key);
@@ -29,10 +29,10 @@ export function watchActions(model, sieve, grid, state) {
   };
   aim(map, () => {
     const query = new URLSearchParams();
-    if (sieve.size < model.count) writeSelection(query, model, new Set(shown()));
+    if (sieve.size < database.count) writeSelection(query, database, new Set(shown()));
     return pageAddress("index.html", query);
   });
-  aim(compare, () => compareAddress(model, { kind: "shapes", shapes: new Set(shown()) }, { kind: "rest" }));
+  aim(compare, () => compareAddress(database, { kind: "shapes", shapes: new Set(shown()) }, { kind: "rest" }));
   const showFold = () => {
     fold.textContent = state.get("closed").size > 0 ? "Unfold all" : "Fold all";
   };
@@ -43,9 +43,9 @@ export function watchActions(model, sieve, grid, state) {
   showFold();
   showOnly();
   return () => {
-    const some = sieve.size > 0 && sieve.size < model.count;
+    const some = sieve.size > 0 && sieve.size < database.count;
     select.hidden = sieve.size === 0;
-    select.textContent = sieve.size === model.count ? "Select all" : `Select these ${grouped(sieve.size)}`;
+    select.textContent = sieve.size === database.count ? "Select all" : `Select these ${grouped(sieve.size)}`;
     map.hidden = sieve.size === 0;
     compare.hidden = !some;
   };

@@ -6,8 +6,8 @@ import { interval } from "./sieve.js";
 export class Arrangement {
   #orders = new Map();
 
-  constructor(model, fields) {
-    this.model = model;
+  constructor(database, fields) {
+    this.database = database;
     this.fields = fields;
   }
 

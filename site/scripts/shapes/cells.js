@@ -1,33 +1,33 @@
 // One shape of the gallery, and the head of a group.
 
 import { element, swatch } from "../base/dom.js";
-import { ofAtMost } from "../database/hit-range.js";
 import { pageAddress } from "../base/place.js";
 import { count } from "../base/words.js";
 import { numberText, valueName } from "../database/fields.js";
+import { ofAtMost } from "../database/hit-range.js";
 
 /** Makes the cells; knows what stands below a picture while shapes are grouped and sorted as they are. */
 export class Cells {
-  constructor(model, fields, { group, sort }) {
-    this.model = model;
+  constructor(database, fields, { group, sort }) {
+    this.database = database;
     this.active = fields.active;
     this.sorted = fields.byKey.get(sort) ?? null;
     // What a shape has in common with all around it need not be said.
-    this.showsClass = model.labelled && this.active !== null && group !== this.active.key;
+    this.showsClass = database.labelled && this.active !== null && group !== this.active.key;
     this.showsNumber = this.sorted !== null && !this.sorted.active;
     this.lines = 1 + (this.showsClass || this.showsNumber ? 1 : 0);
   }
 
   shape(row, selected) {
-    const { model } = this;
-    const name = model.names[row];
-    const said = [name, model.labelled && valueName(this.active, this.active.of[row]), this.showsNumber && this.#number(row)];
+    const { database } = this;
+    const name = database.names[row];
+    const said = [name, database.labelled && valueName(this.active, this.active.of[row]), this.showsNumber && this.#number(row)];
     return element(
       "div",
       { class: "cell", role: "gridcell", "data-row": row, "aria-selected": String(selected) },
       element(
         "a",
-        { href: pageAddress("shape.html", { id: model.ids[row] }), tabindex: "-1", draggable: "false", title: name, "aria-label": said.filter(Boolean).join(", ") },
+        { href: pageAddress("shape.html", { id: database.ids[row] }), tabindex: "-1", draggable: "false", title: name, "aria-label": said.filter(Boolean).join(", ") },
         // Its source follows when the shape stays in sight.
         element("img", { alt: "", decoding: "async", draggable: "false" }),
         element("span", { class: "name", dir: "auto" }, name),
@@ -39,8 +39,8 @@ export class Cells {
 
   #beside(row) {
     if (this.showsNumber) return this.#number(row);
-    const { model, active } = this;
-    return [swatch(model.symbol(model.groups[row]), model.color(model.groups[row])), valueName(active, active.of[row])];
+    const { database, active } = this;
+    return [swatch(database.symbol(database.groups[row]), database.color(database.groups[row])), valueName(active, active.of[row])];
   }
 
   #number(row) {
@@ -50,7 +50,7 @@ export class Cells {
 
   /** The head of a group; a click on it folds the group. */
   head({ key, title, note, group, rows }, folded) {
-    const { model } = this;
+    const { database } = this;
     return [
       element(
         "div",
@@ -59,7 +59,7 @@ export class Cells {
           "button",
           { type: "button", class: "fold", tabindex: "-1", "data-group": key, "aria-expanded": String(!folded) },
           element("span", { class: "chevron", "aria-hidden": "true" }),
-          group !== null && swatch(model.symbol(group), model.color(group)),
+          group !== null && swatch(database.symbol(group), database.color(group)),
           element("bdi", { class: "group-name" }, title),
           element("span", { class: "size" }, count(rows.length, "shape")),
         ),

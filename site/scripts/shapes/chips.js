@@ -56,7 +56,7 @@ export class Chips {
 
   show() {
     const { sieve } = this;
-    const total = sieve.model.count;
+    const total = sieve.database.count;
     const filters = activeFilters(this.fields, this.state);
     this.number.textContent = filters.length === 0 ? count(total, "shape") : `${grouped(sieve.size)} of ${count(total, "shape")}`;
     const focused = this.node.contains(document.activeElement);

@@ -1,12 +1,12 @@
 // How the gallery is arranged: grouped, sorted, and how large its pictures are.
 
 import { element } from "../base/dom.js";
-import { isBelowOne, rangeOf } from "../database/hit-range.js";
 import { count } from "../base/words.js";
+import { isBelowOne, rangeOf } from "../database/hit-range.js";
 
 export class Controls {
-  constructor(model, fields, state) {
-    this.model = model;
+  constructor(database, fields, state) {
+    this.database = database;
     this.fields = fields;
     this.state = state;
     this.group = document.getElementById("group");
@@ -42,8 +42,8 @@ export class Controls {
   }
 
   #onHit() {
-    const { neighbours } = this.model.methods[0];
-    return `NH, the neighbourhood hit: the share of a shape’s ${count(neighbours, "nearest neighbour")} on the map that are of its own class. Near 0 it lies among others.${isBelowOne(rangeOf(this.model, this.model.methods[0]).highest) ? " A shape whose class has fewer others than that cannot reach 1: its card says how much it can." : ""}`;
+    const { neighbours } = this.database.methods[0];
+    return `NH, the neighbourhood hit: the share of a shape’s ${count(neighbours, "nearest neighbour")} on the map that are of its own class. Near 0 it lies among others.${isBelowOne(rangeOf(this.database, this.database.methods[0]).highest) ? " A shape whose class has fewer others than that cannot reach 1: its card says how much it can." : ""}`;
   }
 
   /** The order in words; a click turns it round. */

@@ -14,9 +14,9 @@ const MOST = 200;
 const OPEN = 3;
 
 export class Facets {
-  constructor(model, fields, sieve, state) {
+  constructor(database, fields, sieve, state) {
     this.state = state;
-    const parts = { model, sieve, state, change: (key, filter) => this.#change(key, filter) };
+    const parts = { database, sieve, state, change: (key, filter) => this.#change(key, filter) };
     this.facets = fields.filters.map((field) => new Facet(field, kind(field), parts));
     const shut = new Set();
     for (const [place, facet] of this.facets.entries()) {
@@ -68,9 +68,9 @@ class Facet {
 class Choice {
   #all = false;
 
-  constructor(field, { model, sieve, state, change }) {
+  constructor(field, { database, sieve, state, change }) {
     this.field = field;
-    this.model = model;
+    this.database = database;
     this.sieve = sieve;
     this.state = state;
     this.change = change;
@@ -115,7 +115,7 @@ class Choice {
   }
 
   #item(value, number, checked) {
-    const { field, model } = this;
+    const { field, database } = this;
     const group = groupOf(field, value);
     const box = element("input", { type: "checkbox", value });
     box.checked = checked;
@@ -126,7 +126,7 @@ class Choice {
         "label",
         {},
         box,
-        group !== null && swatch(model.symbol(group), model.color(group)),
+        group !== null && swatch(database.symbol(group), database.color(group)),
         element("bdi", { class: value === NONE ? "value quiet" : "value" }, valueName(field, value)),
         element("span", { class: "size" }, grouped(number)),
       ),

@@ -21,12 +21,12 @@ export class Grid {
   #top = 0;
   #held = null;
 
-  constructor(model, state) {
-    this.model = model;
+  constructor(database, state) {
+    this.database = database;
     this.state = state;
     this.node = document.getElementById("grid");
     this.scroller = document.getElementById("scroller");
-    this.placeOf = new Int32Array(model.count).fill(-1);
+    this.placeOf = new Int32Array(database.count).fill(-1);
     /** The shape that keys start from, or the head of a group by its key. */
     this.active = { shape: null, head: null };
     // Caught on the way down: on a desk the frame scrolls, on a phone the page.
@@ -175,7 +175,7 @@ export class Grid {
     }
     for (const shape of this.#unpictured) {
       const picture = this.#made.get(shape)?.querySelector("img");
-      if (picture) picture.src = this.model.picture(shape);
+      if (picture) picture.src = this.database.picture(shape);
     }
     this.#unpictured.clear();
   }

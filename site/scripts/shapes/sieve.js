@@ -5,13 +5,13 @@ import { NONE } from "../database/fields.js";
 export class Sieve {
   #failing = new WeakMap();
 
-  constructor(model, fields) {
-    this.model = model;
+  constructor(database, fields) {
+    this.database = database;
     this.fields = fields;
-    this.everything = new Uint8Array(model.count);
+    this.everything = new Uint8Array(database.count);
     this.conditions = new Map();
     this.failures = this.everything;
-    this.size = model.count;
+    this.size = database.count;
   }
 
   /**
@@ -26,7 +26,7 @@ export class Sieve {
     for (const [key, filter] of filters) this.conditions.set(key, this.#of(filter, () => passing(this.fields.byKey.get(key), filter)));
     this.failures = this.everything;
     if (this.conditions.size > 0) {
-      this.failures = new Uint8Array(this.model.count);
+      this.failures = new Uint8Array(this.database.count);
       for (const failing of this.conditions.values()) for (let row = 0; row < failing.length; row += 1) this.failures[row] += failing[row];
     }
     this.size = this.#remaining(this.everything);
@@ -36,7 +36,7 @@ export class Sieve {
   #of(filter, make) {
     if (!this.#failing.has(filter)) {
       const passes = make();
-      this.#failing.set(filter, Uint8Array.from({ length: this.model.count }, (_, row) => (passes(row) ? 0 : 1)));
+      this.#failing.set(filter, Uint8Array.from({ length: this.database.count }, (_, row) => (passes(row) ? 0 : 1)));
     }
     return this.#failing.get(filter);
   }

@@ -7,13 +7,13 @@ import { NONE, numberText, valueName } from "../database/fields.js";
 const MOST_SHAPES = 200;
 const MOST_VALUES = 100;
 
-export function galleryTables(model, fields, sieve, groups) {
+export function galleryTables(database, fields, sieve, groups) {
   const rows = groups.flatMap((group) => [...group.rows]);
   const title = rows.length > MOST_SHAPES ? `The first ${MOST_SHAPES} of ${count(rows.length, "shape")}` : "Shapes";
   const columns = fields.all.filter(({ numbers, names, active }) => active || numbers !== null || names !== null);
-  const shapes = rows.slice(0, MOST_SHAPES).map((row) => [model.names[row], model.ids[row], ...columns.map((field) => cell(field, row))]);
+  const shapes = rows.slice(0, MOST_SHAPES).map((row) => [database.names[row], database.ids[row], ...columns.map((field) => cell(field, row))]);
   return {
-    title: `${grouped(sieve.size)} of ${count(model.count, "shape")}`,
+    title: `${grouped(sieve.size)} of ${count(database.count, "shape")}`,
     tables: [
       table(title, ["Name", "Id", ...columns.map((field) => field.title)], shapes),
       ...fields.filters.filter(({ names, edges }) => names !== null || edges !== null).map((field) => table(field.title, [field.title, "Shapes"], counted(field, sieve))),

@@ -1,8 +1,8 @@
 // A tree of classes to walk down into, and to filter by.
 
 import { element } from "../base/dom.js";
-import { NONE, valueName } from "../database/fields.js";
 import { grouped } from "../base/words.js";
+import { NONE, valueName } from "../database/fields.js";
 
 /** Nodes at the top up to which a lone one stands open. */
 const FEW_TOPS = 1;

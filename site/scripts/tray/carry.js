@@ -1,14 +1,14 @@
 // The selection goes along: whichever link to a page of the site a reader follows, the shapes stay selected there.
 
 import { element } from "../base/dom.js";
-import { linkedPage, pageAddress, readHash } from "../base/place.js";
+import { linkedPage, pageAddress } from "../base/place.js";
 import { isSelection, writeSelection } from "../database/selection.js";
 
 /** Let all links of a page carry the selection in its state. */
-export function carrySelection(model, state) {
+export function carrySelection(database, state) {
   carry(() => {
     const query = new URLSearchParams();
-    writeSelection(query, model, state.get("selection"));
+    writeSelection(query, database, state.get("selection"));
     return query;
   });
 }

@@ -2,24 +2,24 @@
 
 import { highestOf } from "../database/hit-range.js";
 
-export function saveCsv(model, chosen) {
-  const header = ["id", "name", "class", ...model.data.methods.flatMap(({ key }) => [`nh:${key}`, `nh_max:${key}`])];
+export function saveCsv(database, chosen) {
+  const header = ["id", "name", "class", ...database.data.methods.flatMap(({ key }) => [`nh:${key}`, `nh_max:${key}`])];
   const rows = chosen.map((index) => [
-    model.ids[index],
-    model.names[index],
-    model.groups[index] < 0 ? "" : model.className(model.groups[index]),
-    ...model.data.methods.flatMap((method) => [method.hit[index] ?? "", highestOf(model, method, index) ?? ""]),
+    database.ids[index],
+    database.names[index],
+    database.groups[index] < 0 ? "" : database.className(database.groups[index]),
+    ...database.data.methods.flatMap((method) => [method.hit[index] ?? "", highestOf(database, method, index) ?? ""]),
   ]);
   saveText("selection.csv", "text/csv", csvText([header, ...rows]));
 }
 
-export function saveJson(model, chosen) {
+export function saveJson(database, chosen) {
   const shapes = chosen.map((index) => ({
-    id: model.ids[index],
-    name: model.names[index],
-    class: model.groups[index] < 0 ? null : model.className(model.groups[index]),
-    nh: Object.fromEntries(model.data.methods.map(({ key, hit }) => [key, hit[index]])),
-    nh_max: Object.fromEntries(model.data.methods.map((method) => [method.key, highestOf(model, method, index)])),
+    id: database.ids[index],
+    name: database.names[index],
+    class: database.groups[index] < 0 ? null : database.className(database.groups[index]),
+    nh: Object.fromEntries(database.data.methods.map(({ key, hit }) => [key, hit[index]])),
+    nh_max: Object.fromEntries(database.data.methods.map((method) => [method.key, highestOf(database, method, index)])),
   }));
   saveText("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
 }

@@ -1,12 +1,12 @@
 // The selected shapes as pictures, the same on every page: to look through, take to another page, export, or drop.
 
 import { compareAddress } from "../addresses/compare.js";
-import { element, picture, swatch } from "../base/dom.js";
-import { saveCsv, saveJson } from "./export.js";
 import { galleryOf } from "../addresses/shapes.js";
+import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { writeSelection } from "../database/selection.js";
 import { count, shortened } from "../base/words.js";
+import { writeSelection } from "../database/selection.js";
+import { saveCsv, saveJson } from "./export.js";
 
 const PAGE = 200;
 const MOST_CLASSES = 8;
@@ -17,8 +17,8 @@ export class Tray {
    * said while nothing is selected; without one the tray is then not there. `cover` is told how many pixels of what is
    * above it the tray covers.
    */
-  constructor(model, state, { open, point = () => {}, hint = null, cover = () => {} }) {
-    Object.assign(this, { model, state, open, point, hint, cover });
+  constructor(database, state, { open, point = () => {}, hint = null, cover = () => {} }) {
+    Object.assign(this, { database, state, open, point, hint, cover });
     this.node = document.getElementById("tray");
     this.here = document.body.className;
     state.listen((changed) => {
@@ -57,22 +57,22 @@ export class Tray {
 
   /** Class by class. */
   #sorted(selection) {
-    const { groups } = this.model;
+    const { groups } = this.database;
     return [...selection].sort((a, b) => groups[a] - groups[b] || a - b);
   }
 
   #head(selection) {
-    const { model } = this;
-    const census = model.census(selection);
-    const save = (name, to) => element("button", { type: "button", class: "plain", title: `Save the selection as a ${name} file`, onclick: () => to(model, this.#sorted(selection)) }, name);
+    const { database } = this;
+    const census = database.census(selection);
+    const save = (name, to) => element("button", { type: "button", class: "plain", title: `Save the selection as a ${name} file`, onclick: () => to(database, this.#sorted(selection)) }, name);
     return element(
       "div",
       { class: "tray-head" },
       element("h2", {}, `${count(selection.size, "shape")} selected`),
-      model.labelled && element(
+      database.labelled && element(
         "p",
         { class: "census" },
-        census.slice(0, MOST_CLASSES).map(([group, number]) => element("span", {}, swatch(model.symbol(group), model.color(group)), `${shortened(model.className(group), 20)} `, element("b", {}, String(number)))),
+        census.slice(0, MOST_CLASSES).map(([group, number]) => element("span", {}, swatch(database.symbol(group), database.color(group)), `${shortened(database.className(group), 20)} `, element("b", {}, String(number)))),
         census.length > MOST_CLASSES && element("span", {}, `and ${census.length - MOST_CLASSES} more`),
       ),
       element(
@@ -88,14 +88,14 @@ export class Tray {
 
   /** Where else these shapes can be looked at. */
   #links(selection) {
-    const { model, here } = this;
+    const { database, here } = this;
     const query = new URLSearchParams();
-    writeSelection(query, model, selection);
-    const rest = selection.size < model.count;
+    writeSelection(query, database, selection);
+    const rest = selection.size < database.count;
     return [
-      here !== "page-shapes" && ["Open in Shapes", galleryOf(model, selection)],
+      here !== "page-shapes" && ["Open in Shapes", galleryOf(database, selection)],
       here !== "page-overview" && ["Show on the map", pageAddress("index.html", query)],
-      here !== "page-compare" && rest && ["Compare with the rest", compareAddress(model, { kind: "shapes", shapes: selection }, { kind: "rest" })],
+      here !== "page-compare" && rest && ["Compare with the rest", compareAddress(database, { kind: "shapes", shapes: selection }, { kind: "rest" })],
     ].filter(Boolean);
   }
 
@@ -118,8 +118,8 @@ export class Tray {
   }
 
   #item(index) {
-    const { model } = this;
-    const name = model.labelled ? `${model.names[index]}, ${model.className(model.groups[index])}` : model.names[index];
+    const { database } = this;
+    const name = database.labelled ? `${database.names[index]}, ${database.className(database.groups[index])}` : database.names[index];
     return element(
       "button",
       {
@@ -133,7 +133,7 @@ export class Tray {
         onpointerenter: () => this.point(index),
         onpointerleave: () => this.point(null),
       },
-      picture(model, index, 72),
+      picture(database, index, 72),
     );
   }
 
@@ -153,4 +153,11 @@ export class Tray {
     const opened = String(this.state.get("opened"));
     for (const item of this.node.querySelectorAll(".shape")) item.classList.toggle("opened", item.dataset.index === opened);
   }
+}
+
+/** Escape drops the selection, unless it closes something first. */
+export function clearOnEscape(state) {
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) state.set({ selection: new Set() });
+  });
 }

@@ -2,9 +2,9 @@
 
 import { isSame } from "../addresses/workbench.js";
 import { chunk } from "../base/chunks.js";
-import { startEngine } from "../engine/client.js";
-import { Subsets } from "../database/subsets.js";
 import { sampled } from "../database/sample.js";
+import { Subsets } from "../database/subsets.js";
+import { startEngine } from "../engine/client.js";
 import { contests } from "./separation.js";
 
 const SCORE_STEPS = 65535;
@@ -18,11 +18,11 @@ export class Answers {
   #engines = [];
   #contests = new Map();
 
-  constructor(model, data, bins) {
-    this.model = model;
+  constructor(database, data, bins) {
+    this.database = database;
     this.data = data;
     this.bins = bins;
-    this.titles = new Map(model.data.methods.map(({ key, title, note }) => [key, { title, note }]));
+    this.titles = new Map(database.data.methods.map(({ key, title, note }) => [key, { title, note }]));
   }
 
   /** An engine by its number, started when first needed, and again after it could not be started. */
@@ -52,17 +52,17 @@ export class Answers {
 
   /** The shapes of the classes in use, or of a large database a sample of them. */
   rows({ hidden, sample }) {
-    const { groups } = this.model;
+    const { groups } = this.database;
     const rows = Int32Array.from(groups.keys()).filter((row) => !hidden.has(groups[row]));
     return sample ? sampled(rows, groups) : rows;
   }
 
   /** Whether a map of all shapes that answers the question travels with the site. */
   hasMap(which, projection, { hidden, sample, features, bins }) {
-    const { model, data } = this;
+    const { database, data } = this;
     if (hidden.size > 0 || sample) return false;
     if (which === "refined") return isSame(bins, data.bins);
-    return (features.size === data.features.length && data.bins === null) || model.data.subsets?.method === projection;
+    return (features.size === data.features.length && data.bins === null) || database.data.subsets?.method === projection;
   }
 
   /** The columns of the features in use. */
@@ -95,7 +95,7 @@ export class Answers {
     const columns = this.columns(features);
     const groups = this.groups(hidden);
     const rows = this.rows(step);
-    const rowsOf = (chosen) => rows.filter((row) => chosen.includes(this.model.groups[row]));
+    const rowsOf = (chosen) => rows.filter((row) => chosen.includes(this.database.groups[row]));
     const asked = contests(separation, groups);
     const done = new Array(asked.length).fill(0);
     const tell = (number, progress) => {
@@ -148,28 +148,28 @@ export class Answers {
 
   /** Classes in use that have a shape. */
   groups(hidden) {
-    return this.model.classes.map((_, group) => group).filter((group) => !hidden.has(group));
+    return this.database.classes.map((_, group) => group).filter((group) => !hidden.has(group));
   }
 
   /** The map of all shapes under some features, if it travels with the site. */
   async #offlineMap(projection, features) {
-    const { model, bins } = this;
-    const { subsets } = model.data;
+    const { database, bins } = this;
+    const { subsets } = database.data;
     if (features.size === bins.features.length && this.data.bins === null) return this.#siteMap(projection);
     if (!subsets || subsets.method !== projection) return null;
     const searched = new Subsets(await chunk("search"));
     const place = searched.find([...features].map((feature) => bins.features[feature].name));
-    return place === undefined ? null : searched.map(place, model.classes.length);
+    return place === undefined ? null : searched.map(place, database.classes.length);
   }
 
   /** The map that the whole site shows. */
   #siteMap(projection) {
-    return this.model.data.methods.find(({ key }) => key === projection) ?? null;
+    return this.database.data.methods.find(({ key }) => key === projection) ?? null;
   }
 
   #offlineScores(scorer, separation, hidden, features) {
-    const { data, model, bins } = this;
-    const groups = model.classes.map((_, group) => group);
+    const { data, database, bins } = this;
+    const groups = database.classes.map((_, group) => group);
     const single = contests(separation, groups).every(({ positive, negative }) => positive.length === 1 && negative.length === groups.length - 1);
     if (!data.scored || !single || groups.some((group) => hidden.has(group)) || features.size < bins.features.length) return null;
     const asked = contests(separation, groups).map(({ positive: [group] }) => group);
@@ -181,7 +181,7 @@ export class Answers {
     const { count } = this.bins;
     const scores = new Float64Array(count);
     for (const group of groups) {
-      const start = (method * this.model.classes.length + group) * count;
+      const start = (method * this.database.classes.length + group) * count;
       for (let column = 0; column < count; column += 1) scores[column] += steps[start + column] / SCORE_STEPS / groups.length;
     }
     return scores;
@@ -189,13 +189,13 @@ export class Answers {
 
   /** Lay out some shapes, then measure the map. */
   async #layout(run, { method, rows, columns, by }, report, partial) {
-    const { model, data } = this;
+    const { database, data } = this;
     // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
     // and yet the same address gives the same map on any way there.
-    const base = this.#siteMap(method) ?? model.data.methods[0];
+    const base = this.#siteMap(method) ?? database.data.methods[0];
     const start = Float32Array.from({ length: 2 * rows.length }, (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]]);
     const spread = (xy, place) => {
-      const all = new Array(model.count).fill(NaN);
+      const all = new Array(database.count).fill(NaN);
       rows.forEach((row, index) => (all[row] = xy[2 * index + place]));
       return all;
     };
@@ -204,9 +204,9 @@ export class Answers {
       if (told.partial) partial(spread(told.partial.xy, 0), spread(told.partial.xy, 1));
     };
     const { xy } = await run("layout", { method, rows, columns, by, start, seed: data.seed }, listen);
-    const groups = Int32Array.from(rows, (row) => model.groups[row]);
+    const groups = Int32Array.from(rows, (row) => database.groups[row]);
     const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
-    const hits = new Array(model.count).fill(null);
+    const hits = new Array(database.count).fill(null);
     rows.forEach((row, index) => (hits[row] = known(hit[index])));
     return {
       key: "live",
@@ -216,7 +216,7 @@ export class Answers {
       y: spread(xy, 1),
       hit: hits,
       neighbours: Math.min(data.neighbours, rows.length - 1),
-      hitOfClass: model.classes.map((_, group) => known(hitOfClass[group])),
+      hitOfClass: database.classes.map((_, group) => known(hitOfClass[group])),
       hitOfAll: known(hitOfAll),
       chance: chance(groups),
       chanceSpread: null,

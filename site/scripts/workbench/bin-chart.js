@@ -1,11 +1,11 @@
 // Fig. 5, view 3: a bar a bin, the chosen ones first with a blue border; find bins by name, choose them one by one,
 // by range, or the best ones.
 
-import { BinGestures } from "./bin-gestures.js";
-import { ranked } from "../bins-kit/bin-list.js";
-import { BinPlot } from "./bin-plot.js";
 import { element } from "../base/dom.js";
 import { count, figure, grouped, shortened } from "../base/words.js";
+import { ranked } from "../bins-kit/bin-list.js";
+import { BinGestures } from "./bin-gestures.js";
+import { BinPlot } from "./bin-plot.js";
 
 const QUICK = [5, 10, 30];
 const ORDERS = {

@@ -1,10 +1,10 @@
 // The bars of the bins on a canvas: where each stands, which part is in view, and what is marked.
 
+import { calm, element, svg } from "../base/dom.js";
+import { styleColor } from "../base/theme.js";
 import { axisEnd, edges, paintBars, paintRows } from "../bins-kit/bin-bars.js";
 import { BinScale } from "../bins-kit/bin-scale.js";
 import { BinStrip } from "./bin-strip.js";
-import { calm, element, svg } from "../base/dom.js";
-import { styleColor } from "../base/theme.js";
 
 /** Letters of a name below a bar. */
 const NAME = 12;

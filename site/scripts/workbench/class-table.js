@@ -1,25 +1,25 @@
 // The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
 
 import { element, swatch } from "../base/dom.js";
-import { ofAtMost, rangeOf } from "../database/hit-range.js";
-import { figure } from "../base/words.js";
 import { difference } from "../base/figures.js";
+import { figure } from "../base/words.js";
+import { ofAtMost, rangeOf } from "../database/hit-range.js";
 
 export class ClassTable {
   /** `change(hidden)` takes other classes into use, `separate(part, groups)` ticks others: part "from" or "against". */
-  constructor(model, state, { change, separate }) {
-    this.model = model;
+  constructor(database, state, { change, separate }) {
+    this.database = database;
     this.state = state;
     this.change = change;
     this.separate = separate;
     this.table = document.getElementById("class-table");
     this.body = this.table.tBodies[0];
-    this.groups = [...model.classes.keys(), ...(model.sizes.has(-1) ? [-1] : [])];
+    this.groups = [...database.classes.keys(), ...(database.sizes.has(-1) ? [-1] : [])];
     document.getElementById("classes-all").addEventListener("click", () => change(new Set()));
     document.getElementById("classes-none").addEventListener("click", () => change(new Set(this.groups)));
     for (const part of ["from", "against"]) {
       const all = document.getElementById(part === "from" ? "separate-all" : "against-all");
-      all.addEventListener("click", () => separate(part, this.#ticked(part).size < model.classes.length ? [...model.classes.keys()] : []));
+      all.addEventListener("click", () => separate(part, this.#ticked(part).size < database.classes.length ? [...database.classes.keys()] : []));
     }
     this.body.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
     state.listen((changed) => {
@@ -38,11 +38,11 @@ export class ClassTable {
   }
 
   #row(group) {
-    const { model, state } = this;
-    const name = model.className(group);
+    const { database, state } = this;
+    const name = database.className(group);
     const hit = state.get("originalMap")?.hitOfClass[group] ?? null;
     const original = state.get("originalMap");
-    const most = hit === null ? "" : ofAtMost(rangeOf(model, original).highestOfClass.get(group));
+    const most = hit === null ? "" : ofAtMost(rangeOf(database, original).highestOfClass.get(group));
     const refined = state.get("refinedMap")?.hitOfClass[group] ?? null;
     const use = element(
       "button",
@@ -53,7 +53,7 @@ export class ClassTable {
         title: `${name}\nClick takes it into use or out of it.`,
         onclick: (event) => (event.altKey ? this.#only(group) : this.#toggle(group)),
       },
-      swatch(model.symbol(group), model.color(group)),
+      swatch(database.symbol(group), database.color(group)),
       element("span", { class: "name", dir: "auto" }, name),
     );
     const only = element("button", { type: "button", class: "only", "data-key": `only ${group}`, "aria-label": `Only ${name}`, title: "Only this class", onclick: () => this.#only(group) }, "only");
@@ -62,7 +62,7 @@ export class ClassTable {
     const node = element(
       "tr",
       { onpointerenter: point(group), onpointerleave: point(null) },
-      element("th", { scope: "row" }, element("div", { class: "of-class" }, use, only, element("span", { class: "size" }, String(model.sizes.get(group) ?? 0)))),
+      element("th", { scope: "row" }, element("div", { class: "of-class" }, use, only, element("span", { class: "size" }, String(database.sizes.get(group) ?? 0)))),
       element("td", { class: "tick" }, ticks.get("from")),
       element("td", { class: "tick against" }, ticks.get("against")),
       element("td", { class: "number", title: most === "" ? null : `NH ${figure(hit)}${most}, as many as the class has others` }, group < 0 ? "" : figure(hit)),
@@ -83,7 +83,7 @@ export class ClassTable {
   }
 
   #ticked(part) {
-    return new Set(this.state.get("separation")[part] ?? (part === "from" ? this.model.classes.keys() : []));
+    return new Set(this.state.get("separation")[part] ?? (part === "from" ? this.database.classes.keys() : []));
   }
 
   #toggle(group) {

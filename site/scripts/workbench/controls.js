@@ -5,7 +5,7 @@ import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { contests, separationWords } from "./separation.js";
 
-export function watchControls(model, data, state, desk) {
+export function watchControls(database, data, state, desk) {
   const radios = (id, name, changed = (value) => state.set({ [name]: value })) => {
     const node = document.getElementById(id);
     if (node === null) return;
@@ -23,20 +23,20 @@ export function watchControls(model, data, state, desk) {
     document.body.dataset.drag = drag;
   });
   document.body.dataset.drag = state.get("drag");
-  watchRamp(model, state);
+  watchRamp(database, state);
   watchPicked(state, desk);
-  if (model.separable) {
+  if (database.separable) {
     watchScorer(data, state, desk);
-    watchSeparation(model, state, desk);
+    watchSeparation(database, state, desk);
   }
 }
 
 /** What the colours of NH mean, while the maps have them. */
-function watchRamp(model, state) {
+function watchRamp(database, state) {
   const node = document.getElementById("hit-key");
   const show = () => {
     node.hidden = state.get("color") !== "hit";
-    node.querySelector(".ramp").style.background = `linear-gradient(to right, ${model.marks.hit.join(", ")})`;
+    node.querySelector(".ramp").style.background = `linear-gradient(to right, ${database.marks.hit.join(", ")})`;
   };
   state.listen((changed) => (changed.has("color") || changed.has("theme")) && show());
   show();
@@ -55,21 +55,21 @@ function watchScorer(data, state, desk) {
   show();
 }
 
-function watchSeparation(model, state, desk) {
+function watchSeparation(database, state, desk) {
   const words = document.getElementById("separation-words");
   const [against, each] = ["against", "each"].map((id) => document.getElementById(id));
   const show = () => {
     const separation = state.get("separation");
-    const groups = [...model.classes.keys()].filter((group) => !state.get("hidden").has(group));
+    const groups = [...database.classes.keys()].filter((group) => !state.get("hidden").has(group));
     const asked = contests(separation, groups);
-    words.textContent = asked.length > 0 ? separationWords(separation, groups, model) : missing(separation, groups);
+    words.textContent = asked.length > 0 ? separationWords(separation, groups, database) : missing(separation, groups);
     words.parentElement.classList.toggle("missing", asked.length === 0);
     for (const input of against.querySelectorAll("input")) input.checked = (input.value === "rest") === (separation.against === null);
     for (const input of each.querySelectorAll("input")) input.checked = (input.value === "each") === separation.each;
   };
   against.addEventListener("change", (event) => {
     const separation = state.get("separation");
-    desk.ask({ separation: { ...separation, against: event.target.value === "rest" ? null : new Set(model.classes.keys()) } });
+    desk.ask({ separation: { ...separation, against: event.target.value === "rest" ? null : new Set(database.classes.keys()) } });
   });
   each.addEventListener("change", (event) => desk.ask({ separation: { ...state.get("separation"), each: event.target.value === "each" } }));
   state.listen((changed) => (changed.has("separation") || changed.has("hidden")) && show());

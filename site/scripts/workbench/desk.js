@@ -1,20 +1,20 @@
 // What a reader does on the Workbench, in one place: every change of classes, features and bins is a step that can be
 // taken back; every change asks anew what it makes out of date.
 
-import { ranked } from "../bins-kit/bin-list.js";
-import { figure } from "../base/words.js";
-import { alike, History } from "./history.js";
 import { changeWords } from "../base/figures.js";
-import { Inquiry } from "../engine/inquiry.js";
+import { figure } from "../base/words.js";
+import { ranked } from "../bins-kit/bin-list.js";
 import { MOST_SHAPES } from "../database/sample.js";
+import { Inquiry } from "../engine/inquiry.js";
+import { alike, History } from "./history.js";
 import { contests, separationWords } from "./separation.js";
 
 /** Fewer shapes have no map worth the name. */
 export const FEWEST_SHAPES = 3;
 
 export class Desk {
-  constructor(model, data, bins, state, answers, scenes, announce) {
-    Object.assign(this, { model, data, bins, state, answers, scenes, announce });
+  constructor(database, data, bins, state, answers, scenes, announce) {
+    Object.assign(this, { database, data, bins, state, answers, scenes, announce });
     this.history = new History();
     this.history.push(this.#step());
     this.arriving = false;
@@ -165,9 +165,9 @@ export class Desk {
   }
 
   #askScores() {
-    const { state, answers, model } = this;
+    const { state, answers, database } = this;
     const step = this.history.current;
-    if (!model.separable) {
+    if (!database.separable) {
       this.inquiries.scores.rest();
       state.set({ scores: answers.spread(step) });
       return;
@@ -187,12 +187,12 @@ export class Desk {
 
   /** All there is at this moment, for export. */
   work() {
-    const { state, model, data, answers } = this;
+    const { state, database, data, answers } = this;
     const groups = answers.groups(state.get("hidden"));
     const words = [
       `map: ${state.get("projection")}, seed ${data.seed}`,
-      model.labelled && `classes: ${groups.length === model.classes.length ? "all" : groups.map((group) => model.className(group)).join(", ")}`,
-      model.separable && `scorer: ${state.get("scorer")}, separating ${separationWords(state.get("separation"), groups, model)}`,
+      database.labelled && `classes: ${groups.length === database.classes.length ? "all" : groups.map((group) => database.className(group)).join(", ")}`,
+      database.separable && `scorer: ${state.get("scorer")}, separating ${separationWords(state.get("separation"), groups, database)}`,
     ].filter(Boolean);
     return {
       chosen: state.get("bins"),

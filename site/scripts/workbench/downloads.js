@@ -1,20 +1,19 @@
 // What a reader takes away: the chosen bins, for a build of their own, and maps and scores for other programs.
 
 import { element } from "../base/dom.js";
-import { csvText, saveText } from "../tray/export.js";
-import { highestOf, rangeOf } from "../database/hit-range.js";
-import { ranked } from "../bins-kit/bin-list.js";
 import { count, figure } from "../base/words.js";
+import { highestOf, rangeOf } from "../database/hit-range.js";
+import { csvText, saveText } from "../tray/export.js";
 
 const FILE = "bins.txt";
 
 /** Open the dialog of downloads; `work` says what there is at this moment. */
-export function watchDownloads(model, bins, work) {
+export function watchDownloads(database, bins, work) {
   const dialog = document.getElementById("export");
   document.getElementById("open-export").addEventListener("click", () => {
     dialog.replaceChildren(
       element("div", { class: "detail-head" }, element("h2", {}, "Export"), element("button", { type: "button", class: "plain", onclick: () => dialog.close() }, "Close")),
-      ...content(model, bins, work()),
+      ...content(database, bins, work()),
     );
     dialog.showModal();
   });
@@ -23,7 +22,7 @@ export function watchDownloads(model, bins, work) {
   });
 }
 
-function content(model, bins, work) {
+function content(database, bins, work) {
   const { chosen, originalMap, refinedMap, scores } = work;
   const save = (words, name, type, text) => element("button", { type: "button", class: "plain strong", "data-file": name, onclick: () => saveText(name, type, text()) }, words);
   const command = `shapeviz-report build DATABASE -o OUT --bins ${FILE}`;
@@ -38,9 +37,9 @@ function content(model, bins, work) {
     element(
       "p",
       { class: "row" },
-      save("Maps as CSV", "maps.csv", "text/csv", () => mapsCsv(model, originalMap, refinedMap)),
+      save("Maps as CSV", "maps.csv", "text/csv", () => mapsCsv(database, originalMap, refinedMap)),
       scores && save("Scores as CSV", "scores.csv", "text/csv", () => scoresCsv(bins, scores, chosen)),
-      save("All as JSON", "workbench.json", "application/json", () => allJson(model, bins, work)),
+      save("All as JSON", "workbench.json", "application/json", () => allJson(database, bins, work)),
     ),
   ].filter(Boolean);
 }
@@ -57,14 +56,14 @@ function binsText(bins, { chosen, scores, words, refinedMap, address }) {
   return `${header.map((line) => `# ${line.replace(/\s+/g, " ")}`).join("\n")}\n${order.map((column) => bins.names[column]).join("\n")}\n`;
 }
 
-function mapsCsv(model, original, refined) {
+function mapsCsv(database, original, refined) {
   const maps = [["original", original], ["refined", refined]].filter(([, map]) => map !== null);
   const header = ["id", "class", ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`, `${name}:nh_max`])];
   const number = (value) => (value === null || Number.isNaN(value) ? "" : value);
-  const rows = model.ids.map((id, index) => [
+  const rows = database.ids.map((id, index) => [
     id,
-    model.groups[index] < 0 ? "" : model.className(model.groups[index]),
-    ...maps.flatMap(([, map]) => [number(map.x[index]), number(map.y[index]), number(map.hit[index]), number(map.hit[index] === null ? null : highestOf(model, map, index))]),
+    database.groups[index] < 0 ? "" : database.className(database.groups[index]),
+    ...maps.flatMap(([, map]) => [number(map.x[index]), number(map.y[index]), number(map.hit[index]), number(map.hit[index] === null ? null : highestOf(database, map, index))]),
   ]);
   return csvText([header, ...rows]);
 }
@@ -74,14 +73,14 @@ function scoresCsv(bins, scores, chosen) {
   return csvText([["bin", "rank", "score", "chosen"], ...rows]);
 }
 
-function allJson(model, bins, { chosen, scores, words, originalMap, refinedMap }) {
+function allJson(database, bins, { chosen, scores, words, originalMap, refinedMap }) {
   const number = (value) => (value === null || Number.isNaN(value) ? null : value);
   const map = (one) => one && {
     nh_s: one.hitOfAll,
-    nh_max: rangeOf(model, one).highest,
-    nh_c: Object.fromEntries(model.classes.map((name, group) => [name, one.hitOfClass[group]]).filter(([, hit]) => hit !== null)),
-    nh_c_max: Object.fromEntries([...rangeOf(model, one).highestOfClass].map(([group, highest]) => [model.classes[group], highest])),
-    shapes: model.ids.map((id, index) => ({ id, x: number(one.x[index]), y: number(one.y[index]), nh: number(one.hit[index]) })).filter(({ x }) => x !== null),
+    nh_max: rangeOf(database, one).highest,
+    nh_c: Object.fromEntries(database.classes.map((name, group) => [name, one.hitOfClass[group]]).filter(([, hit]) => hit !== null)),
+    nh_c_max: Object.fromEntries([...rangeOf(database, one).highestOfClass].map(([group, highest]) => [database.classes[group], highest])),
+    shapes: database.ids.map((id, index) => ({ id, x: number(one.x[index]), y: number(one.y[index]), nh: number(one.hit[index]) })).filter(({ x }) => x !== null),
   };
   const names = [...chosen].sort((a, b) => a - b).map((column) => bins.names[column]);
   const scored = scores && [...ranked(scores)].map((column) => ({ bin: bins.names[column], score: scores[column] }));

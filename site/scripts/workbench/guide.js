@@ -1,11 +1,10 @@
 // A short example on the reader's own data: two classes that mix, and the bins that tell them apart.
 
-import { ranked } from "../bins-kit/bin-list.js";
-import { element, swatch } from "../base/dom.js";
-import { readHash } from "../base/place.js";
-import { count, figure } from "../base/words.js";
 import { DEFAULT_SCORER, EVERY_CLASS } from "../addresses/workbench.js";
+import { element, swatch } from "../base/dom.js";
 import { difference } from "../base/figures.js";
+import { count, figure } from "../base/words.js";
+import { ranked } from "../bins-kit/bin-list.js";
 
 const KEY = "shapeviz-guide";
 const FEW = 10;
@@ -16,8 +15,8 @@ const LEAST = 0.0005;
 
 export class Guide {
   /** `act` are the same actions that the controls of the page do. */
-  constructor(model, data, bins, state, act) {
-    Object.assign(this, { model, data, bins, state, act });
+  constructor(database, data, bins, state, act) {
+    Object.assign(this, { database, data, bins, state, act });
     this.node = document.getElementById("guide");
     this.opener = document.getElementById("open-guide");
     this.example = data.example;
@@ -80,7 +79,7 @@ export class Guide {
     const { act, state } = this;
     const [one, other] = this.example.classes;
     const pair = [this.#name(one), " and ", this.#name(other)];
-    const others = [...this.model.sizes.keys()].filter((group) => group !== one && group !== other);
+    const others = [...this.database.sizes.keys()].filter((group) => group !== one && group !== other);
     const kind = (name) => state.get(`${name}Status`).kind;
     const settled = (...names) => names.every((name) => kind(name) === "answered");
     const waiting = (name, words) => (kind(name) === "working" ? words : "This was stopped or did not work; start it again where it says so.");
@@ -150,8 +149,8 @@ export class Guide {
   }
 
   #name(group) {
-    const { model } = this;
-    return element("span", { class: "of-class" }, swatch(model.symbol(group), model.color(group)), element("bdi", {}, model.className(group)));
+    const { database } = this;
+    return element("span", { class: "of-class" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group)));
   }
 }
 

@@ -1,15 +1,15 @@
 // The steps as small maps, each with its NH and what it added or removed (paper, Fig. 7). Click one to go back to it.
 
 import { element } from "../base/dom.js";
-import { bounds } from "../database/model.js";
 import { count, figure } from "../base/words.js";
+import { bounds } from "../database/database.js";
 import { changes } from "./history.js";
 
 const SIZE = 56;
 
 export class HistoryStrip {
-  constructor(model, state, history, { go }) {
-    this.model = model;
+  constructor(database, state, history, { go }) {
+    this.database = database;
     this.state = state;
     this.history = history;
     this.go = go;
@@ -80,17 +80,17 @@ export class HistoryStrip {
   }
 
   #picture(map, hidden) {
-    const { model } = this;
+    const { database } = this;
     const dense = window.devicePixelRatio || 1;
     const canvas = element("canvas", { width: SIZE * dense, height: SIZE * dense, "aria-hidden": "true" });
     const pen = canvas.getContext("2d");
     const { x, y, width, height } = bounds(map);
     const scale = (SIZE - 8) / Math.max(width, height);
     pen.scale(dense, dense);
-    const radius = Math.min(Math.max(24 / Math.sqrt(model.count), 0.8), 2);
-    for (let index = 0; index < model.count; index += 1) {
-      if (Number.isNaN(map.x[index]) || hidden.has(model.groups[index])) continue;
-      pen.fillStyle = model.color(model.groups[index]);
+    const radius = Math.min(Math.max(24 / Math.sqrt(database.count), 0.8), 2);
+    for (let index = 0; index < database.count; index += 1) {
+      if (Number.isNaN(map.x[index]) || hidden.has(database.groups[index])) continue;
+      pen.fillStyle = database.color(database.groups[index]);
       pen.beginPath();
       pen.arc(SIZE / 2 + (map.x[index] - x) * scale, SIZE / 2 - (map.y[index] - y) * scale, radius, 0, 7);
       pen.fill();

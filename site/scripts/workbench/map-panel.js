@@ -1,9 +1,9 @@
 // What stands around a map: what it is made from, what it reaches, and how its work stands.
 
 import { element } from "../base/dom.js";
-import { isBelowOne, rangeOf } from "../database/hit-range.js";
-import { count, figure } from "../base/words.js";
 import { difference, symbol } from "../base/figures.js";
+import { count, figure } from "../base/words.js";
+import { isBelowOne, rangeOf } from "../database/hit-range.js";
 import { StatusLine } from "./status-line.js";
 
 export class MapPanel {
@@ -11,9 +11,9 @@ export class MapPanel {
    * `other` names the state's map that this one is compared with, or is null; `again` restarts work that was stopped,
    * `empty` says what to show, as elements, where there is no map and none is being made.
    */
-  constructor(which, model, state, bins, { other, again, stop, empty }) {
+  constructor(which, database, state, bins, { other, again, stop, empty }) {
     this.which = which;
-    this.model = model;
+    this.database = database;
     this.state = state;
     this.bins = bins;
     this.other = other;
@@ -33,7 +33,7 @@ export class MapPanel {
     const map = this.state.get(`${this.which}Map`);
     const status = this.state.get(`${this.which}Status`);
     const before = this.other && this.state.get(this.other);
-    const most = map && rangeOf(this.model, map).highest;
+    const most = map && rangeOf(this.database, map).highest;
     this.status.show(status);
     this.madeFrom.textContent = this.which === "original" ? featureWords(this.state.get("features"), this.bins.features) : chosenWords(this.state.get("bins"));
     this.#showEmpty(map);

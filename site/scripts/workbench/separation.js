@@ -39,12 +39,12 @@ export function contests(separation, groups) {
 }
 
 /** A separation in words: "bird and airplane, each from the rest". */
-export function separationWords(separation, groups, model) {
+export function separationWords(separation, groups, database) {
   const { positive, negative } = sides(separation, groups);
   const names = (chosen) => {
     if (chosen.length === groups.length && chosen.length > 2) return `all ${chosen.length} classes`;
     if (chosen.length > MOST_NAMED) return `${chosen.length} classes`;
-    return list(chosen.map((group) => shortened(model.className(group), 24)));
+    return list(chosen.map((group) => shortened(database.className(group), 24)));
   };
   if (contests(separation, groups).length === 1 && separation.each) {
     const [{ positive: [one], negative: others }] = contests(separation, groups);

@@ -1,33 +1,33 @@
 // What the Workbench draws, as tables.
 
-import { binTables } from "../bins-kit/bin-list.js";
+import { difference } from "../base/figures.js";
 import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
-import { difference } from "../base/figures.js";
+import { binTables } from "../bins-kit/bin-list.js";
 
 const MOST_ROWS = 500;
 
-export function workTables(model, bins, state) {
+export function workTables(database, bins, state) {
   const [original, refined] = [state.get("originalMap"), state.get("refinedMap")];
   const hidden = state.get("hidden");
-  const groups = [...model.classes.keys()].filter((group) => !hidden.has(group));
+  const groups = [...database.classes.keys()].filter((group) => !hidden.has(group));
   const change = (before, after) => (before === null || after === null ? "–" : difference(after - before));
   const row = (name, before, after) => [name, figure(before), figure(after), change(before, after)];
-  const hits = (group) => row(model.className(group), original?.hitOfClass[group] ?? null, refined?.hitOfClass[group] ?? null);
+  const hits = (group) => row(database.className(group), original?.hitOfClass[group] ?? null, refined?.hitOfClass[group] ?? null);
   const scores = state.get("scores");
-  const shapes = model.ids.map((_, index) => index).filter((index) => !hidden.has(model.groups[index])).slice(0, MOST_ROWS);
+  const shapes = database.ids.map((_, index) => index).filter((index) => !hidden.has(database.groups[index])).slice(0, MOST_ROWS);
   const place = (map, index) => (map === null ? ["–", "–"] : [figure(map.x[index]), figure(map.y[index])]);
   return {
     title: "The Workbench in figures",
     tables: [
-      model.labelled && table("Neighbourhood hit", ["Class", "Original map", "Refined map", "Change"], [
+      database.labelled && table("Neighbourhood hit", ["Class", "Original map", "Refined map", "Change"], [
         row("All classes in use", original?.hitOfAll ?? null, refined?.hitOfAll ?? null),
         ...groups.map(hits),
       ]),
       ...(scores === null ? [] : binTables(bins, scores, state.get("bins"))),
       table("Shapes", ["Shape", "Class", "original x", "y", "refined x", "y"], shapes.map((index) => [
-        model.ids[index],
-        model.className(model.groups[index]),
+        database.ids[index],
+        database.className(database.groups[index]),
         ...place(original, index),
         ...place(refined, index),
       ])),

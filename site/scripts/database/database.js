@@ -1,9 +1,9 @@
 // The shapes, classes and projections of the database, as the views ask for them.
 
-import { reachOf } from "./hit-range.js";
 import { resource } from "../base/place.js";
+import { reachOf } from "./hit-range.js";
 
-export class Model {
+export class Database {
   constructor(data, theme) {
     this.data = data;
     this.theme = theme;

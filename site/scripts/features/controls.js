@@ -1,0 +1,42 @@
+// What the reader sets on the map of the Features page.
+
+
+export function watchMapKeys(surface, state, gestures) {
+  surface.addEventListener("keydown", (event) => {
+    if (event.key === "+" || event.key === "=") gestures.zoom(1.5);
+    else if (event.key === "-") gestures.zoom(1 / 1.5);
+    else if (event.key === "0") state.set({ camera: null });
+    else if (event.key === "Escape") state.set({ opened: null, selection: new Set() });
+    else return;
+    event.preventDefault();
+  });
+}
+
+/** What dragging on the map does. */
+export function watchDrag(state) {
+  const inputs = document.querySelectorAll("#drag input");
+  for (const input of inputs) {
+    input.checked = input.value === state.get("drag");
+    input.addEventListener("change", () => {
+      state.set({ drag: input.value });
+      document.body.dataset.drag = input.value;
+    });
+  }
+  document.body.dataset.drag = state.get("drag");
+}
+
+/** Colours of the map: by class or by neighbourhood hit. */
+export function watchColors(state, map) {
+  const inputs = document.querySelectorAll("#colors input");
+  const check = () => {
+    for (const input of inputs) input.checked = input.value === state.get("color");
+  };
+  for (const input of inputs) input.addEventListener("change", () => state.set({ color: input.value }));
+  state.listen((changed) => {
+    if (!changed.has("color")) return;
+    check();
+    map.name = state.get("color");
+    map.start();
+  });
+  check();
+}

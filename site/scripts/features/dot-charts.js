@@ -1,0 +1,45 @@
+// Two plots of dots: what each feature adds or spoils, and what the seeds of the best subsets differ by.
+
+import { drawChart } from "../base/chart.js";
+
+const ROW = 24;
+
+/** The two plots of dots, with as many rows as there is data. */
+export function dotCharts(subsets, marks) {
+  const { data } = subsets;
+  const effects = data.order
+    .map((feature) => data.effects.find((effect) => effect.feature === feature))
+    .map((effect) => ({ ...effect, name: subsets.features[effect.feature], feature: data.hues[effect.feature] }));
+  const best = Math.max(...data.spread.map(({ mean }) => mean));
+  const seeds = data.spread.flatMap(({ place, hits, mean, margin, apart }) =>
+    hits.map((hit) => ({ name: subsets.names(place).join(" "), hit, mean, low: mean - margin, high: mean + margin, best, apart })),
+  );
+  return [
+    new DotChart("effect-dots", data.charts.effects, "effects", effects, effects.length, marks),
+    new DotChart("seed-dots", data.charts.seeds, "seeds", seeds, data.spread.length, marks),
+  ].filter(({ node }) => node !== null);
+}
+
+class DotChart {
+  constructor(id, spec, name, rows, count, marks) {
+    Object.assign(this, { node: document.getElementById(id), spec, name, rows, count, marks });
+  }
+
+  async start() {
+    this.vega?.finalize();
+    const { config, ink, bar, accent, ground } = this.marks();
+    this.vega = await drawChart(this.node, this.spec, config, "svg");
+    const values = { ink, bar, accent, ground };
+    const known = new Set(this.spec.params.map(({ name }) => name));
+    for (const [name, value] of Object.entries(values)) if (known.has(name)) this.vega.signal(name, value);
+    this.vega.data(this.name, this.rows);
+    await this.resize();
+  }
+
+  async resize() {
+    if (!this.vega) return;
+    const width = this.node.clientWidth;
+    if (this.spec.params.some(({ name }) => name === "label_limit")) this.vega.signal("label_limit", width * 0.42);
+    await this.vega.width(width).height(this.count * ROW + 44).runAsync();
+  }
+}

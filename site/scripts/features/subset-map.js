@@ -1,0 +1,14 @@
+// The map of a subset among those of the database.
+
+
+/** The index of a subset's map in the database. Shapes that the search left out have no place on it. */
+export async function shown(database, subsets, place) {
+  const { rows } = subsets.data;
+  const map = await subsets.map(place, database.classes.length);
+  const spread = (values, none) => {
+    const all = new Array(database.count).fill(none);
+    for (const [index, row] of rows.entries()) all[row] = values[index];
+    return all;
+  };
+  return database.add(rows === null ? map : { ...map, x: spread(map.x, NaN), y: spread(map.y, NaN), hit: spread(map.hit, null) }, null);
+}

@@ -1,0 +1,13 @@
+// How to read a map, beside its title.
+
+import { element } from "../base/dom.js";
+
+export function reading(name, database, state) {
+  const method = database.methods[state.get("method")];
+  if (name === "class") return [method.note];
+  if (name === "thumbnail") return ["Dots are shapes whose picture would cover another: zoom in to see them."];
+  if (!database.labelled) return ["Without labels there is no neighbourhood hit."];
+  const scale = element("span", { class: "ramp", role: "img", "aria-label": "from red to yellow" });
+  scale.style.background = `linear-gradient(to right, ${database.marks.hit.join(", ")})`;
+  return [`Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${database.data.standIn ? "cluster" : "class"}: 0 `, scale, " 1"];
+}

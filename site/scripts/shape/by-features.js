@@ -1,0 +1,45 @@
+// What is known of a shape by its features: how it differs, and which shapes are like it.
+
+import { chunk } from "../base/chunks.js";
+import { grouped } from "../base/words.js";
+import { Bins } from "../database/bins.js";
+import { Comparison } from "./comparison.js";
+import { Histograms } from "./histograms.js";
+import { kind } from "./kind.js";
+import { SimilarShapes } from "./similar-shapes.js";
+import { Similarity } from "./similar.js";
+import { Spread } from "./spread.js";
+import { ValueCard } from "./value-card.js";
+
+/** How far below the window the features may be when they are loaded. */
+const AHEAD = "200px";
+
+/** The features of all shapes are by far the largest data of a site: they come when a reader gets to them. */
+export function whenSeen(node, then) {
+  const observer = new IntersectionObserver(
+    ([{ isIntersecting }]) => {
+      if (!isIntersecting) return;
+      observer.disconnect();
+      then();
+    },
+    { rootMargin: AHEAD },
+  );
+  observer.observe(node);
+}
+
+export async function showFeatures(database, state, { links, portrait }) {
+  const section = document.getElementById("by-features");
+  const waiting = document.getElementById("waiting");
+  waiting.textContent = database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
+  const [data, bytes, selection] = await Promise.all(["workbench", "bins", "selection"].map(chunk));
+  const bins = new Bins(data, bytes);
+  const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, state);
+  const histograms = new Histograms(database, bins, state, { spread: new Spread(database, bins), dimensions: selection.dimensions, card: new ValueCard(bins, kind(database)) });
+  const similar = new SimilarShapes(database, bins, state, { links, comparison, similarity: new Similarity(bins) });
+  waiting.hidden = true;
+  section.removeAttribute("aria-busy");
+  document.getElementById("featured").hidden = false;
+  for (const view of [similar, histograms]) view.render();
+  portrait.know(bins, selection, comparison);
+  return { similar, histograms };
+}

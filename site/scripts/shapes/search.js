@@ -1,0 +1,41 @@
+// The search of the gallery.
+
+import { findWords, searchTexts } from "../database/search.js";
+
+/** The shapes that the words of the search find; null without words. */
+export async function search(database, state) {
+  const query = state.get("query");
+  if (query === "") {
+    state.set({ matches: null });
+    return;
+  }
+  search.texts ??= searchTexts(database);
+  const texts = await search.texts;
+  if (state.get("query") === query) state.set({ matches: new Set(findWords(texts, query)) });
+}
+
+export function watchSearch(state) {
+  const field = document.getElementById("search");
+  const show = () => {
+    if (field.value.trim() !== state.get("query")) field.value = state.get("query");
+  };
+  field.addEventListener("input", () => state.set({ query: field.value.trim() }));
+  state.listen((changed) => {
+    if (changed.has("query")) show();
+  });
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
+    if (event.key === "Escape") escape(state);
+    else if (event.key === "/" && !event.target.matches("input[type=search]")) {
+      field.focus();
+      event.preventDefault();
+    }
+  });
+  show();
+}
+
+/** One press takes back the last thing: the search, then the selection. */
+function escape(state) {
+  if (state.get("query") !== "") state.set({ query: "" });
+  else state.set({ selection: new Set() });
+}
