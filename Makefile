@@ -5,6 +5,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
+SCRIPT_TOOLS := node_modules/.installed
 CHECK := build/check-wheel
 
 .NOTPARALLEL:
@@ -16,12 +17,20 @@ demo: drawing-library $(INSTALLED) ## build the demo site in demo-site/
 	$(BIN)/shapeviz-report demo -o demo-site
 
 .PHONY: test
-test: drawing-library browser $(INSTALLED) ## run every check and every test
+test: style browser ## run every check and every test
+	$(BIN)/pytest --numprocesses 2 --dist loadfile
+
+.PHONY: check
+check: style ## the quick part of it: style, imports, types, scripts, and tests that need no site
+	$(BIN)/pytest --numprocesses 2 --dist loadfile tests/unit tests/contract
+
+.PHONY: style
+style: drawing-library $(INSTALLED) $(SCRIPT_TOOLS)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
 	$(BIN)/mypy
-	$(BIN)/pytest
+	PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent check
 
 .PHONY: wheel
 wheel: $(INSTALLED) ## build the wheel and the source distribution in dist/
@@ -43,7 +52,7 @@ check-wheel: drawing-library $(INSTALLED) ## install the wheel on its own and co
 
 .PHONY: clean
 clean: ## remove what make has made, and what the tools keep
-	rm -rf $(VENV) build dist demo-site .hypothesis .pytest_cache .ruff_cache .mypy_cache .import_linter_cache
+	rm -rf $(VENV) node_modules build dist demo-site .hypothesis .pytest_cache .ruff_cache .mypy_cache .import_linter_cache
 	find shapeviz_report tests benchmarks -name __pycache__ -prune -exec rm -rf {} +
 
 .PHONY: help
@@ -59,6 +68,11 @@ $(INSTALLED): pyproject.toml constraints.txt
 	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[test]'
 	@# UMAP's neighbour search compiles on its first import; what it compiles stays in the environment.
 	@$(BIN)/python -W ignore -c 'import umap'
+	@touch $@
+
+# Node comes from the Python package index like everything else; nothing of it takes part in a build.
+$(SCRIPT_TOOLS): package.json $(INSTALLED)
+	PATH="$(CURDIR)/$(BIN):$$PATH" npm install --no-package-lock --no-audit --no-fund --silent
 	@touch $@
 
 .PHONY: drawing-library

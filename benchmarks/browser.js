@@ -19,7 +19,14 @@ window.engine = {
 
   async layOut(method, count, columns, by, start, seed) {
     const rows = Int32Array.from({ length: count }, (_, row) => row);
-    const parameters = { method, rows, columns: Int32Array.from(columns), by, start: start && Float32Array.from(start), seed };
+    const parameters = {
+      method,
+      rows,
+      columns: Int32Array.from(columns),
+      by,
+      start: start && Float32Array.from(start),
+      seed,
+    };
     const { xy } = await engine.run("layout", parameters).done;
     return Array.from(xy);
   },

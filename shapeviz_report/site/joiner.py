@@ -15,7 +15,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -147,14 +147,12 @@ def _read(entry: Path) -> dict[Path, _Module]:
             return
         lines: list[str | tuple[str, Path]] = []
         names: list[str] = []
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        for number, line in _statements(path.read_text(encoding="utf-8")):
             place = f"{path.name}:{number}"
             if line.startswith("import"):
                 match = _IMPORT.fullmatch(line)
                 if match is None:
-                    raise ValueError(
-                        f'{place}: only `import {{ name }} from "./module.js";` on one line is joined'
-                    )
+                    raise ValueError(f'{place}: only `import {{ name }} from "./module.js";` is joined')
                 source = (path.parent / match["source"]).resolve()
                 visit(source, (*importers, path))
                 wanted = [name.strip() for name in match["names"].split(",")]
@@ -176,3 +174,15 @@ def _read(entry: Path) -> dict[Path, _Module]:
 
     visit(entry.resolve(), ())
     return found
+
+
+def _statements(text: str) -> Iterator[tuple[int, str]]:
+    """The lines of a module with their numbers, an import of several lines as one."""
+    lines = enumerate(text.splitlines(), start=1)
+    for number, line in lines:
+        if line == "import {":
+            for _, more in lines:
+                line += f" {more.strip()}"
+                if more.startswith("}"):
+                    break
+        yield number, line

@@ -1,12 +1,14 @@
 // What a keyboard reaches, and how that shows: for test_everyone.py.
 
 (() => {
-  const CONTROLS = "a[href], button, input, select, textarea, summary, [role=application], [role=button], [role=checkbox], [role=gridcell] [tabindex], [role=treeitem], [role=tab]";
+  const CONTROLS =
+    "a[href], button, input, select, textarea, summary, [role=application], [role=button], [role=checkbox], [role=gridcell] [tabindex], [role=treeitem], [role=tab]";
   // Within these, Tab goes to one and arrow keys to the others.
   const COMPOSITES = "[role=radiogroup], [role=grid], [role=tree], [role=tablist], [role=group], [role=application]";
   const reached = new Map();
 
-  const named = (node) => `${node.tagName.toLowerCase()}#${node.id} ${(node.getAttribute("aria-label") || node.textContent || node.value || "").trim().slice(0, 40)}`;
+  const named = (node) =>
+    `${node.tagName.toLowerCase()}#${node.id} ${(node.getAttribute("aria-label") || node.textContent || node.value || "").trim().slice(0, 40)}`;
   const ringed = (node) => {
     const { outlineStyle, outlineWidth, boxShadow } = getComputedStyle(node);
     return (outlineStyle !== "none" && parseFloat(outlineWidth) > 0) || boxShadow !== "none";
@@ -33,15 +35,29 @@
   const missed = () => {
     const nodes = [...reached.keys()];
     return [...document.querySelectorAll(CONTROLS)]
-      .filter((node) => !reached.has(node) && !node.disabled && node.checkVisibility({ visibilityProperty: true }) && !node.closest("[aria-hidden=true]"))
-      .filter((node) => node.tabIndex >= 0 || !node.closest(COMPOSITES) || !nodes.some((other) => node.closest(COMPOSITES).contains(other)))
+      .filter(
+        (node) =>
+          !reached.has(node) &&
+          !node.disabled &&
+          node.checkVisibility({ visibilityProperty: true }) &&
+          !node.closest("[aria-hidden=true]"),
+      )
+      .filter(
+        (node) =>
+          node.tabIndex >= 0 ||
+          !node.closest(COMPOSITES) ||
+          !nodes.some((other) => node.closest(COMPOSITES).contains(other)),
+      )
       .filter((node) => node.type !== "radio" || !nodes.some((other) => other.name === node.name))
       .map(named);
   };
 
   /** Make all text of the page so many times as large, as a browser that enlarges nothing else. */
   const enlargeText = (times) => {
-    const sizes = [...document.querySelectorAll("body, body *")].map((node) => [node, parseFloat(getComputedStyle(node).fontSize)]);
+    const sizes = [...document.querySelectorAll("body, body *")].map((node) => [
+      node,
+      parseFloat(getComputedStyle(node).fontSize),
+    ]);
     for (const [node, size] of sizes) node.style.fontSize = `${times * size}px`;
   };
 

@@ -10,7 +10,9 @@ async function answer(cases) {
   const similarity = new Similarity(bins);
   const features = bins.features.map(({ name }) => name);
   return cases.map(({ row, features: named, bins: chosen }) => {
-    const choice = chosen ? { columns: chosen.map((name) => bins.names.indexOf(name)) } : { features: (named ?? features).map((name) => features.indexOf(name)) };
+    const choice = chosen
+      ? { columns: chosen.map((name) => bins.names.indexOf(name)) }
+      : { features: (named ?? features).map((name) => features.indexOf(name)) };
     return { found: similarity.rank(row, choice, bins.rows), typical: similarity.typical(choice) };
   });
 }

@@ -22,7 +22,7 @@ LAYERS = (
 #: Any room may use these; they import nothing of the others.
 APART = ("engine", "viewer")
 
-_IMPORT = re.compile(r'^import .* from "([^"]+)";$', re.MULTILINE)
+_IMPORT = re.compile(r'^import \{[^}]*\} from "([^"]+)";$', re.MULTILINE)
 
 
 def _scripts() -> Path:

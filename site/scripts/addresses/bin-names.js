@@ -45,7 +45,8 @@ export function readShortNames(text, features) {
   return columns;
 }
 
-function named({ start, dimensions, bins }, [, dimension, low, high]) {
+function named({ start, dimensions, bins }, rest) {
+  const [, dimension, low, high] = rest;
   if (dimension === undefined && low !== undefined && dimensions > 1) return [];
   if (Number(dimension ?? 0) >= dimensions || Number(high ?? low ?? 1) > bins || Number(low ?? 1) < 1) return [];
   const from = start + Number(dimension ?? 0) * bins;

@@ -75,7 +75,9 @@ export function readView(database, data, neighbours) {
   };
   return {
     view: VIEWS.includes(query.get("view")) ? query.get("view") : VIEWS[0],
-    ...(groups.a === null && groups.b === null ? firstGroups(database, neighbours) : { a: groups.a, b: groups.b ?? { kind: "rest" } }),
+    ...(groups.a === null && groups.b === null
+      ? firstGroups(database, neighbours)
+      : { a: groups.a, b: groups.b ?? { kind: "rest" } }),
     bin: query.get("bin"),
     reading: READINGS.includes(query.get("reading")) ? query.get("reading") : READINGS[0],
     of: group("of"),
@@ -93,7 +95,8 @@ export function writeView(database, state) {
   if (a !== null && b !== null) writeGroups(query, database, a, b);
   if (state.get("bin") !== null) query.set("bin", state.get("bin"));
   if (state.get("reading") !== READINGS[0]) query.set("reading", state.get("reading"));
-  for (const name of ["of", "row", "column"]) if (state.get(name) !== null) query.set(name, database.classes[state.get(name)]);
+  for (const name of ["of", "row", "column"])
+    if (state.get(name) !== null) query.set(name, database.classes[state.get(name)]);
   if (state.get("space") !== "features") query.set("by", state.get("space"));
   writeSelection(query, database, state.get("selection"));
   replaceHash(query);
@@ -105,5 +108,7 @@ function firstGroups(database, neighbours) {
   const single = { a: { kind: "class", group: 0 }, b: { kind: "rest" } };
   if (database.classes.length === 1) return single;
   const [pair] = neighbours.likest();
-  return pair ? { a: { kind: "class", group: pair.group }, b: { kind: "class", group: pair.other } } : { a: single.a, b: { kind: "class", group: 1 } };
+  return pair
+    ? { a: { kind: "class", group: pair.group }, b: { kind: "class", group: pair.other } }
+    : { a: single.a, b: { kind: "class", group: 1 } };
 }

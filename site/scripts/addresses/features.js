@@ -10,7 +10,8 @@ export function readFeaturesAddress(subsets, database) {
   const sizes = subsets.data.greedy.map(({ s }) => s);
   const s = Number(query.get("s"));
   return {
-    chosen: subsets.find(splitNames(query.get("features"), subsets.features)) ?? (subsets.labelled ? 0 : subsets.everything),
+    chosen:
+      subsets.find(splitNames(query.get("features"), subsets.features)) ?? (subsets.labelled ? 0 : subsets.everything),
     s: query.get("s") === "none" ? null : sizes.includes(s) ? s : (sizes[0] ?? null),
     color: subsets.labelled && query.get("color") === "hit" ? "hit" : "class",
     selection: readSelection(query, database),

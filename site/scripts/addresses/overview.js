@@ -8,9 +8,16 @@ import { joinNames, splitNames } from "./names.js";
 export function readAddress(database) {
   const query = readHash();
   const method = database.methods.findIndex(({ key }) => key === query.get("map"));
-  const known = (name) => query.getAll(name).map((id) => database.indexOfId.get(id)).filter((index) => index !== undefined);
+  const known = (name) =>
+    query
+      .getAll(name)
+      .map((id) => database.indexOfId.get(id))
+      .filter((index) => index !== undefined);
   const groups = new Map(database.classes.map((name, group) => [name, group]));
-  const hidden = query.getAll("hide").map((name) => groups.get(name)).filter((group) => group !== undefined);
+  const hidden = query
+    .getAll("hide")
+    .map((name) => groups.get(name))
+    .filter((group) => group !== undefined);
   if (query.has("hide-unlabelled")) hidden.push(-1);
   const camera = (query.get("at") ?? "").split(",").map(Number);
   const { subsets } = database.data;
@@ -23,7 +30,8 @@ export function readAddress(database) {
     selection: readSelection(query, database),
     opened: known("open")[0] ?? null,
     query: query.get("find") ?? "",
-    camera: camera.length === 3 && camera.every(Number.isFinite) ? { x: camera[0], y: camera[1], zoom: camera[2] } : null,
+    camera:
+      camera.length === 3 && camera.every(Number.isFinite) ? { x: camera[0], y: camera[1], zoom: camera[2] } : null,
   };
 }
 

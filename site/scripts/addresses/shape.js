@@ -15,7 +15,10 @@ export function readShapeAddress(database) {
   return {
     shape,
     unknown: shape === null ? id : null,
-    method: Math.max(database.methods.findIndex(({ key }) => key === query.get("map")), 0),
+    method: Math.max(
+      database.methods.findIndex(({ key }) => key === query.get("map")),
+      0,
+    ),
     features: query.get("features") ?? "",
     bins: query.get("bins") ?? "",
     bin: query.get("bin"),

@@ -58,12 +58,18 @@ function galleryQuery(database, fields, state) {
 function readFilters(query, fields) {
   const filters = new Map();
   for (const field of fields.filters) {
-    const range = query.get(RANGE + field.key)?.split("..").map(Number);
+    const range = query
+      .get(RANGE + field.key)
+      ?.split("..")
+      .map(Number);
     if (field.edges !== null && range?.length === 2 && range.every(Number.isFinite)) {
       filters.set(field.key, { low: range[0], high: range[1] });
       continue;
     }
-    const values = query.getAll(IS + field.key).map((name) => valueOf(field, name)).filter((value) => value !== undefined && value !== NONE);
+    const values = query
+      .getAll(IS + field.key)
+      .map((name) => valueOf(field, name))
+      .filter((value) => value !== undefined && value !== NONE);
     if (query.has(LACKS + field.key)) values.push(NONE);
     if (values.length > 0 && (field.names !== null || field.tree !== null)) filters.set(field.key, new Set(values));
   }
@@ -87,7 +93,9 @@ function nameInAddress(field, value) {
 }
 
 function valueOf(field, name) {
-  field.numberOfName ??= new Map((field.tree?.nodes ?? field.names ?? []).map((_, value) => [nameInAddress(field, value), value]));
+  field.numberOfName ??= new Map(
+    (field.tree?.nodes ?? field.names ?? []).map((_, value) => [nameInAddress(field, value), value]),
+  );
   return field.numberOfName.get(name);
 }
 

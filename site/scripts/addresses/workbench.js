@@ -21,10 +21,18 @@ export function isSame(bins, ofSite) {
 export function readWorkAddress(database, data) {
   const query = readHash();
   const groups = new Map(database.classes.map((name, group) => [name, group]));
-  const named = (name) => query.getAll(name).map((label) => groups.get(label)).filter((group) => group !== undefined);
-  const known = splitNames(query.get("features"), data.features.map(({ name }) => name));
+  const named = (name) =>
+    query
+      .getAll(name)
+      .map((label) => groups.get(label))
+      .filter((group) => group !== undefined);
+  const known = splitNames(
+    query.get("features"),
+    data.features.map(({ name }) => name),
+  );
   const features = new Set(data.features.keys());
-  if (known.length > 0) for (const [index, { name }] of data.features.entries()) if (!known.includes(name)) features.delete(index);
+  if (known.length > 0)
+    for (const [index, { name }] of data.features.entries()) if (!known.includes(name)) features.delete(index);
   const chosen = query.has("bins") ? readShortNames(query.get("bins"), data.features) : (data.bins ?? []);
   const bins = [...chosen].filter((column) => features.has(featureOf(column, data)));
   const scorers = data.scorers.map(({ key }) => key);
@@ -32,7 +40,11 @@ export function readWorkAddress(database, data) {
     hidden: readHidden(query, named, database),
     features,
     bins: new Set(bins),
-    projection: PROJECTIONS.includes(query.get("map")) ? query.get("map") : PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0],
+    projection: PROJECTIONS.includes(query.get("map"))
+      ? query.get("map")
+      : PROJECTIONS.includes(data.method)
+        ? data.method
+        : PROJECTIONS[0],
     scorer: scorers.includes(query.get("scorer")) ? query.get("scorer") : DEFAULT_SCORER,
     separation: {
       from: query.has("separate") ? new Set(named("separate")) : EVERY_CLASS.from,
@@ -72,9 +84,11 @@ export function workAddress(database, data, state) {
   // No class in use has no name to give.
   if (used.length === 0) query.append("class", "");
   const features = state.get("features");
-  if (features.size < data.features.length) query.set("features", joinNames([...features].sort((a, b) => a - b).map((index) => data.features[index].name)));
+  if (features.size < data.features.length)
+    query.set("features", joinNames([...features].sort((a, b) => a - b).map((index) => data.features[index].name)));
   if (!isSame(state.get("bins"), data.bins ?? [])) query.set("bins", shortNames(state.get("bins"), data.features));
-  if (state.get("projection") !== (PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0])) query.set("map", state.get("projection"));
+  if (state.get("projection") !== (PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0]))
+    query.set("map", state.get("projection"));
   if (state.get("scorer") !== DEFAULT_SCORER) query.set("scorer", state.get("scorer"));
   const { from, against, each } = state.get("separation");
   const names = (name, groups) => {

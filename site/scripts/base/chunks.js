@@ -15,7 +15,11 @@ const loaded = new Map();
 
 /** The content of a chunk, loaded when first asked for: an ArrayBuffer where it holds bytes. */
 export function chunk(name) {
-  if (!loaded.has(name)) loaded.set(name, load(name, () => JSON.parse(document.body.dataset.chunks)[name]));
+  if (!loaded.has(name))
+    loaded.set(
+      name,
+      load(name, () => JSON.parse(document.body.dataset.chunks)[name]),
+    );
   return loaded.get(name);
 }
 

@@ -54,6 +54,11 @@ export function calm() {
   return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
+/** The element that has the focus. */
+export function focused() {
+  return /** @type {HTMLElement} */ (document.activeElement);
+}
+
 /** Whether readers point with fingers. */
 export function coarse() {
   return window.matchMedia("(pointer: coarse)").matches;

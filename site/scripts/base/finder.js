@@ -7,12 +7,19 @@ const MOST = 12;
 export class Finder {
   /** `find(text)` gives values, best first; `label(value)` the content of a line; `choose(value)` is told. */
   constructor(name, { find, label, choose }) {
-    Object.assign(this, { find, label, choose });
+    this.find = find;
+    this.label = label;
+    this.choose = choose;
     this.field = document.getElementById(`${name}-search`);
     this.list = document.getElementById(`${name}-found`);
     this.found = [];
     this.at = 0;
-    for (const [key, value] of Object.entries({ role: "combobox", "aria-autocomplete": "list", "aria-controls": this.list.id, "aria-expanded": "false" })) {
+    for (const [key, value] of Object.entries({
+      role: "combobox",
+      "aria-autocomplete": "list",
+      "aria-controls": this.list.id,
+      "aria-expanded": "false",
+    })) {
       this.field.setAttribute(key, value);
     }
     this.field.addEventListener("input", () => this.#look());
@@ -42,10 +49,22 @@ export class Finder {
 
   #render() {
     const lines = this.found.map((value, place) =>
-      element("li", { role: "option", id: `${this.list.id}-${place}`, "data-place": place, "aria-selected": String(place === this.at) }, this.label(value)),
+      element(
+        "li",
+        {
+          role: "option",
+          id: `${this.list.id}-${place}`,
+          "data-place": place,
+          "aria-selected": String(place === this.at),
+        },
+        this.label(value),
+      ),
     );
     const rest = this.found.length === 0 ? "none found" : this.more > 0 ? `and ${this.more} more` : null;
-    this.list.replaceChildren(...lines, ...(rest ? [element("li", { class: "quiet", role: "presentation" }, rest)] : []));
+    this.list.replaceChildren(
+      ...lines,
+      ...(rest ? [element("li", { class: "quiet", role: "presentation" }, rest)] : []),
+    );
     this.list.hidden = false;
     this.field.setAttribute("aria-expanded", "true");
     if (this.found.length > 0) this.field.setAttribute("aria-activedescendant", `${this.list.id}-${this.at}`);

@@ -32,7 +32,12 @@ export function pushHash(query) {
   if (!leaving()) window.history.pushState(null, "", hashAddress(query));
 }
 
-/** The address of a page of this site, by its file, in some state: parameters, or pairs of name and value. */
+/**
+ * The address of a page of this site, by its file, in some state.
+ *
+ * @param {string} file
+ * @param {string | Record<string, string> | URLSearchParams | string[][]} query parameters, or pairs of name and value
+ */
 export function pageAddress(file, query = []) {
   const state = new URLSearchParams(query).toString();
   if (singleFile) return `#/${file.replace(/\.html$/, "")}${state === "" ? "" : `?${state}`}`;

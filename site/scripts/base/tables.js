@@ -28,12 +28,25 @@ export function table(title, columns, rows) {
     "table",
     {},
     element("caption", {}, title),
-    element("thead", {}, element("tr", {}, columns.map((column) => element("th", { scope: "col" }, column)))),
+    element(
+      "thead",
+      {},
+      element(
+        "tr",
+        {},
+        columns.map((column) => element("th", { scope: "col" }, column)),
+      ),
+    ),
     element(
       "tbody",
       {},
       rows.map(([first, ...rest]) =>
-        element("tr", {}, element("th", { scope: "row", dir: "auto" }, first), rest.map((value) => element("td", {}, value))),
+        element(
+          "tr",
+          {},
+          element("th", { scope: "row", dir: "auto" }, first),
+          rest.map((value) => element("td", {}, value)),
+        ),
       ),
     ),
   );

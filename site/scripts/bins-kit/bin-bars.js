@@ -27,7 +27,10 @@ function crowd({ columns, from, to, level, feature }, width, features) {
 /** Bars with pixels of their own, and those that share them. */
 function sorted(bars) {
   const alone = (column) => bars.to[column] - bars.from[column] >= SHARED;
-  return { wide: bars.columns.filter(alone), crowded: { ...bars, columns: bars.columns.filter((column) => !alone(column)) } };
+  return {
+    wide: bars.columns.filter(alone),
+    crowded: { ...bars, columns: bars.columns.filter((column) => !alone(column)) },
+  };
 }
 
 /** The next value above one that an axis may well end at, and be halved. */

@@ -36,7 +36,10 @@ export class BinCard {
    * and the classes in use by their numbers, those that are to be separated apart from the others.
    */
   know({ scores, scorer, separated, others }) {
-    Object.assign(this, { scores, scorer, separated, others });
+    this.scores = scores;
+    this.scorer = scorer;
+    this.separated = separated;
+    this.others = others;
   }
 
   /** Show the card of a column at its bar: a box in the window, and `free`, the height down to which the card may hang. */
@@ -55,12 +58,24 @@ export class BinCard {
     const feature = bins.features[bins.featureOf(column)];
     const mark = element("i", { class: "hued" });
     mark.style.background = bins.color(column);
-    const means = bins.isShare(column) && (bins.binOf(column) < feature.bins / 2 ? ["Low values: ", feature.lowMeans] : ["High values: ", feature.highMeans]);
-    const score = Number.isNaN(this.scores[column]) ? null : [figure(this.scores[column]), ` by ${this.scorer}, rank ${grouped(this.#rank(column))}`];
+    const means =
+      bins.isShare(column) &&
+      (bins.binOf(column) < feature.bins / 2
+        ? ["Low values: ", feature.lowMeans]
+        : ["High values: ", feature.highMeans]);
+    const score = Number.isNaN(this.scores[column])
+      ? null
+      : [figure(this.scores[column]), ` by ${this.scorer}, rank ${grouped(this.#rank(column))}`];
     return [
-      element("p", { class: "name" }, mark, element("b", {}, element("bdi", {}, bins.names[column])), feature.title !== feature.name && feature.title),
+      element(
+        "p",
+        { class: "name" },
+        mark,
+        element("b", {}, element("bdi", {}, bins.names[column])),
+        feature.title !== feature.name && feature.title,
+      ),
       element("p", {}, bins.sentence(column)),
-      means && means[1] && element("p", { class: "quiet" }, means, "."),
+      means?.[1] && element("p", { class: "quiet" }, means, "."),
       score && element("p", { class: "quiet" }, "Score ", element("b", {}, score[0]), score[1]),
     ].filter(Boolean);
   }
@@ -85,10 +100,22 @@ export class BinCard {
     return element(
       "div",
       { class: "of-bin" },
-      element("ul", { class: "names" }, shown.map((row, place) => item(place, row.mark, element("bdi", {}, row.name)))),
+      element(
+        "ul",
+        { class: "names" },
+        shown.map((row, place) => item(place, row.mark, element("bdi", {}, row.name))),
+      ),
       strips(shown, edge, x),
-      element("ul", { class: "medians" }, shown.map((row, place) => item(place, told(row.median)))),
-      element("p", { class: "axis" }, [least, (least + most) / 2, most].map((value) => element("span", {}, told(value)))),
+      element(
+        "ul",
+        { class: "medians" },
+        shown.map((row, place) => item(place, told(row.median))),
+      ),
+      element(
+        "p",
+        { class: "axis" },
+        [least, (least + most) / 2, most].map((value) => element("span", {}, told(value))),
+      ),
       rows.length > shown.length && element("p", { class: "more" }, `and ${grouped(rows.length - shown.length)} more`),
     );
   }
@@ -98,16 +125,42 @@ export class BinCard {
     const { database, members } = this;
     const row = (rows, apart, name, mark, color) => {
       const values = rows.map((index) => this.bins.share(column, index)).sort((a, b) => a - b);
-      return { apart, name, mark, color, values, median: quantile(values, 0.5), mean: values.reduce((a, b) => a + b, 0) / values.length };
+      return {
+        apart,
+        name,
+        mark,
+        color,
+        values,
+        median: quantile(values, 0.5),
+        mean: values.reduce((a, b) => a + b, 0) / values.length,
+      };
     };
     const byHeight = (a, b) => b.median - a.median || b.mean - a.mean;
     const of = (groups, apart) =>
       groups
         .filter((group) => members.has(group))
-        .map((group) => row(members.get(group), apart, database.className(group), swatch(database.symbol(group), database.color(group)), database.color(group)))
+        .map((group) =>
+          row(
+            members.get(group),
+            apart,
+            database.className(group),
+            swatch(database.symbol(group), database.color(group)),
+            database.color(group),
+          ),
+        )
         .sort(byHeight);
     const rows = [...of(this.separated, true), ...of(this.others, false)];
-    return rows.length > 0 ? rows : [row(database.groups.map((_, index) => index), false, "all shapes", null, database.color(-1))];
+    return rows.length > 0
+      ? rows
+      : [
+          row(
+            database.groups.map((_, index) => index),
+            false,
+            "all shapes",
+            null,
+            database.color(-1),
+          ),
+        ];
   }
 
   #place({ left, top, width, height, free }) {
@@ -130,7 +183,11 @@ export class BinCard {
 function strips(rows, edge, x) {
   const density = window.devicePixelRatio;
   const height = ROW * rows.length;
-  const canvas = element("canvas", { width: Math.round((WIDTH + 2 * MARGIN) * density), height: Math.round(height * density), "aria-hidden": "true" });
+  const canvas = element("canvas", {
+    width: Math.round((WIDTH + 2 * MARGIN) * density),
+    height: Math.round(height * density),
+    "aria-hidden": "true",
+  });
   const context = canvas.getContext("2d");
   context.scale(density, density);
   context.translate(MARGIN, 0);

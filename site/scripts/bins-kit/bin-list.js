@@ -18,11 +18,23 @@ export function binTables(bins, scores, chosen) {
   const places = [...ranking.keys()];
   const row = (place) => {
     const column = ranking[place];
-    return [bins.names[column], String(place + 1), figure(scores[column]), chosen.has(column) ? "yes" : "no", bins.sentence(column)];
+    return [
+      bins.names[column],
+      String(place + 1),
+      figure(scores[column]),
+      chosen.has(column) ? "yes" : "no",
+      bins.sentence(column),
+    ];
   };
   const columns = ["Bin", "Rank", "Score", "Chosen", "Meaning"];
   const taken = places.filter((place) => chosen.has(ranking[place]));
   const best = places.slice(0, MOST_ROWS);
-  const title = ranking.length > MOST_ROWS ? `The best ${MOST_ROWS} of ${count(ranking.length, "bin")}` : "All bins, the best first";
-  return [taken.length > 0 && table("Chosen bins", columns, taken.map(row)), table(title, columns, best.map(row))].filter(Boolean);
+  const title =
+    ranking.length > MOST_ROWS
+      ? `The best ${MOST_ROWS} of ${count(ranking.length, "bin")}`
+      : "All bins, the best first";
+  return [
+    taken.length > 0 && table("Chosen bins", columns, taken.map(row)),
+    table(title, columns, best.map(row)),
+  ].filter(Boolean);
 }

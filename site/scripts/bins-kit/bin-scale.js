@@ -23,7 +23,9 @@ export class BinScale {
     this.#before = new Int32Array(count + 1);
     for (const place of chosen) this.#before[place + 1] = 1;
     for (let place = 0; place < count; place += 1) this.#before[place + 1] += this.#before[place];
-    Object.assign(this, { count, width, kept: Math.min(KEPT, (width * KEPT_SHARE) / Math.max(chosen.length, 1)) });
+    this.count = count;
+    this.width = width;
+    this.kept = Math.min(KEPT, (width * KEPT_SHARE) / Math.max(chosen.length, 1));
     this.least = Math.min(this.#stepFor(0, count), WIDEST);
     this.most = Math.max(this.least, CLOSEST);
     this.look(this.left, whole ? 0 : this.step);

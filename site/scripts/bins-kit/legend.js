@@ -18,10 +18,18 @@ export class Legend {
       return node;
     });
     // The outer bins also take what lies beyond their edges, so these have no value to be told.
-    const ticks = edges.slice(1, -1).map((edge, between) => element("span", { class: between === place || between === place - 1 ? "own" : null }, number(edge)));
+    const ticks = edges
+      .slice(1, -1)
+      .map((edge, between) =>
+        element("span", { class: between === place || between === place - 1 ? "own" : null }, number(edge)),
+      );
     this.node.replaceChildren(
       element("p", {}, `Colours: ${quantityInWords(quantity, unit)}`),
-      element("div", { class: "ten", role: "img", "aria-label": `Ten colours from low to high; the bin is number ${place + 1}` }, swatches),
+      element(
+        "div",
+        { class: "ten", role: "img", "aria-label": `Ten colours from low to high; the bin is number ${place + 1}` },
+        swatches,
+      ),
       element("div", { class: "ticks", "aria-hidden": "true" }, ticks),
     );
   }

@@ -11,7 +11,11 @@ const LONGEST = 32;
 
 export class Look {
   constructor(database, bins, selection, state, card) {
-    Object.assign(this, { database, bins, selection, state, card });
+    this.database = database;
+    this.bins = bins;
+    this.selection = selection;
+    this.state = state;
+    this.card = card;
     this.words = document.getElementById("bin-words");
     this.paintings = document.getElementById("paintings");
     this.legend = new Legend(selection);
@@ -22,7 +26,12 @@ export class Look {
     });
     new Finder("bin", {
       find: (text) => bins.find(text),
-      label: (column) => [hue(bins, column), element("bdi", {}, bins.names[column]), " ", element("span", { class: "quiet" }, bins.features[bins.featureOf(column)].title)],
+      label: (column) => [
+        hue(bins, column),
+        element("bdi", {}, bins.names[column]),
+        " ",
+        element("span", { class: "quiet" }, bins.features[bins.featureOf(column)].title),
+      ],
       choose: (column) => state.set({ bin: column, group: null }),
     });
     state.listen((changed) => {
@@ -43,14 +52,24 @@ export class Look {
   /** The bins of this page in a list: those of each class, and those that separate all. */
   #offer(column) {
     const { database, bins, selection } = this;
-    const lists = selection.minimal.map(({ group, sets }) => [group, database.className(group), [...new Set(sets.flatMap((found) => found.bins))]]);
+    const lists = selection.minimal.map(({ group, sets }) => [
+      group,
+      database.className(group),
+      [...new Set(sets.flatMap((found) => found.bins))],
+    ]);
     if (selection.path.length > 0) lists.push([-1, "all classes", selection.path.at(-1).bins]);
     const group = this.state.get("group") ?? -1;
     const known = lists.some(([own, , columns]) => own === group && columns.includes(column));
     const option = (value, own) => element("option", { value: `${value} ${own}` }, bins.shortName(value, LONGEST));
     this.choice.replaceChildren(
       ...(known ? [] : [option(column, group)]),
-      ...lists.map(([own, name, columns]) => element("optgroup", { label: `separate ${name}` }, columns.map((value) => option(value, own)))),
+      ...lists.map(([own, name, columns]) =>
+        element(
+          "optgroup",
+          { label: `separate ${name}` },
+          columns.map((value) => option(value, own)),
+        ),
+      ),
     );
     this.choice.value = `${column} ${group}`;
     this.choice.closest("label").hidden = lists.length === 0;
@@ -59,15 +78,31 @@ export class Look {
   #tell(column) {
     const { bins, card, database } = this;
     const feature = bins.features[bins.featureOf(column)];
-    const end = bins.binOf(column) < feature.bins / 2 ? ["Low values mean ", feature.lowMeans] : ["High values mean ", feature.highMeans];
+    const end =
+      bins.binOf(column) < feature.bins / 2
+        ? ["Low values mean ", feature.lowMeans]
+        : ["High values mean ", feature.highMeans];
     const measured = bins.isShare(column) && feature.measures !== "";
     const group = this.state.get("group");
     const groups = database.labelled ? [...database.sizes.keys()].sort((a, b) => a - b) : [];
-    card.know({ scores: new Float64Array(bins.count).fill(NaN), scorer: "", separated: groups.filter((other) => other === group), others: groups.filter((other) => other !== group) });
+    card.know({
+      scores: new Float64Array(bins.count).fill(NaN),
+      scorer: "",
+      separated: groups.filter((other) => other === group),
+      others: groups.filter((other) => other !== group),
+    });
     return [
       element("h3", {}, hue(bins, column), element("bdi", {}, bins.names[column])),
       element("p", { class: "sentence" }, bins.sentence(column)),
-      measured && element("p", { class: "quiet" }, element("b", {}, feature.title), ": ", lowered(feature.measures), end[1] !== "" && ` ${end[0]}${end[1]}.`),
+      measured &&
+        element(
+          "p",
+          { class: "quiet" },
+          element("b", {}, feature.title),
+          ": ",
+          lowered(feature.measures),
+          end[1] !== "" && ` ${end[0]}${end[1]}.`,
+        ),
       element("p", { class: "who" }, this.#who(column)),
       element("div", { class: "bin-card" }, card.classes(column)),
     ].filter(Boolean);
@@ -84,12 +119,24 @@ export class Look {
     const name = (row) => element("bdi", {}, row.name);
     const contrast = this.#contrast(rows, told, name);
     if (contrast !== null) return contrast;
-    if (told(most.median) === told(least.median)) return [`All classes have the same of it: half of their shapes have ${told(most.median)} or more.`];
+    if (told(most.median) === told(least.median))
+      return [`All classes have the same of it: half of their shapes have ${told(most.median)} or more.`];
     const next = rest.slice(0, -1).slice(0, 2);
     return [
-      "The class ", name(most), ` has most of it: half of its shapes have ${told(most.median)} or more. `,
-      ...(next.length > 0 ? ["Next ", next.length > 1 ? "come " : "comes ", ...next.flatMap((row, place) => [place > 0 ? " and " : "", name(row), ` with ${told(row.median)}`]), ". "] : []),
-      "Least of it has ", name(least), `, with ${told(least.median)}.`,
+      "The class ",
+      name(most),
+      ` has most of it: half of its shapes have ${told(most.median)} or more. `,
+      ...(next.length > 0
+        ? [
+            "Next ",
+            next.length > 1 ? "come " : "comes ",
+            ...next.flatMap((row, place) => [place > 0 ? " and " : "", name(row), ` with ${told(row.median)}`]),
+            ". ",
+          ]
+        : []),
+      "Least of it has ",
+      name(least),
+      `, with ${told(least.median)}.`,
     ];
   }
 
@@ -100,27 +147,72 @@ export class Look {
     const named = (group) => rows.find((row) => row.name === this.database.className(group));
     const [row, rival] = [named(own.group), named(own.other)];
     const rank = rows.indexOf(row);
-    const place = rank === 0 ? " has most of it of all classes: " : rank === rows.length - 1 ? " has least of it of all classes: " : ": ";
+    const place =
+      rank === 0
+        ? " has most of it of all classes: "
+        : rank === rows.length - 1
+          ? " has least of it of all classes: "
+          : ": ";
     return [
-      "The class ", name(row), place, `half of its shapes have ${told(row.median)} or more. Of `, name(rival), `, its nearest class on the Overview, half have ${told(rival.median)} or more.`,
+      "The class ",
+      name(row),
+      place,
+      `half of its shapes have ${told(row.median)} or more. Of `,
+      name(rival),
+      `, its nearest class on the Overview, half have ${told(rival.median)} or more.`,
       ...(rank > 0 ? [" Most of it has ", name(rows[0]), `, with ${told(rows[0].median)}.`] : []),
     ];
   }
 
   #paint(column) {
     const { bins, database, selection } = this;
-    if (!bins.isShare(column)) return [element("p", { class: "notice" }, "This feature was brought along: it has one value a shape, and none on the surface, so there is nothing to paint.")];
+    if (!bins.isShare(column))
+      return [
+        element(
+          "p",
+          { class: "notice" },
+          "This feature was brought along: it has one value a shape, and none on the surface, so there is nothing to paint.",
+        ),
+      ];
     const own = pictured(selection, database, column, this.state.get("group"));
     if (own.length === 0) {
-      return [element("p", { class: "quiet" }, selection.models === null ? "No pictures were drawn of this bin." : "No pictures were drawn of this bin beforehand; the 3D view shows it on any shape.")];
+      return [
+        element(
+          "p",
+          { class: "quiet" },
+          selection.models === null
+            ? "No pictures were drawn of this bin."
+            : "No pictures were drawn of this bin beforehand; the 3D view shows it on any shape.",
+        ),
+      ];
     }
     return own.map(({ shape, value, inside }) =>
       element(
         "button",
-        { type: "button", class: "painting", "data-shape": shape, title: `${database.names[shape]}: show in the 3D view`, onclick: () => this.state.set({ shape }) },
+        {
+          type: "button",
+          class: "painting",
+          "data-shape": shape,
+          title: `${database.names[shape]}: show in the 3D view`,
+          onclick: () => this.state.set({ shape }),
+        },
         element("span", { class: "whose" }, shapeLine(database, bins, column, shape)),
-        [["value", value, "its values in colours"], ["in the bin", inside, "what falls into the bin"]].map(([word, address, alt]) =>
-          element("span", { class: "reading" }, element("img", { src: resource(address), alt: `${database.names[shape]}, ${alt}`, width: 320, height: 320, decoding: "async" }), element("i", {}, word)),
+        [
+          ["value", value, "its values in colours"],
+          ["in the bin", inside, "what falls into the bin"],
+        ].map(([word, address, alt]) =>
+          element(
+            "span",
+            { class: "reading" },
+            element("img", {
+              src: resource(address),
+              alt: `${database.names[shape]}, ${alt}`,
+              width: 320,
+              height: 320,
+              decoding: "async",
+            }),
+            element("i", {}, word),
+          ),
         ),
       ),
     );
@@ -143,7 +235,11 @@ export function shapeLine(database, bins, column, shape) {
   return [
     database.labelled && swatch(database.symbol(group), database.color(group)),
     element("bdi", {}, database.labelled ? database.className(group) : database.names[shape]),
-    element("span", { class: "quiet" }, bins.isShare(column) ? `${percent(value)} in the bin` : String(Number(value.toPrecision(3)))),
+    element(
+      "span",
+      { class: "quiet" },
+      bins.isShare(column) ? `${percent(value)} in the bin` : String(Number(value.toPrecision(3))),
+    ),
   ].filter(Boolean);
 }
 
@@ -151,7 +247,8 @@ export function shapeLine(database, bins, column, shape) {
 export function dimensionOf(column, bins) {
   if (!bins.isShare(column)) return null;
   let before = 0;
-  for (const feature of bins.features.slice(0, bins.featureOf(column))) if (feature.bins > 1) before += feature.dimensions;
+  for (const feature of bins.features.slice(0, bins.featureOf(column)))
+    if (feature.bins > 1) before += feature.dimensions;
   const { start, bins: width } = bins.features[bins.featureOf(column)];
   return before + Math.floor((column - start) / width);
 }

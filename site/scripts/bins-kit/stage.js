@@ -13,8 +13,12 @@ export class Stage {
    * say how a shape is turned.
    */
   constructor(node, { database, load, keys }) {
-    Object.assign(this, { node, database, load, keys });
+    this.node = node;
+    this.database = database;
+    this.load = load;
+    this.keys = keys;
     this.asked = false;
+    this.capable = null;
   }
 
   /**
@@ -32,7 +36,8 @@ export class Stage {
   }
 
   #impossible() {
-    if (this.load === null) return "This site holds no 3D data of its shapes: it was built with --no-meshes, or as one file.";
+    if (this.load === null)
+      return "This site holds no 3D data of its shapes: it was built with --no-meshes, or as one file.";
     this.capable ??= canDraw();
     return this.capable ? null : "This browser cannot draw in 3D: WebGL 2 is missing or switched off.";
   }
@@ -47,7 +52,10 @@ export class Stage {
       this.focusing = true;
       this.show(shape, view);
     };
-    this.#clear(this.#picture(shape), element("button", { type: "button", class: "plain strong", id: "show-3d", onclick: show }, "Turn it in 3D"));
+    this.#clear(
+      this.#picture(shape),
+      element("button", { type: "button", class: "plain strong", id: "show-3d", onclick: show }, "Turn it in 3D"),
+    );
   }
 
   #picture(shape) {
@@ -68,7 +76,8 @@ export class Stage {
     try {
       solid = await this.#solid(shape);
     } catch {
-      if (latest === this.latest) this.#say(shape, `There is no 3D data of ${this.database.names[shape]} in this site.`);
+      if (latest === this.latest)
+        this.#say(shape, `There is no 3D data of ${this.database.names[shape]} in this site.`);
       return false;
     }
     const colors = await paint(solid);
@@ -86,12 +95,18 @@ export class Stage {
   #prepare() {
     if (this.view) return;
     this.canvas = element("canvas", { tabindex: "0", role: "application", "aria-describedby": this.keys });
-    const back = element("button", { type: "button", class: "plain back", hidden: true, onclick: () => this.view.reset() }, "First view");
+    const back = element(
+      "button",
+      { type: "button", class: "plain back", hidden: true, onclick: () => this.view.reset() },
+      "First view",
+    );
     this.node.replaceChildren(this.canvas, back);
     this.solid = null;
     this.view = new View(this.canvas, {
       turned: () => {
-        back.hidden = !this.view || (this.view.zoom === 1 && this.view.turn.every((value, place) => value === this.view.model.view[place]));
+        back.hidden =
+          !this.view ||
+          (this.view.zoom === 1 && this.view.turn.every((value, place) => value === this.view.model.view[place]));
       },
     });
     if (this.focusing) this.canvas.focus({ preventScroll: true });

@@ -6,7 +6,10 @@ const LONGEST = 18;
 
 export class BinChips {
   constructor(bins, card, state, { look }) {
-    Object.assign(this, { bins, card, state, look });
+    this.bins = bins;
+    this.card = card;
+    this.state = state;
+    this.look = look;
     state.listen((changed) => {
       if (!changed.has("bin")) return;
       for (const chip of document.querySelectorAll(".bin-chip")) mark(chip, state.get("bin"));
@@ -51,9 +54,11 @@ export class BinChips {
     this.card.show(column, { left, top, width, height, free: top });
   }
 
+  #kept = null;
+
   get #none() {
-    this.scores ??= new Float64Array(this.bins.count).fill(NaN);
-    return this.scores;
+    this.#kept ??= new Float64Array(this.bins.count).fill(NaN);
+    return this.#kept;
   }
 }
 

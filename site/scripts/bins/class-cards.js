@@ -11,7 +11,11 @@ const SEPARATED = 0.9;
 
 export class ClassCards {
   constructor(database, selection, state, chips, { open }) {
-    Object.assign(this, { database, selection, state, chips, open });
+    this.database = database;
+    this.selection = selection;
+    this.state = state;
+    this.chips = chips;
+    this.open = open;
     this.list = document.getElementById("class-cards");
     const inputs = document.querySelectorAll("#sizes input");
     for (const input of inputs) {
@@ -20,7 +24,8 @@ export class ClassCards {
     }
     state.listen((changed) => {
       // These many maps follow a selection when it is made, not while it is.
-      if (["selection", "brushing"].some((name) => changed.has(name)) && !state.get("brushing")) for (const plot of this.plots) plot.draw();
+      if (["selection", "brushing"].some((name) => changed.has(name)) && !state.get("brushing"))
+        for (const plot of this.plots) plot.draw();
       if (!changed.has("size") && !changed.has("theme")) return;
       for (const input of inputs) input.checked = input.value === state.get("size");
       this.render();
@@ -31,8 +36,16 @@ export class ClassCards {
 
   render() {
     this.plots = [];
-    const cards = this.selection.minimal.map((separated) => ({ group: separated.group, found: chooseSet(separated, this.state.get("size")), separated }));
-    this.list.replaceChildren(...cards.map(({ group, found, separated }) => element("li", { class: "class-card" }, this.#card(group, found, separated))));
+    const cards = this.selection.minimal.map((separated) => ({
+      group: separated.group,
+      found: chooseSet(separated, this.state.get("size")),
+      separated,
+    }));
+    this.list.replaceChildren(
+      ...cards.map(({ group, found, separated }) =>
+        element("li", { class: "class-card" }, this.#card(group, found, separated)),
+      ),
+    );
   }
 
   #card(group, found, { highest, byChance }) {
@@ -45,7 +58,12 @@ export class ClassCards {
       selection: () => this.state.get("selection"),
       mark: (index) => {
         const own = database.groups[index] === group;
-        return { path: database.symbol(own ? group : -1), color: own ? database.color(group) : styleColor("quiet"), radius: own ? 3.2 : 1.7, alpha: own ? 0.95 : 0.45 };
+        return {
+          path: database.symbol(own ? group : -1),
+          color: own ? database.color(group) : styleColor("quiet"),
+          radius: own ? 3.2 : 1.7,
+          alpha: own ? 0.95 : 0.45,
+        };
       },
     });
     this.plots.push(plot);
@@ -55,11 +73,36 @@ export class ClassCards {
         "div",
         { class: "card-head" },
         element("h3", {}, swatch(database.symbol(group), database.color(group)), element("bdi", {}, name)),
-        element("p", { class: "nh", title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the class has others`}` }, element("span", { class: "unseen" }, "NH "), element("b", {}, figure(found.nh)), isBelowOne(highest) && element("span", { class: "quiet" }, ` / ${figure(highest)}`)),
+        element(
+          "p",
+          {
+            class: "nh",
+            title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the class has others`}`,
+          },
+          element("span", { class: "unseen" }, "NH "),
+          element("b", {}, figure(found.nh)),
+          isBelowOne(highest) && element("span", { class: "quiet" }, ` / ${figure(highest)}`),
+        ),
       ),
-      element("a", { class: "open-map", href: this.open(found.bins), title: "Open these bins in the Workbench" }, plot.node),
-      random && element("p", { class: "quiet by-chance", title: `What the same search reaches with ${count(found.bins.length, "bin")} for as many shapes dealt at random; ${figure(random.nhSpace)} in the space of the bins` }, `random shapes ${figure(random.nh)}`),
-      element("div", { class: "bin-chips" }, found.bins.map((column) => this.chips.chip(column, { group }))),
+      element(
+        "a",
+        { class: "open-map", href: this.open(found.bins), title: "Open these bins in the Workbench" },
+        plot.node,
+      ),
+      random &&
+        element(
+          "p",
+          {
+            class: "quiet by-chance",
+            title: `What the same search reaches with ${count(found.bins.length, "bin")} for as many shapes dealt at random; ${figure(random.nhSpace)} in the space of the bins`,
+          },
+          `random shapes ${figure(random.nh)}`,
+        ),
+      element(
+        "div",
+        { class: "bin-chips" },
+        found.bins.map((column) => this.chips.chip(column, { group })),
+      ),
     ];
   }
 }
@@ -68,5 +111,8 @@ export class ClassCards {
 export function chooseSet({ sets, highest }, size) {
   if (size !== "fewest") return sets[Math.min(Number(size), sets.length) - 1];
   const worth = ({ nh, nhSpace }) => Math.min(nh, nhSpace);
-  return sets.find((found) => worth(found) >= SEPARATED * highest - 1e-9) ?? sets.reduce((best, found) => (worth(found) > worth(best) ? found : best));
+  return (
+    sets.find((found) => worth(found) >= SEPARATED * highest - 1e-9) ??
+    sets.reduce((best, found) => (worth(found) > worth(best) ? found : best))
+  );
 }

@@ -12,13 +12,19 @@ const THUMBNAIL = 64;
 
 export class PathPlayer {
   constructor(database, selection, bins, state, chips, { open, pointing, choose, announce }) {
-    Object.assign(this, { database, selection, bins, state, chips, open, announce });
+    this.database = database;
+    this.selection = selection;
+    this.bins = bins;
+    this.state = state;
+    this.chips = chips;
+    this.open = open;
+    this.announce = announce;
     this.steps = selection.path;
     this.maps = this.steps.map((step) => mapOf(step, selection, database.count));
     this.list = document.getElementById("path-steps");
     this.button = document.getElementById("play");
     this.button.addEventListener("click", () => (this.timer ? this.pause() : this.play()));
-    for (const [id, by] of [["step-back", -1], ["step-on", 1]]) {
+    for (const [id, by] of Object.entries({ "step-back": -1, "step-on": 1 })) {
       document.getElementById(id).addEventListener("click", () => this.go(state.get("step") + by));
     }
     document.querySelector(".player").addEventListener("keydown", (event) => this.#key(event));
@@ -105,7 +111,9 @@ export class PathPlayer {
   }
 
   get #radius() {
-    return Math.min(Math.max(92 / Math.sqrt(this.database.count), 2.4), 5.5) * (this.plot.node.clientWidth < 420 ? 0.75 : 1);
+    return (
+      Math.min(Math.max(92 / Math.sqrt(this.database.count), 2.4), 5.5) * (this.plot.node.clientWidth < 420 ? 0.75 : 1)
+    );
   }
 
   #thumbnail(step, place) {
@@ -113,7 +121,12 @@ export class PathPlayer {
     const radius = Math.min(Math.max(24 / Math.sqrt(database.count), 0.8), 2);
     const plot = new Plot(database, {
       margin: 4,
-      mark: (index) => ({ path: database.data.marks.plain, color: database.color(database.groups[index]), radius, alpha: 1 }),
+      mark: (index) => ({
+        path: database.data.marks.plain,
+        color: database.color(database.groups[index]),
+        radius,
+        alpha: 1,
+      }),
     });
     plot.node.style.width = plot.node.style.height = `${THUMBNAIL}px`;
     plot.show(this.maps[place]);
@@ -122,7 +135,14 @@ export class PathPlayer {
       {},
       element(
         "button",
-        { type: "button", class: "path-step", "data-step": place, title: this.#words(place), "aria-label": this.#words(place), onclick: () => this.go(place) },
+        {
+          type: "button",
+          class: "path-step",
+          "data-step": place,
+          title: this.#words(place),
+          "aria-label": this.#words(place),
+          onclick: () => this.go(place),
+        },
         plot.node,
         element("b", {}, figure(step.nh)),
       ),
@@ -133,7 +153,10 @@ export class PathPlayer {
   #words(place) {
     const { bins, added, removed, nh } = this.steps[place];
     const names = (columns) => columns.map((column) => this.bins.names[column]).join(", ");
-    const changes = [added.length > 0 && `adds ${names(added)}`, removed.length > 0 && `removes ${names(removed)}`].filter(Boolean);
+    const changes = [
+      added.length > 0 && `adds ${names(added)}`,
+      removed.length > 0 && `removes ${names(removed)}`,
+    ].filter(Boolean);
     return `Step ${place + 1} of ${this.steps.length}, ${count(bins.length, "bin")}, NH ${figure(nh)}: ${changes.join(", ")}`;
   }
 
@@ -147,20 +170,39 @@ export class PathPlayer {
     document.getElementById("step-nh").replaceChildren(
       symbol(),
       element("output", { class: "value" }, figure(step.nh)),
-      ...(change === null ? [] : [element("span", { class: `change ${{ "+": "better", "−": "worse" }[change[0]] ?? ""}`, title: "Against the step before" }, change)]),
+      ...(change === null
+        ? []
+        : [
+            element(
+              "span",
+              {
+                class: `change ${{ "+": "better", "−": "worse" }[change[0]] ?? ""}`,
+                title: "Against the step before",
+              },
+              change,
+            ),
+          ]),
     );
     document.getElementById("step-change").replaceChildren(...this.#changes(step));
     document.getElementById("step-bins-title").textContent = `${count(step.bins.length, "bin")} in use`;
-    document.getElementById("step-bins").replaceChildren(
-      ...step.bins.map((column) => element("li", {}, this.chips.chip(column, { added: step.added.includes(column) }))),
-    );
+    document
+      .getElementById("step-bins")
+      .replaceChildren(
+        ...step.bins.map((column) =>
+          element("li", {}, this.chips.chip(column, { added: step.added.includes(column) })),
+        ),
+      );
     document.getElementById("step-open").href = this.open(step.bins);
     for (const button of this.list.querySelectorAll("button")) {
       const current = Number(button.dataset.step) === place;
       button.setAttribute("aria-current", current ? "step" : "false");
       button.tabIndex = current ? 0 : -1;
       // Only the strip moves, never the page.
-      if (current) this.list.scrollTo({ left: button.offsetLeft - this.list.offsetLeft - (this.list.clientWidth - button.offsetWidth) / 2, behavior: travel && !calm() ? "smooth" : "instant" });
+      if (current)
+        this.list.scrollTo({
+          left: button.offsetLeft - this.list.offsetLeft - (this.list.clientWidth - button.offsetWidth) / 2,
+          behavior: travel && !calm() ? "smooth" : "instant",
+        });
     }
     document.getElementById("step-back").disabled = place === 0;
     document.getElementById("step-on").disabled = place === this.steps.length - 1;
@@ -169,7 +211,15 @@ export class PathPlayer {
 
   /** What a step did, in words: of every bin that came or went, what it counts. */
   #changes({ added, removed }) {
-    const line = (column, word) => element("p", {}, element("b", { class: word === "added" ? "better" : "worse" }, word === "added" ? "+ " : "− "), this.chips.chip(column), " ", element("span", { class: "quiet" }, this.bins.sentence(column)));
+    const line = (column, word) =>
+      element(
+        "p",
+        {},
+        element("b", { class: word === "added" ? "better" : "worse" }, word === "added" ? "+ " : "− "),
+        this.chips.chip(column),
+        " ",
+        element("span", { class: "quiet" }, this.bins.sentence(column)),
+      );
     return [...added.map((column) => line(column, "added")), ...removed.map((column) => line(column, "removed"))];
   }
 

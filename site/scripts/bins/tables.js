@@ -10,20 +10,82 @@ export function binsTables(database, bins, selection, state, card) {
   const names = (columns) => columns.map((column) => bins.names[column]).join(", ");
   const bin = state.get("bin");
   const told = bins.isShare(bin) ? percent : (value) => String(Number(value.toPrecision(3)));
-  const fold = (kind) => ({ deal, bins: own, shapes, nh, nhAll, recognised, recognisedAll }) => [kind, String(deal), own.length, shapes, figure(nh), figure(nhAll), percent(recognised), percent(recognisedAll)];
-  const folds = [...(selection.heldOut ?? []).map(fold("own labels")), ...(selection.shuffled ?? []).map(fold("shuffled labels"))];
+  const fold =
+    (kind) =>
+    ({ deal, bins: own, shapes, nh, nhAll, recognised, recognisedAll }) => [
+      kind,
+      String(deal),
+      own.length,
+      shapes,
+      figure(nh),
+      figure(nhAll),
+      percent(recognised),
+      percent(recognisedAll),
+    ];
+  const folds = [
+    ...(selection.heldOut ?? []).map(fold("own labels")),
+    ...(selection.shuffled ?? []).map(fold("shuffled labels")),
+  ];
   return {
     title: "Bins in figures",
     tables: [
-      selection.minimal.length > 0 && table("Each class from the rest", ["Class", "Bins", "NH of the class on their map", "in their space", "at most", "random shapes"], selection.minimal.flatMap(({ group, sets, highest, byChance }) =>
-        sets.map((found) => [database.className(group), names(found.bins), figure(found.nh), figure(found.nhSpace), figure(highest), figure(byChance[found.bins.length - 1]?.nh)]),
-      )),
-      selection.path.length > 0 && table("All classes from each other, step by step", ["Step", "Bins", "Added", "Removed", "NH of the map", "in their space"], selection.path.map((step, place) => [
-        String(place + 1), step.bins.length, names(step.added), names(step.removed), figure(step.nh), figure(step.nhSpace),
-      ])),
-      folds.length > 0 && table("What such a choice is worth on shapes it never saw", ["Chosen by", "Deal", "Bins", "Unseen shapes", "NH, unseen shapes", "with all features", "recognised", "with all features"], folds),
-      table(`${bins.names[bin]} by class`, ["Class", "Median"], card.rows(bin).map(({ name, median }) => [name, told(median)])),
-      table(`The shapes with the most of ${bins.names[bin]}`, ["Shape", "Class", "Value"], most(bins, bin, database.count).map((index) => [database.ids[index], database.className(database.groups[index]), told(bins.share(bin, index))])),
+      selection.minimal.length > 0 &&
+        table(
+          "Each class from the rest",
+          ["Class", "Bins", "NH of the class on their map", "in their space", "at most", "random shapes"],
+          selection.minimal.flatMap(({ group, sets, highest, byChance }) =>
+            sets.map((found) => [
+              database.className(group),
+              names(found.bins),
+              figure(found.nh),
+              figure(found.nhSpace),
+              figure(highest),
+              figure(byChance[found.bins.length - 1]?.nh),
+            ]),
+          ),
+        ),
+      selection.path.length > 0 &&
+        table(
+          "All classes from each other, step by step",
+          ["Step", "Bins", "Added", "Removed", "NH of the map", "in their space"],
+          selection.path.map((step, place) => [
+            String(place + 1),
+            step.bins.length,
+            names(step.added),
+            names(step.removed),
+            figure(step.nh),
+            figure(step.nhSpace),
+          ]),
+        ),
+      folds.length > 0 &&
+        table(
+          "What such a choice is worth on shapes it never saw",
+          [
+            "Chosen by",
+            "Deal",
+            "Bins",
+            "Unseen shapes",
+            "NH, unseen shapes",
+            "with all features",
+            "recognised",
+            "with all features",
+          ],
+          folds,
+        ),
+      table(
+        `${bins.names[bin]} by class`,
+        ["Class", "Median"],
+        card.rows(bin).map(({ name, median }) => [name, told(median)]),
+      ),
+      table(
+        `The shapes with the most of ${bins.names[bin]}`,
+        ["Shape", "Class", "Value"],
+        most(bins, bin, database.count).map((index) => [
+          database.ids[index],
+          database.className(database.groups[index]),
+          told(bins.share(bin, index)),
+        ]),
+      ),
     ].filter(Boolean),
   };
 }

@@ -3,7 +3,7 @@
 import { modelBytes } from "../base/chunks.js";
 import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { dimensionOf, pictured } from "../bins-kit/look.js";
+import { dimensionOf, pictured, shapeLine } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { findShapes } from "../database/shape-finder.js";
 import { watchBrush } from "../map/brush.js";
@@ -12,7 +12,11 @@ import { Paint } from "../viewer/paint.js";
 
 export class Turntable {
   constructor(database, bins, selection, state, { pointing, announce }) {
-    Object.assign(this, { database, bins, selection, state, announce });
+    this.database = database;
+    this.bins = bins;
+    this.selection = selection;
+    this.state = state;
+    this.announce = announce;
     const load = selection.models && ((index) => modelBytes(selection.models[index]));
     this.stage = new Stage(document.getElementById("stage"), { database, load, keys: "turn-keys" });
     this.paint = new Paint(selection);
@@ -31,7 +35,9 @@ export class Turntable {
     const [shape, bin] = [this.state.get("shape"), this.state.get("bin")];
     if (shape === "least") return this.#extreme(bin, -1);
     if (shape === "most") return this.#extreme(bin, 1);
-    return shape ?? pictured(this.selection, this.database, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1);
+    return (
+      shape ?? pictured(this.selection, this.database, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1)
+    );
   }
 
   #extremes = null;
@@ -41,7 +47,10 @@ export class Turntable {
     if (this.#extremes?.column !== column) {
       const { rows, steps } = this.bins;
       const own = steps.subarray(column * rows, (column + 1) * rows);
-      const [least, most] = own.reduce(([low, high], value, row) => [value < own[low] ? row : low, value > own[high] ? row : high], [0, 0]);
+      const [least, most] = own.reduce(
+        ([low, high], value, row) => [value < own[low] ? row : low, value > own[high] ? row : high],
+        [0, 0],
+      );
       this.#extremes = { column, least, most };
     }
     return sign > 0 ? this.#extremes.most : this.#extremes.least;
@@ -55,8 +64,16 @@ export class Turntable {
   async render() {
     const { database, bins, state, shape } = this;
     const bin = state.get("bin");
-    this.name.replaceChildren(...shapeLine(database, bins, bin, shape), element("a", { class: "which", href: pageAddress("shape.html", { id: database.ids[shape] }), title: "All about this shape" }, element("bdi", {}, database.labelled ? database.names[shape] : "its page")));
-    for (const end of ["most", "least"]) document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
+    this.name.replaceChildren(
+      ...shapeLine(database, bins, bin, shape),
+      element(
+        "a",
+        { class: "which", href: pageAddress("shape.html", { id: database.ids[shape] }), title: "All about this shape" },
+        element("bdi", {}, database.labelled ? database.names[shape] : "its page"),
+      ),
+    );
+    for (const end of ["most", "least"])
+      document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
     this.pick.draw();
     const inside = state.get("reading") === "inside";
     const shown = await this.stage.show(shape, {
@@ -99,7 +116,12 @@ export class Turntable {
       mark: (index) => {
         const group = database.groups[index];
         const share = this.#share(index);
-        return { path: database.symbol(group), color: database.color(group), radius: 1.4 + 5 * Math.sqrt(share), alpha: 0.35 + 0.6 * Math.sqrt(share) };
+        return {
+          path: database.symbol(group),
+          color: database.color(group),
+          radius: 1.4 + 5 * Math.sqrt(share),
+          alpha: 0.35 + 0.6 * Math.sqrt(share),
+        };
       },
       drawn: () => this.#ring(),
     });

@@ -19,11 +19,21 @@ const WELL = 0.8;
 export function answer(contrast, a, b, data, kin) {
   const { apart, beyond, bins } = contrast;
   const deals = `${share(apart.all.chance)} on average, and more than ${share(apart.all.limit)} in one of 100 deals`;
-  const spread = ["Of all that these shapes differ in, ", element("b", {}, share(apart.all.share)), ` goes with the group; groups of the same sizes dealt at random reach ${deals}.`];
+  const spread = [
+    "Of all that these shapes differ in, ",
+    element("b", {}, share(apart.all.share)),
+    ` goes with the group; groups of the same sizes dealt at random reach ${deals}.`,
+  ];
   if (!contrast.differ) {
     return [
       element("h2", {}, "Nothing sets ", called(a), " and ", called(b), " apart beyond chance."),
-      element("p", {}, spread, ` None of ${count(bins.count, "bin")} differs more than some bin does when shapes are dealt out at random.`, tooFew(contrast)),
+      element(
+        "p",
+        {},
+        spread,
+        ` None of ${count(bins.count, "bin")} differs more than some bin does when shapes are dealt out at random.`,
+        tooFew(contrast),
+      ),
       kin && element("p", {}, kin),
     ].filter(Boolean);
   }
@@ -31,10 +41,25 @@ export function answer(contrast, a, b, data, kin) {
   const alike = inCommon(contrast, a, b, data);
   return [
     element("h2", {}, headline(contrast, a, b)),
-    (told.length > 0 || alike !== null) && element("ul", { class: "told-list" }, told.map((words) => element("li", {}, words)), alike && element("li", {}, alike)),
-    element("p", {}, spread, " ", beyond.length > 0
-      ? [element("b", {}, binCount(beyond.length, bins.count)), ` ${beyond.length === 1 ? "differs" : "differ"} more than chance lets any bin differ.`]
-      : "No single bin differs beyond chance: the difference lies in many small ones together."),
+    (told.length > 0 || alike !== null) &&
+      element(
+        "ul",
+        { class: "told-list" },
+        told.map((words) => element("li", {}, words)),
+        alike && element("li", {}, alike),
+      ),
+    element(
+      "p",
+      {},
+      spread,
+      " ",
+      beyond.length > 0
+        ? [
+            element("b", {}, binCount(beyond.length, bins.count)),
+            ` ${beyond.length === 1 ? "differs" : "differ"} more than chance lets any bin differ.`,
+          ]
+        : "No single bin differs beyond chance: the difference lies in many small ones together.",
+    ),
     kin && element("p", {}, kin),
   ].filter(Boolean);
 }
@@ -45,7 +70,12 @@ function headline(contrast, a, b) {
   const ahead = contrast.ahead(best);
   const apart = Math.max(ahead, 1 - ahead);
   if (apart >= CLEARLY) return [called(a), " and ", called(b), " are clearly different."];
-  return [called(a), " and ", called(b), apart >= WELL ? " differ." : " differ a little: on average, not shape by shape."];
+  return [
+    called(a),
+    " and ",
+    called(b),
+    apart >= WELL ? " differ." : " differ a little: on average, not shape by shape.",
+  ];
 }
 
 /**
@@ -55,11 +85,19 @@ function headline(contrast, a, b) {
 function plainest(contrast, a, b, data) {
   const { apart, bins } = contrast;
   const found = data.sides
-    .map((words, feature) => (words === null || apart.features[feature].share <= apart.features[feature].limit ? null : bestSide(contrast, bins.features[feature], words)))
+    .map((words, feature) =>
+      words === null || apart.features[feature].share <= apart.features[feature].limit
+        ? null
+        : bestSide(contrast, bins.features[feature], words),
+    )
     .filter((side) => side !== null && side.size >= TELLING)
     .sort((one, other) => other.size - one.size)
     .slice(0, MOST_TOLD);
-  if (found.length === 0) return varied(contrast.beyond, bins, 1).map((column) => [statement(column, contrast, a, b, data), said(meaning(column, bins))]);
+  if (found.length === 0)
+    return varied(contrast.beyond, bins, 1).map((column) => [
+      statement(column, contrast, a, b, data),
+      said(meaning(column, bins)),
+    ]);
   return found.map((side) => sentence(side, a, b, data));
 }
 
@@ -68,9 +106,12 @@ function bestSide({ bins, sample }, { start, bins: width, lowMeans, highMeans },
   const below = { a: new Float64Array(sample.a.length), b: new Float64Array(sample.b.length) };
   let best = null;
   for (let edge = 0; edge < width - 1; edge += 1) {
-    for (const side of ["a", "b"]) sample[side].forEach((row, place) => (below[side][place] += bins.share(start + edge, row)));
+    for (const side of ["a", "b"])
+      sample[side].forEach((row, place) => (below[side][place] += bins.share(start + edge, row)));
     const means = { a: mean(below.a), b: mean(below.b) };
-    const spread = Math.sqrt((squares(below.a, means.a) + squares(below.b, means.b)) / Math.max(sample.a.length + sample.b.length - 2, 1));
+    const spread = Math.sqrt(
+      (squares(below.a, means.a) + squares(below.b, means.b)) / Math.max(sample.a.length + sample.b.length - 2, 1),
+    );
     const size = Math.abs(means.a - means.b) / Math.max(spread, 0.01);
     if (best !== null && size <= best.size) continue;
     // The smaller side of the two says more.
@@ -89,7 +130,19 @@ function bestSide({ bins, sample }, { start, bins: width, lowMeans, highMeans },
 function sentence({ means, where, place, outer }, a, b, data) {
   const [more, less] = means.a > means.b ? [a, b] : [b, a];
   const meant = outer && place !== "" ? [" (", place, ")"] : [];
-  return ["In ", called(more), ", ", element("b", {}, percent(means[more.side])), ` of ${data.whole} lies where ${where}`, ...meant, "; in ", called(less), ", ", element("b", {}, percent(means[less.side])), "."];
+  return [
+    "In ",
+    called(more),
+    ", ",
+    element("b", {}, percent(means[more.side])),
+    ` of ${data.whole} lies where ${where}`,
+    ...meant,
+    "; in ",
+    called(less),
+    ", ",
+    element("b", {}, percent(means[less.side])),
+    ".",
+  ];
 }
 
 function squares(values, middle) {
@@ -102,9 +155,19 @@ function inCommon(contrast, a, b, data) {
   const shares = shared.filter((column) => bins.isShare(column));
   const column = shares.find((own) => bins.features[bins.featureOf(own)].dimensions === 1) ?? shares[0];
   if (column === undefined) return null;
-  const [first, second, others] = [sample.a, sample.b, sample.rest].map((rows) => mean(rows.map((row) => bins.share(column, row))));
+  const [first, second, others] = [sample.a, sample.b, sample.rest].map((rows) =>
+    mean(rows.map((row) => bins.share(column, row))),
+  );
   const more = first + second > 2 * others;
-  return ["Of both, ", element("b", {}, more ? "more" : "less"), ` of ${data.whole} than of other shapes lies where ${data.where[column]}: `, called(a), ` ${percent(first)}, `, called(b), ` ${percent(second)}, the others ${percent(others)}.`];
+  return [
+    "Of both, ",
+    element("b", {}, more ? "more" : "less"),
+    ` of ${data.whole} than of other shapes lies where ${data.where[column]}: `,
+    called(a),
+    ` ${percent(first)}, `,
+    called(b),
+    ` ${percent(second)}, the others ${percent(others)}.`,
+  ];
 }
 
 function said(text) {
@@ -121,6 +184,15 @@ export function kinship(a, b, neighbours) {
   const [there, back] = [neighbours.between(a.shapes, b.shapes), neighbours.between(b.shapes, a.shapes)];
   const told = (value) => `${Math.round(100 * value)} %`;
   if (there === null) return null;
-  if (there === 0 && back === 0) return ["No shape of the one is among the ", count(neighbours.k, "nearest neighbour"), " of a shape of the other."];
-  return ["Of the ", count(neighbours.k, "nearest neighbour"), " of a shape of ", called(a), `, ${told(there)} on average are of `, called(b), `; the other way round it is ${told(back)}.`];
+  if (there === 0 && back === 0)
+    return ["No shape of the one is among the ", count(neighbours.k, "nearest neighbour"), " of a shape of the other."];
+  return [
+    "Of the ",
+    count(neighbours.k, "nearest neighbour"),
+    " of a shape of ",
+    called(a),
+    `, ${told(there)} on average are of `,
+    called(b),
+    `; the other way round it is ${told(back)}.`,
+  ];
 }

@@ -11,7 +11,12 @@ export function binCard(column, view, { shared = false } = {}) {
   hue.style.background = bins.color(column);
   const { title, name } = bins.features[bins.featureOf(column)];
   const share = bins.isShare(column);
-  const row = (group, rows) => ({ mark: group.mark(), name: group.name, color: group.color(), values: rows.map((index) => bins.share(column, index)) });
+  const row = (group, rows) => ({
+    mark: group.mark(),
+    name: group.name,
+    color: group.color(),
+    values: rows.map((index) => bins.share(column, index)),
+  });
   const rows = [row(a, contrast.sample.a), row(b, contrast.sample.b)];
   if (shared) rows.push(row(rest, contrast.sample.rest));
   const means = rows.map(({ values }) => mean(values));
@@ -21,7 +26,19 @@ export function binCard(column, view, { shared = false } = {}) {
     element(
       "p",
       { class: "bin-name" },
-      element("button", { type: "button", class: "bin-chip", "data-column": column, "aria-pressed": String(column === view.bin), title: "Show it on shapes", onclick: () => view.look(column) }, hue, element("bdi", {}, bins.shortName(column, 18))),
+      element(
+        "button",
+        {
+          type: "button",
+          class: "bin-chip",
+          "data-column": column,
+          "aria-pressed": String(column === view.bin),
+          title: "Show it on shapes",
+          onclick: () => view.look(column),
+        },
+        hue,
+        element("bdi", {}, bins.shortName(column, 18)),
+      ),
       title !== name && element("span", { class: "quiet" }, title),
     ),
     element("p", { class: "says" }, shared ? common(column, view, means) : statement(column, contrast, a, b, data)),
@@ -31,17 +48,43 @@ export function binCard(column, view, { shared = false } = {}) {
 }
 
 /** What two groups have in common against the rest. */
-function common(column, { a, b, bins, data, rest }, [first, second, others]) {
+function common(column, { a, b, bins, data, rest }, means) {
+  const [first, second, others] = means;
   const told = toldAs(bins.isShare(column));
   const more = (first + second) / 2 > others;
   const figures = [told(first), " and ", told(second), " on average, in ", called(rest), " ", told(others)];
-  if (!bins.isShare(column)) return ["In ", called(a), " and ", called(b), ", ", element("bdi", {}, bins.names[column]), ` is ${more ? "higher" : "lower"} than in other shapes: `, ...figures, "."];
-  return ["In both ", called(a), " and ", called(b), `, ${more ? "more" : "less"} of ${data.whole} than in other shapes lies where ${data.where[column]}: `, ...figures, "."];
+  if (!bins.isShare(column))
+    return [
+      "In ",
+      called(a),
+      " and ",
+      called(b),
+      ", ",
+      element("bdi", {}, bins.names[column]),
+      ` is ${more ? "higher" : "lower"} than in other shapes: `,
+      ...figures,
+      ".",
+    ];
+  return [
+    "In both ",
+    called(a),
+    " and ",
+    called(b),
+    `, ${more ? "more" : "less"} of ${data.whole} than in other shapes lies where ${data.where[column]}: `,
+    ...figures,
+    ".",
+  ];
 }
 
 /** How sure one may be for two single shapes. */
 function ahead(column, contrast, a, b) {
   const share = contrast.ahead(column);
   const [more, less] = share >= 0.5 ? [a, b] : [b, a];
-  return ["A shape of ", element("bdi", {}, more.name), ` has more of it than one of `, element("bdi", {}, less.name), ` ${pairs(Math.max(share, 1 - share))}.`];
+  return [
+    "A shape of ",
+    element("bdi", {}, more.name),
+    ` has more of it than one of `,
+    element("bdi", {}, less.name),
+    ` ${pairs(Math.max(share, 1 - share))}.`,
+  ];
 }

@@ -8,11 +8,14 @@ const SIDES = ["a", "b"];
 
 export class Chooser {
   constructor(database, clusters, state) {
-    Object.assign(this, { database, state });
+    this.database = database;
+    this.state = state;
     this.lists = new Map(SIDES.map((side) => [side, document.getElementById(`group-${side}`)]));
     this.offers = this.#offers(clusters);
     for (const side of SIDES) {
-      this.lists.get(side).addEventListener("change", (event) => this.choose(side, this.shown.get(side)[Number(event.target.value)]));
+      this.lists
+        .get(side)
+        .addEventListener("change", (event) => this.choose(side, this.shown.get(side)[Number(event.target.value)]));
       document.getElementById(`find-${side}`).addEventListener("submit", (event) => {
         event.preventDefault();
         const text = event.target.elements.find.value.trim();
@@ -20,7 +23,9 @@ export class Chooser {
         if (text !== "") this.choose(side, { kind: "search", text });
       });
     }
-    document.getElementById("swap").addEventListener("click", () => state.set({ a: state.get("b"), b: state.get("a") }));
+    document
+      .getElementById("swap")
+      .addEventListener("click", () => state.set({ a: state.get("b"), b: state.get("a") }));
     state.listen((changed) => {
       if (changed.has("a") || changed.has("b")) this.render();
     });
@@ -30,11 +35,17 @@ export class Chooser {
   /** What every database offers: its classes and clusters with their sizes. */
   #offers(clusters) {
     const { database } = this;
-    const classes = database.classes.map((name, group) => ({ spec: { kind: "class", group }, text: `${name} (${database.sizes.get(group) ?? 0})` }));
+    const classes = database.classes.map((name, group) => ({
+      spec: { kind: "class", group },
+      text: `${name} (${database.sizes.get(group) ?? 0})`,
+    }));
     const found = clusters === null || clusters.standIn ? [] : clusters.clusters;
     return [
       [clusters?.standIn ? "Clusters" : "Classes", classes],
-      ["Clusters, made from the features alone", found.map(({ name, size }) => ({ spec: { kind: "cluster", name }, text: `${name} (${size})` }))],
+      [
+        "Clusters, made from the features alone",
+        found.map(({ name, size }) => ({ spec: { kind: "cluster", name }, text: `${name} (${size})` })),
+      ],
     ];
   }
 
@@ -42,7 +53,8 @@ export class Chooser {
     const other = side === "a" ? "b" : "a";
     const patch = { [side]: spec };
     // Two rests are no question; the other side has then to be chosen anew.
-    if (spec !== null && isSame(spec, this.state.get(other))) patch[other] = spec.kind === "rest" ? null : { kind: "rest" };
+    if (spec !== null && isSame(spec, this.state.get(other)))
+      patch[other] = spec.kind === "rest" ? null : { kind: "rest" };
     this.state.set(patch);
   }
 
@@ -54,17 +66,27 @@ export class Chooser {
       // The set of shapes that came along can be chosen on both sides.
       for (const known of [spec, other]) {
         if (known?.kind === "shapes" || known?.kind === "search") {
-          if (!own.some((offer) => isSame(offer.spec, known))) own.push({ spec: known, text: textOf(known, this.database) });
+          if (!own.some((offer) => isSame(offer.spec, known)))
+            own.push({ spec: known, text: textOf(known, this.database) });
         }
       }
       const lists = [...this.offers, ["Other groups", own]].filter(([, offers]) => offers.length > 0);
       const flat = lists.flatMap(([, offers]) => offers);
-      this.shown.set(side, flat.map((offer) => offer.spec));
+      this.shown.set(
+        side,
+        flat.map((offer) => offer.spec),
+      );
       let number = 0;
       const list = this.lists.get(side);
       list.replaceChildren(
         element("option", { value: "", disabled: true, hidden: true }, "Choose a group"),
-        ...lists.map(([label, offers]) => element("optgroup", { label }, offers.map(({ text }) => element("option", { value: number++ }, text)))),
+        ...lists.map(([label, offers]) =>
+          element(
+            "optgroup",
+            { label },
+            offers.map(({ text }) => element("option", { value: number++ }, text)),
+          ),
+        ),
       );
       const place = flat.findIndex((offer) => spec !== null && isSame(offer.spec, spec));
       list.value = place < 0 ? "" : String(place);

@@ -1,5 +1,6 @@
 // What sets two groups apart and what they share, worked out by the engine.
 
+import { sampled } from "../database/sample.js";
 import { startEngine } from "../engine/client.js";
 
 /** Of a larger group a sample speaks: enough to know a share to two parts in a hundred. */
@@ -16,7 +17,9 @@ export class Contrasts {
 
   /** `bins` is a promise of the Bins, which are loaded when two groups are first compared. */
   constructor(database, data, bins) {
-    Object.assign(this, { database, data, bins });
+    this.database = database;
+    this.data = data;
+    this.bins = bins;
   }
 
   /** The rows of a group that speak for it, rising. */
@@ -46,7 +49,11 @@ export class Contrasts {
       const values = valuesOf(bins, rows);
       const blocks = Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column));
       this.#engine ??= await startEngine(null);
-      job = this.#engine.run("contrast", { rows: rows.length, values, blocks, weights: this.data.weights, contests, seed: SEED }, report);
+      job = this.#engine.run(
+        "contrast",
+        { rows: rows.length, values, blocks, weights: this.data.weights, contests, seed: SEED },
+        report,
+      );
       if (cancelled) job.cancel();
       const [apart, both, ownRest, othersRest] = await job.done;
       return new Contrast(bins, sample, contests, { apart, both, ownRest, othersRest });
@@ -65,7 +72,8 @@ export class Contrasts {
 function valuesOf(bins, rows) {
   const values = new Float32Array(bins.count * rows.length);
   for (let column = 0; column < bins.count; column += 1) {
-    for (let place = 0; place < rows.length; place += 1) values[column * rows.length + place] = bins.value(column, rows[place]);
+    for (let place = 0; place < rows.length; place += 1)
+      values[column * rows.length + place] = bins.value(column, rows[place]);
   }
   return values;
 }
@@ -73,7 +81,10 @@ function valuesOf(bins, rows) {
 /** What came out of a comparison. */
 class Contrast {
   constructor(bins, sample, contests, { apart, both, ownRest, othersRest }) {
-    Object.assign(this, { bins, sample, apart, both });
+    this.bins = bins;
+    this.sample = sample;
+    this.apart = apart;
+    this.both = both;
     const [{ first, second }] = contests;
     this.difference = Array.from(apart.effect, (effect) => standardised(effect, first.length, second.length));
     this.ranked = [...this.difference.keys()].filter((column) => apart.effect[column] !== 0);
@@ -110,7 +121,13 @@ class Contrast {
     const clear = (column) => Math.min(Math.abs(own[column]), Math.abs(others[column])) - Math.abs(difference[column]);
     this.against = { a: own, b: others };
     return [...difference.keys()]
-      .filter((column) => Math.abs(both.effect[column]) > both.limit * (1 + 1e-9) && own[column] * others[column] > 0 && !this.isBeyond(column) && clear(column) > 0)
+      .filter(
+        (column) =>
+          Math.abs(both.effect[column]) > both.limit * (1 + 1e-9) &&
+          own[column] * others[column] > 0 &&
+          !this.isBeyond(column) &&
+          clear(column) > 0,
+      )
       .sort((one, other) => clear(other) - clear(one) || one - other);
   }
 
@@ -133,7 +150,10 @@ function standardised(effect, first, second) {
   const share = Math.abs(effect);
   if (share >= 1 - 1e-9) return Math.sign(effect) * NO_SPREAD;
   const count = first + second;
-  return Math.sign(effect) * Math.min(Math.sqrt(((share / (1 - share)) * Math.max(count - 2, 1) * count) / (first * second)), NO_SPREAD);
+  return (
+    Math.sign(effect) *
+    Math.min(Math.sqrt(((share / (1 - share)) * Math.max(count - 2, 1) * count) / (first * second)), NO_SPREAD)
+  );
 }
 
 /** Rows by rising distance from the mean of their group: the most central first. */

@@ -28,7 +28,11 @@ export function distribution(rows, share) {
       element("span", { class: "mean" }, told(mean(row.values))),
     ]),
     element("span", { class: "group-name" }),
-    element("span", { class: "axis-of", "aria-hidden": "true" }, [least, (least + most) / 2, most].map((value) => element("i", {}, told(value)))),
+    element(
+      "span",
+      { class: "axis-of", "aria-hidden": "true" },
+      [least, (least + most) / 2, most].map((value) => element("i", {}, told(value))),
+    ),
     element("span", { class: "mean quiet" }, "mean"),
   );
 }
@@ -37,14 +41,21 @@ function strip({ values, color, at }, place) {
   const rising = [...values].sort((a, b) => a - b);
   const parts = rising.length <= MOST_DOTS ? dots(rising, color, place) : bars(rising, color, place);
   const line = svg("rect", { x: `${place(mean(values))}%`, y: 2, width: 2, height: ROW - 4, class: "at-mean" });
-  const outstanding = at !== undefined && svg("circle", { cx: `${place(at)}%`, cy: ROW / 2, r: 5, class: "outstanding" });
+  const outstanding =
+    at !== undefined && svg("circle", { cx: `${place(at)}%`, cy: ROW / 2, r: 5, class: "outstanding" });
   return svg("svg", { class: "dots-of", height: ROW, width: "100%", "aria-hidden": "true" }, parts, line, outstanding);
 }
 
 function dots(rising, color, place) {
   const quantile = (share) => rising[Math.round(share * (rising.length - 1))];
   const [low, high] = [place(quantile(0.25)), place(quantile(0.75))];
-  const band = svg("rect", { x: `${low}%`, y: 5, width: `${Math.max(high - low, 0.4)}%`, height: ROW - 10, class: "band" });
+  const band = svg("rect", {
+    x: `${low}%`,
+    y: 5,
+    width: `${Math.max(high - low, 0.4)}%`,
+    height: ROW - 10,
+    class: "band",
+  });
   const marks = rising.map((value) => svg("circle", { cx: `${place(value)}%`, cy: ROW / 2, r: 2.2 }));
   const group = svg("g", {}, band, marks);
   group.style.fill = color;

@@ -5,7 +5,9 @@ import { share } from "./words.js";
 
 export function featureRows(view) {
   const { contrast, bins } = view;
-  const rows = bins.features.map((feature, index) => ({ feature, index, ...contrast.apart.features[index] })).sort((a, b) => b.share - a.share || a.index - b.index);
+  const rows = bins.features
+    .map((feature, index) => ({ feature, index, ...contrast.apart.features[index] }))
+    .sort((a, b) => b.share - a.share || a.index - b.index);
   const longest = Math.max(...rows.map((row) => Math.max(row.share, row.limit)), 1e-9);
   return rows.map((row) => {
     const best = contrast.ranked.find((column) => bins.featureOf(column) === row.index);
@@ -18,10 +20,37 @@ export function featureRows(view) {
     return element(
       "li",
       { class: beyond ? null : "within" },
-      element("span", { class: "feature" }, element("bdi", {}, row.feature.name), row.feature.title !== row.feature.name && element("span", { class: "quiet" }, row.feature.title)),
+      element(
+        "span",
+        { class: "feature" },
+        element("bdi", {}, row.feature.name),
+        row.feature.title !== row.feature.name && element("span", { class: "quiet" }, row.feature.title),
+      ),
       element("span", { class: "share-bar" }, fill, chance),
-      element("span", { class: "figure" }, share(row.share), element("span", { class: "quiet" }, beyond ? "" : " within chance")),
-      element("span", { class: "best" }, best === undefined ? "" : element("button", { type: "button", class: "bin-chip", "data-column": best, "aria-pressed": String(best === view.bin), title: "Its bin that differs most: show it on shapes", onclick: () => view.look(best) }, element("bdi", {}, bins.shortName(best, 14)))),
+      element(
+        "span",
+        { class: "figure" },
+        share(row.share),
+        element("span", { class: "quiet" }, beyond ? "" : " within chance"),
+      ),
+      element(
+        "span",
+        { class: "best" },
+        best === undefined
+          ? ""
+          : element(
+              "button",
+              {
+                type: "button",
+                class: "bin-chip",
+                "data-column": best,
+                "aria-pressed": String(best === view.bin),
+                title: "Its bin that differs most: show it on shapes",
+                onclick: () => view.look(best),
+              },
+              element("bdi", {}, bins.shortName(best, 14)),
+            ),
+      ),
       element("span", { class: "quiet measures" }, row.feature.measures),
     );
   });

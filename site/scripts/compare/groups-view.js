@@ -11,6 +11,7 @@ import { answer, kinship } from "./answer.js";
 import { binCard } from "./bin-cards.js";
 import { Chooser } from "./chooser.js";
 import { Contrasts, MOST_COMPARED, varied } from "./contrasts.js";
+import { featureRows } from "./feature-rows.js";
 import { Groups } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
 import { called } from "./words.js";
@@ -19,11 +20,14 @@ const FIRST = 6;
 const MORE = 12;
 const SHARED = 4;
 const FACES = 5;
-const SIDES = ["a", "b"];
 
 export class GroupsView {
   constructor(database, data, clusters, neighbours, state, { bins, announce }) {
-    Object.assign(this, { database, data, neighbours, state, announce });
+    this.database = database;
+    this.data = data;
+    this.neighbours = neighbours;
+    this.state = state;
+    this.announce = announce;
     this.groups = new Groups(database, clusters);
     this.chooser = new Chooser(database, clusters, state);
     this.contrasts = new Contrasts(database, data, bins);
@@ -59,7 +63,11 @@ export class GroupsView {
     }
     const key = JSON.stringify([pair.a.shapes, pair.b.shapes]);
     this.pair = pair;
-    this.inquiry.ask(key, (report) => this.contrasts.start(pair.a.shapes, pair.b.shapes, report), (contrast) => this.#answered(contrast, pair));
+    this.inquiry.ask(
+      key,
+      (report) => this.contrasts.start(pair.a.shapes, pair.b.shapes, report),
+      (contrast) => this.#answered(contrast, pair),
+    );
   }
 
   /** Why these groups cannot be compared, in words; or null. */
@@ -69,7 +77,11 @@ export class GroupsView {
     if (a === null || b === null) {
       return database.labelled
         ? ["Choose a group on each side: a class, shapes that a search finds, or all other shapes."]
-        : ["This database has no labels. Find shapes by words above, or select some on the ", element("a", { href: pageAddress("index.html") }, "Overview"), " and choose “Compare with the rest” there."];
+        : [
+            "This database has no labels. Find shapes by words above, or select some on the ",
+            element("a", { href: pageAddress("index.html") }, "Overview"),
+            " and choose “Compare with the rest” there.",
+          ];
     }
     for (const group of [a, b]) {
       if (group.shapes.length > 0) continue;
@@ -77,7 +89,8 @@ export class GroupsView {
       if (group.spec.kind === "rest") return ["All shapes are in ", called(group === a ? b : a), ": there is no rest."];
       return ["There is no shape in ", called(group), " that the other group does not have."];
     }
-    if (a.shapes.length + b.shapes.length < 3) return ["Two single shapes: the page of a shape shows how they differ. Here at least one group needs two."];
+    if (a.shapes.length + b.shapes.length < 3)
+      return ["Two single shapes: the page of a shape shows how they differ. Here at least one group needs two."];
     return null;
   }
 
@@ -91,25 +104,47 @@ export class GroupsView {
   /** Counts and faces of both groups. */
   #heads({ a, b, common }) {
     const { database } = this;
-    for (const [side, group] of [["a", a], ["b", b]]) {
+    for (const [side, group] of [
+      ["a", a],
+      ["b", b],
+    ]) {
       const node = document.getElementById(`head-${side}`);
       node.replaceChildren();
       if (!group || group.shapes.length === 0) continue;
       const query = new URLSearchParams();
       writeSelection(query, database, new Set(group.shapes));
       node.replaceChildren(
-        element("p", {}, group.mark(), element("b", {}, count(group.shapes.length, "shape")), " ", element("a", { href: galleryOf(database, new Set(group.shapes)) }, "Show in Shapes"), " ", element("a", { href: pageAddress("index.html", query) }, "on the map")),
-        element("div", { class: "faces" }, faces(group.shapes).map((index) => picture(database, index, 64))),
+        element(
+          "p",
+          {},
+          group.mark(),
+          element("b", {}, count(group.shapes.length, "shape")),
+          " ",
+          element("a", { href: galleryOf(database, new Set(group.shapes)) }, "Show in Shapes"),
+          " ",
+          element("a", { href: pageAddress("index.html", query) }, "on the map"),
+        ),
+        element(
+          "div",
+          { class: "faces" },
+          faces(group.shapes).map((index) => picture(database, index, 64)),
+        ),
       );
     }
-    document.getElementById("common").textContent = common > 0 ? `${count(common, "shape")} would be in both groups; the smaller one keeps ${common === 1 ? "it" : "them"}.` : "";
+    document.getElementById("common").textContent =
+      common > 0
+        ? `${count(common, "shape")} would be in both groups; the smaller one keeps ${common === 1 ? "it" : "them"}.`
+        : "";
   }
 
   #tell({ kind, progress, message }) {
     const { database, status } = this;
     document.getElementById("groups").setAttribute("aria-busy", String(kind === "working"));
     if (kind === "working") {
-      const words = progress > 0 ? "Dealing the shapes out at random, to know what chance does …" : `Reading the bins of ${count(database.count, "shape")} …`;
+      const words =
+        progress > 0
+          ? "Dealing the shapes out at random, to know what chance does …"
+          : `Reading the bins of ${count(database.count, "shape")} …`;
       if (!this.bar) {
         this.bar = { words: element("p", {}), progress: element("progress", { max: 1, "aria-label": "Comparing" }) };
         status.replaceChildren(element("div", { class: "working" }, this.bar.words, this.bar.progress));
@@ -130,7 +165,17 @@ export class GroupsView {
     const best = contrast.ranked[0] ?? 0;
     const rest = { side: "rest", name: "the rest", color: () => "var(--quiet)", mark: () => null };
     const look = (column) => this.state.set({ bin: bins.names[column] });
-    this.view = { contrast, a, b, bins, data: this.data, rest, look, best, bin: bins.names.indexOf(named) >= 0 ? bins.names.indexOf(named) : best };
+    this.view = {
+      contrast,
+      a,
+      b,
+      bins,
+      data: this.data,
+      rest,
+      look,
+      best,
+      bin: bins.names.indexOf(named) >= 0 ? bins.names.indexOf(named) : best,
+    };
     this.shown = FIRST;
     this.result.hidden = false;
     this.#render();
@@ -142,24 +187,41 @@ export class GroupsView {
     const { view, data, neighbours } = this;
     const { contrast, a, b, bins } = view;
     const kin = neighbours === null ? null : kinship(a, b, neighbours);
-    const sampled = [a, b].filter(({ shapes }) => shapes.length > MOST_COMPARED).map((group) => [called(group), ` by a sample of ${grouped(MOST_COMPARED)}`]);
+    const sampled = [a, b]
+      .filter(({ shapes }) => shapes.length > MOST_COMPARED)
+      .map((group) => [called(group), ` by a sample of ${grouped(MOST_COMPARED)}`]);
     document.getElementById("answer").replaceChildren(
       ...answer(contrast, a, b, data, kin),
-      ...(sampled.length > 0 ? [element("p", { class: "quiet" }, sampled.flatMap((words, place) => [place > 0 ? ", " : "", words].flat()), ".")] : []),
+      ...(sampled.length > 0
+        ? [
+            element(
+              "p",
+              { class: "quiet" },
+              sampled.flatMap((words, place) => [place > 0 ? ", " : "", words].flat()),
+              ".",
+            ),
+          ]
+        : []),
     );
     this.#bins();
     this.#shared();
     document.getElementById("feature-rows").replaceChildren(...featureRows(view));
-    const classes = [a, b].every(({ spec }) => spec.kind === "class") ? [a, b].map(({ spec }) => ["class", this.database.classes[spec.group]]) : [];
+    const classes = [a, b].every(({ spec }) => spec.kind === "class")
+      ? [a, b].map(({ spec }) => ["class", this.database.classes[spec.group]])
+      : [];
     const columns = varied(contrast.ranked, bins, FIRST);
-    document.getElementById("to-workbench").href = pageAddress("workbench.html", [...classes, ["bins", shortNames(columns, bins.features)]]);
+    document.getElementById("to-workbench").href = pageAddress("workbench.html", [
+      ...classes,
+      ["bins", shortNames(columns, bins.features)],
+    ]);
     if (this.seen.view === view) this.seen.draw();
   }
 
   #bins() {
     const { view } = this;
     const { contrast, bins } = view;
-    const columns = this.shown === FIRST ? varied(contrast.ranked, bins, FIRST) : oneOfDimension(contrast.ranked, bins, this.shown);
+    const columns =
+      this.shown === FIRST ? varied(contrast.ranked, bins, FIRST) : oneOfDimension(contrast.ranked, bins, this.shown);
     const within = contrast.beyond.length === 0;
     document.getElementById("apart-words").textContent = within
       ? "These bins differ most between the two groups, but no more than bins do when the shapes are dealt out at random."
@@ -167,7 +229,8 @@ export class GroupsView {
     const list = document.getElementById("apart-bins");
     list.classList.toggle("within", within);
     list.replaceChildren(...columns.map((column) => binCard(column, view)));
-    document.getElementById("more-bins").hidden = oneOfDimension(contrast.ranked, bins, columns.length + 1).length <= columns.length;
+    document.getElementById("more-bins").hidden =
+      oneOfDimension(contrast.ranked, bins, columns.length + 1).length <= columns.length;
   }
 
   #shared() {
@@ -175,30 +238,44 @@ export class GroupsView {
     const { contrast, bins, a, b } = view;
     const columns = varied(contrast.shared, bins, SHARED);
     const nobody = contrast.sample.rest.length < 2;
-    document.getElementById("shared-words").replaceChildren(
-      ...(nobody
-        ? ["Every shape is in one of the two groups, so there are no others that they could be alike against."]
-        : columns.length === 0
-          ? ["No bin sets ", called(a), " and ", called(b), " together apart from the other shapes: what they have in common, others have too."]
-          : ["Here both are unlike the other shapes of the database, and like each other."]),
-    );
-    document.getElementById("shared-bins").replaceChildren(...columns.map((column) => binCard(column, view, { shared: true })));
+    document
+      .getElementById("shared-words")
+      .replaceChildren(
+        ...(nobody
+          ? ["Every shape is in one of the two groups, so there are no others that they could be alike against."]
+          : columns.length === 0
+            ? [
+                "No bin sets ",
+                called(a),
+                " and ",
+                called(b),
+                " together apart from the other shapes: what they have in common, others have too.",
+              ]
+            : ["Here both are unlike the other shapes of the database, and like each other."]),
+      );
+    document
+      .getElementById("shared-bins")
+      .replaceChildren(...columns.map((column) => binCard(column, view, { shared: true })));
   }
 
   #look() {
     const { view } = this;
     const place = view.bins.names.indexOf(this.state.get("bin"));
     view.bin = place >= 0 ? place : view.best;
-    for (const chip of this.result.querySelectorAll(".bin-chip")) chip.setAttribute("aria-pressed", String(Number(chip.dataset.column) === view.bin));
+    for (const chip of this.result.querySelectorAll(".bin-chip"))
+      chip.setAttribute("aria-pressed", String(Number(chip.dataset.column) === view.bin));
     this.seen.draw();
-    if (place >= 0 && document.activeElement?.matches("#result .bin-chip")) document.getElementById("seen").scrollIntoView({ block: "nearest" });
+    if (place >= 0 && document.activeElement?.matches("#result .bin-chip"))
+      document.getElementById("seen").scrollIntoView({ block: "nearest" });
   }
 }
 
 /** The best bin of each dimension. */
 function oneOfDimension(columns, bins, most) {
   const dimensions = new Set();
-  return columns.filter((column) => !dimensions.has(column - bins.binOf(column)) && dimensions.add(column - bins.binOf(column))).slice(0, most);
+  return columns
+    .filter((column) => !dimensions.has(column - bins.binOf(column)) && dimensions.add(column - bins.binOf(column)))
+    .slice(0, most);
 }
 
 /** A few shapes from all over a group. */

@@ -7,6 +7,8 @@ import { findWords, searchTexts } from "../database/search.js";
 const LONGEST = 40;
 
 export class Groups {
+  #texts = null;
+
   constructor(database, clusters) {
     this.database = database;
     // Clusters that stand in for labels are the classes already.
@@ -49,8 +51,8 @@ export class Groups {
         return place < 0 ? [] : where((index) => this.clusters.of[index] === place);
       }
       case "search":
-        this.texts ??= await searchTexts(database);
-        return findWords(this.texts, spec.text);
+        this.#texts ??= await searchTexts(database);
+        return findWords(this.#texts, spec.text);
       case "shapes":
         return [...spec.shapes].sort((one, other) => one - other);
       default:
@@ -67,7 +69,12 @@ export class Groups {
   #look(spec, side, other) {
     const { database } = this;
     const own = spec.kind === "class";
-    const color = () => (own ? database.color(spec.group) : spec.kind === "rest" ? "var(--quiet)" : `var(--${side === "a" ? "accent" : "warn"})`);
+    const color = () =>
+      own
+        ? database.color(spec.group)
+        : spec.kind === "rest"
+          ? "var(--quiet)"
+          : `var(--${side === "a" ? "accent" : "warn"})`;
     return {
       spec,
       side,
@@ -93,5 +100,7 @@ export function isSame(one, other) {
 }
 
 function key(spec) {
-  return spec === null ? "" : JSON.stringify({ ...spec, shapes: spec.shapes && [...spec.shapes].sort((a, b) => a - b) });
+  return spec === null
+    ? ""
+    : JSON.stringify({ ...spec, shapes: spec.shapes && [...spec.shapes].sort((a, b) => a - b) });
 }

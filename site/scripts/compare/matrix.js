@@ -16,7 +16,11 @@ const MOST_FIGURES = 20;
 
 export class Matrix {
   constructor(database, data, neighbours, state, { announce }) {
-    Object.assign(this, { database, data, neighbours, state, announce });
+    this.database = database;
+    this.data = data;
+    this.neighbours = neighbours;
+    this.state = state;
+    this.announce = announce;
     this.node = document.getElementById("matrix");
     if (this.node === null) return;
     this.words = document.getElementById("cell-words");
@@ -60,37 +64,72 @@ export class Matrix {
         return element(
           "li",
           {},
-          element("button", { type: "button", class: "plain pair-of", onclick: () => this.#open(from, to) }, this.#name(from), " → ", this.#name(to)),
+          element(
+            "button",
+            { type: "button", class: "plain pair-of", onclick: () => this.#open(from, to) },
+            this.#name(from),
+            " → ",
+            this.#name(to),
+          ),
           element("span", { class: "quiet" }, `${percents(most)}, back ${percents(least)}`),
         );
       }),
     );
     document.getElementById("likest-none").hidden = pairs.length > 0;
-    document.getElementById("likest-none").textContent = database.classes.length > 1 ? "No shape has a neighbour of another class: the classes are all apart." : "";
+    document.getElementById("likest-none").textContent =
+      database.classes.length > 1 ? "No shape has a neighbour of another class: the classes are all apart." : "";
   }
 
   #draw() {
     const { database, data, node, state } = this;
     const order = data.order;
     const figures = order.length <= MOST_FIGURES;
-    const highest = Math.max(...order.flatMap((row) => order.filter((column) => column !== row).map((column) => this.share(row, column))), 1e-9);
-    const at = state.get("row") !== null && state.get("column") !== null ? [state.get("row"), state.get("column")] : [order[0], order[0]];
+    const highest = Math.max(
+      ...order.flatMap((row) => order.filter((column) => column !== row).map((column) => this.share(row, column))),
+      1e-9,
+    );
+    const at =
+      state.get("row") !== null && state.get("column") !== null
+        ? [state.get("row"), state.get("column")]
+        : [order[0], order[0]];
     const head = element(
       "tr",
       {},
       element("td", { class: "corner" }, element("span", { class: "quiet" }, "neighbours →")),
-      order.map((column) => element("th", { scope: "col", title: database.className(column) }, element("span", {}, swatch(database.symbol(column), database.color(column)), element("bdi", {}, shortened(database.className(column), 24))))),
+      order.map((column) =>
+        element(
+          "th",
+          { scope: "col", title: database.className(column) },
+          element(
+            "span",
+            {},
+            swatch(database.symbol(column), database.color(column)),
+            element("bdi", {}, shortened(database.className(column), 24)),
+          ),
+        ),
+      ),
     );
     const rows = order.map((row) =>
       element(
         "tr",
         {},
-        element("th", { scope: "row", title: database.className(row) }, element("bdi", {}, shortened(database.className(row), 24)), swatch(database.symbol(row), database.color(row))),
+        element(
+          "th",
+          { scope: "row", title: database.className(row) },
+          element("bdi", {}, shortened(database.className(row), 24)),
+          swatch(database.symbol(row), database.color(row)),
+        ),
         order.map((column) => {
           const share = this.share(row, column);
           const cell = element(
             "td",
-            { "data-row": row, "data-column": column, tabindex: at[0] === row && at[1] === column ? "0" : "-1", class: row === column ? "own" : null, "aria-label": this.#sentence(row, column) },
+            {
+              "data-row": row,
+              "data-column": column,
+              tabindex: at[0] === row && at[1] === column ? "0" : "-1",
+              class: row === column ? "own" : null,
+              "aria-label": this.#sentence(row, column),
+            },
             figures && share > 0 ? Math.round(100 * share) || "<1" : "",
           );
           const much = row === column ? share * 0.35 : share > 0 ? 0.12 + 0.88 * Math.sqrt(share / highest) : 0;
@@ -106,7 +145,12 @@ export class Matrix {
 
   #name(group) {
     const { database } = this;
-    return element("span", { class: "called" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, shortened(database.className(group), 32)));
+    return element(
+      "span",
+      { class: "called" },
+      swatch(database.symbol(group), database.color(group)),
+      element("bdi", {}, shortened(database.className(group), 32)),
+    );
   }
 
   #sentence(row, column) {
@@ -174,29 +218,84 @@ export class Matrix {
     const query = new URLSearchParams();
     writeSelection(query, database, all);
     const ways = [
-      row !== column && element("a", { href: compareAddress(database, { kind: "class", group: row }, { kind: "class", group: column }) }, "Compare these classes"),
-      row !== column && element("a", { href: pageAddress("workbench.html", [["class", database.classes[row]], ["class", database.classes[column]]]) }, "Into the Workbench"),
+      row !== column &&
+        element(
+          "a",
+          { href: compareAddress(database, { kind: "class", group: row }, { kind: "class", group: column }) },
+          "Compare these classes",
+        ),
+      row !== column &&
+        element(
+          "a",
+          {
+            href: pageAddress("workbench.html", [
+              ["class", database.classes[row]],
+              ["class", database.classes[column]],
+            ]),
+          },
+          "Into the Workbench",
+        ),
       all.size > 0 && element("a", { href: galleryOf(database, all) }, `Show the ${count(all.size, "shape")}`),
       all.size > 0 && element("a", { href: pageAddress("index.html", query) }, "On the map"),
     ].filter(Boolean);
     const own = row === column;
-    node.replaceChildren(...[
-      element("h3", {}, this.#name(row), " → ", this.#name(column)),
-      element("p", {}, pairs.length === 0
-        ? own ? "No shape of this class has another one of it among its neighbours." : "No shape of the one is a neighbour of a shape of the other."
-        : [element("b", {}, `${pairs.length} of ${count(database.sizes.get(row), "shape")}`), ` of `, element("bdi", {}, database.className(row)), ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? "of their own class" : "of "}`, !own && element("bdi", {}, database.className(column)), ": ", `${percents(this.share(row, column))} of all their neighbours.`]),
-      element("p", { class: "ways" }, ways.flatMap((way) => [way, " "])),
-      element("ul", { class: "behind-list" }, pairs.slice(0, MOST_BEHIND).map(({ index, near }) =>
-        element("li", {}, this.#face(index), element("span", { class: "arrow", "aria-hidden": "true" }, "→"), near.slice(0, NEAR).map((other) => this.#face(other)), near.length > NEAR && element("span", { class: "quiet" }, `+${near.length - NEAR}`)),
-      )),
-      pairs.length > MOST_BEHIND && element("p", { class: "quiet" }, `and ${count(pairs.length - MOST_BEHIND, "more shape")}`),
-    ].filter(Boolean));
+    node.replaceChildren(
+      ...[
+        element("h3", {}, this.#name(row), " → ", this.#name(column)),
+        element(
+          "p",
+          {},
+          pairs.length === 0
+            ? own
+              ? "No shape of this class has another one of it among its neighbours."
+              : "No shape of the one is a neighbour of a shape of the other."
+            : [
+                element("b", {}, `${pairs.length} of ${count(database.sizes.get(row), "shape")}`),
+                ` of `,
+                element("bdi", {}, database.className(row)),
+                ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? "of their own class" : "of "}`,
+                !own && element("bdi", {}, database.className(column)),
+                ": ",
+                `${percents(this.share(row, column))} of all their neighbours.`,
+              ],
+        ),
+        element(
+          "p",
+          { class: "ways" },
+          ways.flatMap((way) => [way, " "]),
+        ),
+        element(
+          "ul",
+          { class: "behind-list" },
+          pairs.slice(0, MOST_BEHIND).map(({ index, near }) =>
+            element(
+              "li",
+              {},
+              this.#face(index),
+              element("span", { class: "arrow", "aria-hidden": "true" }, "→"),
+              near.slice(0, NEAR).map((other) => this.#face(other)),
+              near.length > NEAR && element("span", { class: "quiet" }, `+${near.length - NEAR}`),
+            ),
+          ),
+        ),
+        pairs.length > MOST_BEHIND &&
+          element("p", { class: "quiet" }, `and ${count(pairs.length - MOST_BEHIND, "more shape")}`),
+      ].filter(Boolean),
+    );
     this.announce(node.querySelector("p").textContent);
   }
 
   #face(index) {
     const { database } = this;
-    return element("a", { href: pageAddress("shape.html", { id: database.ids[index] }), title: database.names[index], "aria-label": database.names[index] }, picture(database, index, 64));
+    return element(
+      "a",
+      {
+        href: pageAddress("shape.html", { id: database.ids[index] }),
+        title: database.names[index],
+        "aria-label": database.names[index],
+      },
+      picture(database, index, 64),
+    );
   }
 }
 

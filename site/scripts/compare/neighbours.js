@@ -3,7 +3,9 @@
 export class Neighbours {
   /** `data` is the chunk "compare", `bytes` the ArrayBuffer of the chunk "neighbours". */
   constructor(database, { k, spaces }, bytes) {
-    Object.assign(this, { database, k, spaces });
+    this.database = database;
+    this.k = k;
+    this.spaces = spaces;
     this.rows = new Uint32Array(bytes);
   }
 
@@ -28,7 +30,8 @@ export class Neighbours {
     const counts = database.classes.map(() => new Array(database.classes.length).fill(0));
     for (const [index, group] of database.groups.entries()) {
       if (group < 0) continue;
-      for (const other of this.of(index, space)) if (database.groups[other] >= 0) counts[group][database.groups[other]] += 1;
+      for (const other of this.of(index, space))
+        if (database.groups[other] >= 0) counts[group][database.groups[other]] += 1;
     }
     return counts;
   }

@@ -14,8 +14,12 @@ const SIDES = ["a", "b"];
 
 export class OnShapes {
   constructor(database, state, announce) {
-    Object.assign(this, { database, state, announce });
+    this.database = database;
+    this.state = state;
+    this.announce = announce;
     this.asked = false;
+    this.selection = null;
+    this.stages = null;
     const inputs = document.querySelectorAll("#readings input");
     this.check = () => {
       for (const input of inputs) input.checked = input.value === state.get("reading");
@@ -47,7 +51,9 @@ export class OnShapes {
     document.getElementById("turn-both").hidden = this.asked || !share || this.selection.models === null;
     const hue = element("i", { class: "hued" });
     hue.style.background = bins.color(bin);
-    document.getElementById("seen-bin").replaceChildren(hue, element("b", {}, element("bdi", {}, bins.names[bin])), " ", bins.sentence(bin));
+    document
+      .getElementById("seen-bin")
+      .replaceChildren(hue, element("b", {}, element("bdi", {}, bins.names[bin])), " ", bins.sentence(bin));
     if (share) this.legend.show(this.selection.dimensions[dimensionOf(bin, bins)], bins.binOf(bin));
     else this.legend.clear();
     for (const side of SIDES) this.#side(side, share);
@@ -60,7 +66,12 @@ export class OnShapes {
     this.legend = new Legend(selection);
     this.paint = new Paint(selection);
     const load = selection.models && ((index) => modelBytes(selection.models[index]));
-    return Object.fromEntries(SIDES.map((side) => [side, new Stage(document.getElementById(`stage-${side}`), { database, load, keys: "turn-keys" })]));
+    return Object.fromEntries(
+      SIDES.map((side) => [
+        side,
+        new Stage(document.getElementById(`stage-${side}`), { database, load, keys: "turn-keys" }),
+      ]),
+    );
   }
 
   #side(side, share) {
@@ -68,11 +79,24 @@ export class OnShapes {
     const { bins, bin } = view;
     const shape = this.chosen[side];
     const group = view[side];
-    const told = (index) => (share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3))));
-    document.getElementById(`seen-${side}`).replaceChildren(
-      element("p", { class: "of" }, group.mark(), element("b", {}, element("bdi", {}, group.name))),
-      element("p", {}, element("a", { href: pageAddress("shape.html", { id: database.ids[shape] }) }, element("bdi", {}, database.names[shape])), " ", element("span", { class: "quiet" }, told(shape))),
-    );
+    const told = (index) =>
+      share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3)));
+    document
+      .getElementById(`seen-${side}`)
+      .replaceChildren(
+        element("p", { class: "of" }, group.mark(), element("b", {}, element("bdi", {}, group.name))),
+        element(
+          "p",
+          {},
+          element(
+            "a",
+            { href: pageAddress("shape.html", { id: database.ids[shape] }) },
+            element("bdi", {}, database.names[shape]),
+          ),
+          " ",
+          element("span", { class: "quiet" }, told(shape)),
+        ),
+      );
     document.getElementById(`examples-${side}`).replaceChildren(
       ...view.contrast.central[side].slice(0, EXAMPLES).map((index) =>
         element(
@@ -102,16 +126,24 @@ export class OnShapes {
     const inside = this.state.get("reading") === "inside";
     if (!this.asked && share) {
       const painting = this.selection.paintings.find((painted) => painted.column === bin && painted.shape === shape);
-      stage.node.replaceChildren(painting === undefined
-        ? picture(this.database, shape, 320)
-        : element("img", { src: resource(inside ? painting.inside : painting.value), alt: `${this.database.names[shape]}, ${inside ? "what falls into the bin" : "its values in colours"}`, width: 320, height: 320 }));
+      stage.node.replaceChildren(
+        painting === undefined
+          ? picture(this.database, shape, 320)
+          : element("img", {
+              src: resource(inside ? painting.inside : painting.value),
+              alt: `${this.database.names[shape]}, ${inside ? "what falls into the bin" : "its values in colours"}`,
+              width: 320,
+              height: 320,
+            }),
+      );
       return;
     }
     stage.asked = true;
     const dimension = share ? dimensionOf(bin, bins) : null;
     stage.show(shape, {
       label: `${this.database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
-      paint: (solid) => (inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension)),
+      paint: (solid) =>
+        inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension),
       reason: share ? null : "This feature has no values on the surface.",
     });
   }

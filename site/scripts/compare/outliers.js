@@ -24,14 +24,21 @@ export class Outliers {
   #usual = new Map();
 
   constructor(database, data, neighbours, state, { bins, announce }) {
-    Object.assign(this, { database, data, neighbours, state, announce, load: bins });
+    this.database = database;
+    this.data = data;
+    this.neighbours = neighbours;
+    this.state = state;
+    this.announce = announce;
+    this.load = bins;
     this.list = document.getElementById("outlier-list");
     this.more = document.getElementById("more-outliers");
     this.filter = document.getElementById("outliers-of");
     this.shown = PAGE;
     if (this.list === null) return;
     this.#offer();
-    this.filter.addEventListener("change", () => state.set({ of: this.filter.value === "" ? null : Number(this.filter.value) }));
+    this.filter.addEventListener("change", () =>
+      state.set({ of: this.filter.value === "" ? null : Number(this.filter.value) }),
+    );
     this.more.addEventListener("click", () => {
       const first = this.shown;
       this.shown += PAGE;
@@ -58,21 +65,25 @@ export class Outliers {
     for (const index of this.ranked(null)) if (this.data.fit[index] < 0) below[database.groups[index]] += 1;
     this.filter.replaceChildren(
       element("option", { value: "" }, "all shapes"),
-      ...database.classes.map((name, group) => element("option", { value: group }, below[group] > 0 ? `${name} (${below[group]} closer to another)` : name)),
+      ...database.classes.map((name, group) =>
+        element("option", { value: group }, below[group] > 0 ? `${name} (${below[group]} closer to another)` : name),
+      ),
     );
   }
 
   async render() {
-    const { database, state, list } = this;
+    const { state, list } = this;
     if (state.get("view") !== "outliers" || list === null) return;
     const of = state.get("of");
     this.filter.value = of === null ? "" : String(of);
     const ranked = this.ranked();
     const closer = ranked.filter((index) => this.data.fit[index] < 0).length;
-    document.getElementById("outlier-words").replaceChildren(
-      element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${ranked.length}`),
-      closer > 1 ? " are closer to another class than to their own." : " is closer to another class than to its own.",
-    );
+    document
+      .getElementById("outlier-words")
+      .replaceChildren(
+        element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${ranked.length}`),
+        closer > 1 ? " are closer to another class than to their own." : " is closer to another class than to its own.",
+      );
     const shown = ranked.slice(0, this.shown);
     this.more.hidden = ranked.length <= shown.length;
     list.replaceChildren(...shown.map((index) => this.#item(index)));
@@ -92,16 +103,90 @@ export class Outliers {
     return element(
       "li",
       { class: "outlier", "data-index": index },
-      element("a", { class: "face", href: pageAddress("shape.html", { id: database.ids[index] }), "aria-label": database.names[index] }, picture(database, index, 128)),
+      element(
+        "a",
+        {
+          class: "face",
+          href: pageAddress("shape.html", { id: database.ids[index] }),
+          "aria-label": database.names[index],
+        },
+        picture(database, index, 128),
+      ),
       element(
         "div",
         { class: "whereabouts" },
-        element("p", { class: "name" }, element("a", { href: pageAddress("shape.html", { id: database.ids[index] }) }, element("bdi", {}, database.names[index])), " ", name(database, own)),
-        element("p", {}, fit < 0 ? ["Closer to ", name(database, rival), " than to its own class."] : ["Of its own class, but next to ", name(database, rival), "."]),
-        element("p", { class: "quiet" }, "Fit ", element("b", { class: "figure" }, signed(fit)), database.methods.map((method) => method.hit[index] !== null && [", NH on ", method.title, " ", figure(method.hit[index]), ofAtMost(highestOf(database, method, index))])),
+        element(
+          "p",
+          { class: "name" },
+          element(
+            "a",
+            { href: pageAddress("shape.html", { id: database.ids[index] }) },
+            element("bdi", {}, database.names[index]),
+          ),
+          " ",
+          name(database, own),
+        ),
+        element(
+          "p",
+          {},
+          fit < 0
+            ? ["Closer to ", name(database, rival), " than to its own class."]
+            : ["Of its own class, but next to ", name(database, rival), "."],
+        ),
+        element(
+          "p",
+          { class: "quiet" },
+          "Fit ",
+          element("b", { class: "figure" }, signed(fit)),
+          database.methods.map(
+            (method) =>
+              method.hit[index] !== null && [
+                ", NH on ",
+                method.title,
+                " ",
+                figure(method.hit[index]),
+                ofAtMost(highestOf(database, method, index)),
+              ],
+          ),
+        ),
         element("p", { class: "quiet" }, this.#census(near)),
-        element("div", { class: "near" }, near.slice(0, NEAREST).map((other) => element("a", { href: pageAddress("shape.html", { id: database.ids[other] }), title: `${database.names[other]}, ${database.className(database.groups[other])}`, "aria-label": `${database.names[other]}, ${database.className(database.groups[other])}` }, picture(database, other, 56), element("i", {}, swatch(database.symbol(database.groups[other]), database.color(database.groups[other])))))),
-        element("p", { class: "ways" }, element("a", { href: compareAddress(database, { kind: "shapes", shapes: new Set([index]) }, { kind: "class", group: own }) }, "Compare with its class"), " ", element("a", { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group: rival }) }, "Compare the two classes")),
+        element(
+          "div",
+          { class: "near" },
+          near.slice(0, NEAREST).map((other) =>
+            element(
+              "a",
+              {
+                href: pageAddress("shape.html", { id: database.ids[other] }),
+                title: `${database.names[other]}, ${database.className(database.groups[other])}`,
+                "aria-label": `${database.names[other]}, ${database.className(database.groups[other])}`,
+              },
+              picture(database, other, 56),
+              element("i", {}, swatch(database.symbol(database.groups[other]), database.color(database.groups[other]))),
+            ),
+          ),
+        ),
+        element(
+          "p",
+          { class: "ways" },
+          element(
+            "a",
+            {
+              href: compareAddress(
+                database,
+                { kind: "shapes", shapes: new Set([index]) },
+                { kind: "class", group: own },
+              ),
+            },
+            "Compare with its class",
+          ),
+          " ",
+          element(
+            "a",
+            { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group: rival }) },
+            "Compare the two classes",
+          ),
+        ),
       ),
       element("div", { class: "reasons", "aria-live": "off" }),
     );
@@ -109,7 +194,14 @@ export class Outliers {
 
   #census(near) {
     const { database } = this;
-    const parts = database.census(near).slice(0, 3).map(([group, number], place) => [place > 0 && ", ", `${number} of `, element("bdi", {}, database.className(group))]);
+    const parts = database
+      .census(near)
+      .slice(0, 3)
+      .map(([group, number], place) => [
+        place > 0 && ", ",
+        `${number} of `,
+        element("bdi", {}, database.className(group)),
+      ]);
     return [`Its ${count(near.length, "nearest neighbour")}: `, parts];
   }
 
@@ -134,9 +226,20 @@ export class Outliers {
     scored.sort((a, b) => b[0] - a[0] || a[1] - b[1]);
     const features = new Set();
     // Features with one value a point are easier to picture: they go first where they say nearly as much.
-    const simple = scored.filter(([gain, column]) => bins.features[bins.featureOf(column)].dimensions === 1 && gain >= scored[0][0] / 3);
-    const chosen = [...simple, ...scored].filter(([, column]) => !features.has(bins.featureOf(column)) && features.add(bins.featureOf(column))).slice(0, REASONS);
-    if (chosen.length === 0) return [element("p", { class: "quiet" }, "No single bin sets it apart from its class: it is unlike in many ways, a little in each.")];
+    const simple = scored.filter(
+      ([gain, column]) => bins.features[bins.featureOf(column)].dimensions === 1 && gain >= scored[0][0] / 3,
+    );
+    const chosen = [...simple, ...scored]
+      .filter(([, column]) => !features.has(bins.featureOf(column)) && features.add(bins.featureOf(column)))
+      .slice(0, REASONS);
+    if (chosen.length === 0)
+      return [
+        element(
+          "p",
+          { class: "quiet" },
+          "No single bin sets it apart from its class: it is unlike in many ways, a little in each.",
+        ),
+      ];
     return chosen.map(([, column]) => this.#reason(index, column, group, other, bins));
   }
 
@@ -146,17 +249,36 @@ export class Outliers {
     const told = toldAs(share);
     const row = (of) => {
       const rows = this.#usualOf(of, bins).rows.filter((shape) => shape !== index);
-      return { mark: swatch(database.symbol(of), database.color(of)), name: database.className(of), color: database.color(of), values: rows.map((shape) => bins.share(column, shape)) };
+      return {
+        mark: swatch(database.symbol(of), database.color(of)),
+        name: database.className(of),
+        color: database.color(of),
+        values: rows.map((shape) => bins.share(column, shape)),
+      };
     };
     const rows = [{ ...row(group), at: bins.share(column, index) }, row(other)];
     const means = rows.map(({ values }) => mean(values));
-    const words = share ? [told(rows[0].at), ` of its ${data.whole.replace("the ", "")} lies where ${data.where[column]}`] : ["Its ", element("bdi", {}, bins.names[column]), ` is ${told(rows[0].at)}`];
+    const words = share
+      ? [told(rows[0].at), ` of its ${data.whole.replace("the ", "")} lies where ${data.where[column]}`]
+      : ["Its ", element("bdi", {}, bins.names[column]), ` is ${told(rows[0].at)}`];
     const hue = element("i", { class: "hued" });
     hue.style.background = bins.color(column);
     return element(
       "div",
       { class: "reason" },
-      element("p", {}, hue, element("b", {}, element("bdi", {}, bins.shortName(column, 18))), " ", words, "; in ", element("bdi", {}, database.className(group)), ` on average ${told(means[0])}, in `, element("bdi", {}, database.className(other)), ` ${told(means[1])}.`),
+      element(
+        "p",
+        {},
+        hue,
+        element("b", {}, element("bdi", {}, bins.shortName(column, 18))),
+        " ",
+        words,
+        "; in ",
+        element("bdi", {}, database.className(group)),
+        ` on average ${told(means[0])}, in `,
+        element("bdi", {}, database.className(other)),
+        ` ${told(means[1])}.`,
+      ),
       distribution(rows, share),
     );
   }
@@ -167,7 +289,12 @@ export class Outliers {
     const all = [...this.database.ids.keys()].filter((index) => this.database.groups[index] === group);
     const step = Math.max(all.length / MOST_USUAL, 1);
     const rows = Array.from({ length: Math.min(all.length, MOST_USUAL) }, (_, place) => all[Math.floor(place * step)]);
-    const usual = { rows, means: new Float64Array(bins.count), shares: new Float64Array(bins.count), spreads: new Float64Array(bins.count) };
+    const usual = {
+      rows,
+      means: new Float64Array(bins.count),
+      shares: new Float64Array(bins.count),
+      spreads: new Float64Array(bins.count),
+    };
     for (let column = 0; column < bins.count; column += 1) {
       const values = rows.map((row) => bins.value(column, row));
       usual.means[column] = mean(values);
@@ -196,7 +323,12 @@ export class Outliers {
 }
 
 function name(database, group) {
-  return element("span", { class: "called" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group)));
+  return element(
+    "span",
+    { class: "called" },
+    swatch(database.symbol(group), database.color(group)),
+    element("bdi", {}, database.className(group)),
+  );
 }
 
 /** A fit with its sign. */

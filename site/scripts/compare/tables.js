@@ -11,7 +11,11 @@ const MOST_BINS = 100;
 const MOST_SHAPES = 300;
 
 export function compareTables(database, data, state, { groups, outliers, matrix }) {
-  const tables = { groups: () => ofGroups(groups.view), outliers: () => ofOutliers(database, data, outliers), classes: () => ofClasses(database, data, matrix) };
+  const tables = {
+    groups: () => ofGroups(groups.view),
+    outliers: () => ofOutliers(database, data, outliers),
+    classes: () => ofClasses(database, data, matrix),
+  };
   return { title: "This comparison in figures", tables: tables[state.get("view")]() };
 }
 
@@ -22,27 +26,80 @@ function ofGroups(view) {
   const line = (column) => {
     const told = toldAs(bins.isShare(column));
     const average = (rows) => told(mean(rows.map((row) => bins.share(column, row))));
-    return [bins.names[column], average(sample.a), average(sample.b), signed(difference[column]), figure(contrast.ahead(column)), contrast.isBeyond(column) ? "yes" : "no"];
+    return [
+      bins.names[column],
+      average(sample.a),
+      average(sample.b),
+      signed(difference[column]),
+      figure(contrast.ahead(column)),
+      contrast.isBeyond(column) ? "yes" : "no",
+    ];
   };
-  const feature = (title, { share: own, chance, limit, exceeding }) => [title, share(own), share(chance), share(limit), figure(exceeding)];
+  const feature = (title, { share: own, chance, limit, exceeding }) => [
+    title,
+    share(own),
+    share(chance),
+    share(limit),
+    figure(exceeding),
+  ];
   return [
-    table(`How much of what shapes differ in goes with the group: ${a.name} (${a.shapes.length}) and ${b.name} (${b.shapes.length})`, ["Feature", "Share", "Chance, mean", "Chance, one in 100", "Deals that reach it"], [
-      feature("all features", apart.all),
-      ...bins.features.map(({ name }, index) => feature(name, apart.features[index])),
-    ]),
-    table(`The ${Math.min(MOST_BINS, contrast.ranked.length)} bins that differ most`, ["Bin", `Mean of ${a.name}`, `Mean of ${b.name}`, "Difference in standard deviations", "Pairs in which the first has more", "Beyond chance"], contrast.ranked.slice(0, MOST_BINS).map(line)),
-    contrast.shared.length > 0 && table("Bins that both have in common against the others", ["Bin", `Mean of ${a.name}`, `Mean of ${b.name}`, "Mean of the others"], contrast.shared.slice(0, MOST_BINS).map((column) => [
-      ...line(column).slice(0, 3), toldAs(bins.isShare(column))(mean(sample.rest.map((row) => bins.share(column, row)))),
-    ])),
+    table(
+      `How much of what shapes differ in goes with the group: ${a.name} (${a.shapes.length}) and ${b.name} (${b.shapes.length})`,
+      ["Feature", "Share", "Chance, mean", "Chance, one in 100", "Deals that reach it"],
+      [
+        feature("all features", apart.all),
+        ...bins.features.map(({ name }, index) => feature(name, apart.features[index])),
+      ],
+    ),
+    table(
+      `The ${Math.min(MOST_BINS, contrast.ranked.length)} bins that differ most`,
+      [
+        "Bin",
+        `Mean of ${a.name}`,
+        `Mean of ${b.name}`,
+        "Difference in standard deviations",
+        "Pairs in which the first has more",
+        "Beyond chance",
+      ],
+      contrast.ranked.slice(0, MOST_BINS).map(line),
+    ),
+    contrast.shared.length > 0 &&
+      table(
+        "Bins that both have in common against the others",
+        ["Bin", `Mean of ${a.name}`, `Mean of ${b.name}`, "Mean of the others"],
+        contrast.shared
+          .slice(0, MOST_BINS)
+          .map((column) => [
+            ...line(column).slice(0, 3),
+            toldAs(bins.isShare(column))(mean(sample.rest.map((row) => bins.share(column, row)))),
+          ]),
+      ),
   ].filter(Boolean);
 }
 
 function ofOutliers(database, data, outliers) {
   const ranked = outliers.list === null ? [] : outliers.ranked().slice(0, MOST_SHAPES);
   return [
-    table("Shapes by how well they fit their class", ["Shape", "Class", "Fit", "Closest other class", ...database.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"])], ranked.map((index) => [
-      database.names[index], database.className(database.groups[index]), signed(data.fit[index]), database.className(data.rival[index]), ...database.methods.flatMap((method) => [figure(method.hit[index]), figure(highestOf(database, method, index))]),
-    ])),
+    table(
+      "Shapes by how well they fit their class",
+      [
+        "Shape",
+        "Class",
+        "Fit",
+        "Closest other class",
+        ...database.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"]),
+      ],
+      ranked.map((index) => [
+        database.names[index],
+        database.className(database.groups[index]),
+        signed(data.fit[index]),
+        database.className(data.rival[index]),
+        ...database.methods.flatMap((method) => [
+          figure(method.hit[index]),
+          figure(highestOf(database, method, index)),
+        ]),
+      ]),
+    ),
   ];
 }
 
@@ -50,8 +107,10 @@ function ofClasses(database, data, matrix) {
   if (matrix.node === null) return [];
   const { order } = data;
   return [
-    table("Of the nearest neighbours of a class (rows), the share in each class (columns)", ["Class", ...order.map((column) => database.className(column))], order.map((row) => [
-      database.className(row), ...order.map((column) => figure(matrix.share(row, column))),
-    ])),
+    table(
+      "Of the nearest neighbours of a class (rows), the share in each class (columns)",
+      ["Class", ...order.map((column) => database.className(column))],
+      order.map((row) => [database.className(row), ...order.map((column) => figure(matrix.share(row, column)))]),
+    ),
   ];
 }

@@ -12,12 +12,16 @@ export function called(group) {
 /** What a bin says of two groups: the one with more of it, and how much on average. */
 export function statement(column, contrast, a, b, data) {
   const { bins, sample } = contrast;
-  const values = { a: sample.a.map((row) => bins.share(column, row)), b: sample.b.map((row) => bins.share(column, row)) };
+  const values = {
+    a: sample.a.map((row) => bins.share(column, row)),
+    b: sample.b.map((row) => bins.share(column, row)),
+  };
   const means = { a: mean(values.a), b: mean(values.b) };
   const [more, less] = contrast.difference[column] > 0 ? [a, b] : [b, a];
   const told = toldAs(bins.isShare(column));
   const figures = [told(means[more.side]), " on average, in ", called(less), " ", told(means[less.side])];
-  if (!bins.isShare(column)) return ["In ", called(more), ", ", element("bdi", {}, bins.names[column]), " is higher: ", ...figures, "."];
+  if (!bins.isShare(column))
+    return ["In ", called(more), ", ", element("bdi", {}, bins.names[column]), " is higher: ", ...figures, "."];
   return ["In ", called(more), `, more of ${data.whole} lies where ${data.where[column]}: `, ...figures, "."];
 }
 
@@ -34,7 +38,11 @@ export function meaning(column, bins) {
 /** "in 97 of 100 pairs" */
 export function pairs(share) {
   const hundredths = Math.round(100 * share);
-  return hundredths === 100 ? "in all pairs" : hundredths > 99 ? "in nearly all pairs" : `in ${hundredths} of 100 pairs`;
+  return hundredths === 100
+    ? "in all pairs"
+    : hundredths > 99
+      ? "in nearly all pairs"
+      : `in ${hundredths} of 100 pairs`;
 }
 
 /** A share of the differences in percent, short. */

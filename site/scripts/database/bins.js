@@ -16,7 +16,9 @@ export class Bins {
     this.count = this.names.length;
     this.steps = new Uint16Array(bytes);
     this.rows = this.steps.length / this.count;
-    this.#featureOf = Int32Array.from(this.features.flatMap(({ dimensions, bins }, index) => Array(dimensions * bins).fill(index)));
+    this.#featureOf = Int32Array.from(
+      this.features.flatMap(({ dimensions, bins }, index) => Array(dimensions * bins).fill(index)),
+    );
   }
 
   #featureOf;

@@ -80,11 +80,15 @@ export function groupOf({ active, groups }, value) {
 }
 
 /** A number with as many digits as tell shapes apart. */
-export function numberText(number, { hit } = {}) {
+export function numberText(number, { hit = false } = {}) {
   if (number === null || number === undefined) return "–";
   if (hit) return number.toFixed(3);
   const size = Math.abs(number);
-  if (size !== 0 && (size >= 1e7 || size < 1e-3)) return number.toExponential(2).replace(/\.?0+e/, "e").replace("e+", "e");
+  if (size !== 0 && (size >= 1e7 || size < 1e-3))
+    return number
+      .toExponential(2)
+      .replace(/\.?0+e/, "e")
+      .replace("e+", "e");
   if (Number.isInteger(number) && size < 10000) return String(number);
   const rounded = size >= 1000 ? Math.round(number) : Number(number.toPrecision(4));
   return size >= 10000 ? String(rounded).replace(/\B(?=(\d{3})+$)/g, "\u2009") : String(rounded);

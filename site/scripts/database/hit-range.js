@@ -32,7 +32,14 @@ const ranges = new WeakMap();
 
 /** The range of a map as the Database has them; of the shapes that have a place on it. */
 export function rangeOf(database, map) {
-  if (!ranges.has(map)) ranges.set(map, hitRange(database.groups.filter((_, index) => !Number.isNaN(map.x[index])), map.neighbours));
+  if (!ranges.has(map))
+    ranges.set(
+      map,
+      hitRange(
+        database.groups.filter((_, index) => !Number.isNaN(map.x[index])),
+        map.neighbours,
+      ),
+    );
   return ranges.get(map);
 }
 

@@ -11,7 +11,11 @@ export function sampled(rows, groups, most = MOST_SHAPES) {
     if (!members.has(groups[row])) members.set(groups[row], []);
     members.get(groups[row]).push(row);
   }
-  const taken = [...members.values()].flatMap((own) => own.sort((a, b) => scattered(a) - scattered(b)).slice(0, Math.max(Math.floor((own.length * most) / rows.length), 1)));
+  const taken = [...members.values()].flatMap((own) =>
+    own
+      .sort((a, b) => scattered(a) - scattered(b))
+      .slice(0, Math.max(Math.floor((own.length * most) / rows.length), 1)),
+  );
   return Int32Array.from(taken).sort();
 }
 

@@ -8,6 +8,7 @@ export class Search {
     this.database = database;
     this.state = state;
     this.announce = announce;
+    this.texts = null;
     this.field = document.getElementById("search");
     this.select = document.getElementById("search-select");
     this.field.addEventListener("input", () => state.set({ query: this.field.value.trim() }));
@@ -49,7 +50,14 @@ export class Search {
 export async function searchTexts(database) {
   const { shapes } = await chunk("details");
   return shapes.map(({ labels, metadata }, index) =>
-    plain([database.ids[index], database.names[index], ...labels.filter(Boolean), ...metadata.map(([, value]) => value)].join("\n")),
+    plain(
+      [
+        database.ids[index],
+        database.names[index],
+        ...labels.filter(Boolean),
+        ...metadata.map(([, value]) => value),
+      ].join("\n"),
+    ),
   );
 }
 
@@ -63,5 +71,8 @@ export function findWords(texts, query) {
 
 /** Small letters without accents: who types "munze" means "Münze". */
 function plain(text) {
-  return text.toLowerCase().normalize("NFD").replace(/[\u0300-\u036f]/g, "");
+  return text
+    .toLowerCase()
+    .normalize("NFD")
+    .replace(/[\u0300-\u036f]/g, "");
 }

@@ -17,7 +17,10 @@ export function writeSelection(query, database, selection) {
 
 /** The selection that an address names; shapes that are no longer there are left out. */
 export function readSelection(query, database) {
-  const named = query.getAll("select").map((id) => database.indexOfId.get(id)).filter((index) => index !== undefined);
+  const named = query
+    .getAll("select")
+    .map((id) => database.indexOfId.get(id))
+    .filter((index) => index !== undefined);
   const [whose, bits] = (query.get("selected") ?? "").split(".");
   return new Set(bits !== undefined && whose === mark(database) ? unpacked(database, bits) : named);
 }
@@ -32,7 +35,10 @@ export function toggled(selection, index) {
 function packed(database, selection) {
   const bytes = new Uint8Array(Math.ceil(database.count / 8));
   for (const index of selection) bytes[index >> 3] |= 1 << (index & 7);
-  return btoa(String.fromCharCode(...bytes)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");
+  return btoa(String.fromCharCode(...bytes))
+    .replaceAll("+", "-")
+    .replaceAll("/", "_")
+    .replace(/=+$/, "");
 }
 
 function unpacked(database, text) {

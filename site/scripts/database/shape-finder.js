@@ -6,7 +6,9 @@ import { Finder } from "../base/finder.js";
 /** `choose` is told of the shape. */
 export function findShapes(database, choose) {
   const names = database.names.map((name) => name.toLocaleLowerCase());
-  const texts = names.map((name, index) => `${name}\n${database.ids[index]}\n${database.className(database.groups[index])}`.toLocaleLowerCase());
+  const texts = names.map((name, index) =>
+    `${name}\n${database.ids[index]}\n${database.className(database.groups[index])}`.toLocaleLowerCase(),
+  );
   return new Finder("shape", {
     find: (text) => {
       const whole = text.toLocaleLowerCase();
@@ -16,7 +18,13 @@ export function findShapes(database, choose) {
       const rank = (index) => (names[index] === whole ? 0 : names[index].includes(whole) ? 1 : 2);
       return found.sort((a, b) => rank(a) - rank(b) || a - b);
     },
-    label: (index) => [element("bdi", {}, database.names[index]), " ", database.labelled && element("span", { class: "quiet" }, element("bdi", {}, database.className(database.groups[index])))].filter(Boolean),
+    label: (index) =>
+      [
+        element("bdi", {}, database.names[index]),
+        " ",
+        database.labelled &&
+          element("span", { class: "quiet" }, element("bdi", {}, database.className(database.groups[index]))),
+      ].filter(Boolean),
     choose,
   });
 }

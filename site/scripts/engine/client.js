@@ -11,9 +11,7 @@ export class Cancelled extends Error {
 /**
  * Start the engine on a table of features.
  *
- * @param {object} table
- *   rows, columns: its size; values: Float32Array, the compared values, one column after the other; blocks: Int32Array,
- *   the feature of each column; scaling: "balanced" or "plain"
+ * @param {FeatureValues} table
  * @returns {Promise<Engine>}
  */
 export async function startEngine(table) {
@@ -28,14 +26,16 @@ class Engine {
     this.worker = worker;
     this.jobs = new Map();
     this.started = 0;
-    this.ready = new Promise((resolve, reject) => {
-      worker.onmessage = ({ data }) => (data.ready ? resolve() : this.receive(data));
-      worker.onerror = (event) => {
-        const error = new Error(`the engine failed: ${event.message ?? "its worker could not be started"}`);
-        reject(error);
-        this.end(() => error);
-      };
-    });
+    this.ready = /** @type {Promise<void>} */ (
+      new Promise((resolve, reject) => {
+        worker.onmessage = ({ data }) => (data.ready ? resolve() : this.receive(data));
+        worker.onerror = (event) => {
+          const error = new Error(`the engine failed: ${event.message ?? "its worker could not be started"}`);
+          reject(error);
+          this.end(() => error);
+        };
+      })
+    );
   }
 
   /**
@@ -43,11 +43,11 @@ class Engine {
    *
    * @param {string} name
    * @param {object} parameters copied to the worker
-   * @param {function({ progress: number, partial: any })} onProgress called a few dozen times a second at most
-   * @returns {{ done: Promise<any>, cancel: function() }}
+   * @param {(report: { progress: number, partial: any }) => void} onProgress called a few dozen times a second at most
+   * @returns {{ done: Promise<any>, cancel: () => void }}
    *   done rejects with Cancelled after cancel(), else with the error that ended the task
    */
-  run(name, parameters, onProgress = () => {}) {
+  run(name, parameters, onProgress = (_) => {}) {
     const id = this.started++;
     const done = new Promise((resolve, reject) => this.jobs.set(id, { resolve, reject, onProgress }));
     this.worker.postMessage({ run: { id, name, parameters } });

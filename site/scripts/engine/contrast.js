@@ -23,7 +23,7 @@ const WORK = 4e6;
  *   included) that reach it
  * - away: squared distance of every row from the mean of its group, first group first.
  */
-export function* contrast(table, { rows, values, blocks, weights, contests, seed }) {
+export function* contrast(_table, { rows, values, blocks, weights, contests, seed }) {
   const answers = [];
   for (const [number, contest] of contests.entries()) {
     const steps = compare({ rows, values, blocks, weights }, contest, seed);
@@ -65,7 +65,12 @@ function* compare(given, { first, second, shuffles }, seed) {
       yield shuffle / shuffles;
     }
   }
-  const judged = Array.from(observed, (share, place) => judge(share, dealt.map((found) => found[place])));
+  const judged = Array.from(observed, (share, place) =>
+    judge(
+      share,
+      dealt.map((found) => found[place]),
+    ),
+  );
   return {
     effect: effect.map((value, column) => Math.sign(sums[column]) * sign * value),
     limit: atLimit(highest),
@@ -93,7 +98,8 @@ function standardised({ rows, values, blocks, weights }, first, second) {
     if (squares <= count * (1e-6 * Math.abs(mean)) ** 2) continue;
     spread[column] = squares * weights[blocks[column]];
     const factor = 1 / Math.sqrt(squares);
-    for (let place = 0; place < count; place += 1) points[column * count + place] = (values[start + chosen[place]] - mean) * factor;
+    for (let place = 0; place < count; place += 1)
+      points[column * count + place] = (values[start + chosen[place]] - mean) * factor;
   }
   const totals = new Float64Array(features + 1);
   for (let column = 0; column < columns; column += 1) {
@@ -132,10 +138,14 @@ function distances({ points, spread, columns, count }, firstSize) {
   const away = new Float64Array(count);
   for (let column = 0; column < columns; column += 1) {
     const start = column * count;
-    for (const [from, to] of [[0, firstSize], [firstSize, count]]) {
+    for (const [from, to] of [
+      [0, firstSize],
+      [firstSize, count],
+    ]) {
       let mean = 0;
       for (let place = from; place < to; place += 1) mean += points[start + place] / (to - from);
-      for (let place = from; place < to; place += 1) away[place] += spread[column] * (points[start + place] - mean) ** 2;
+      for (let place = from; place < to; place += 1)
+        away[place] += spread[column] * (points[start + place] - mean) ** 2;
     }
   }
   return away;

@@ -13,7 +13,7 @@ const NO_SPREAD = 1e-12;
  * all contribute equally; for a choice of bins each column is divided by its standard deviation. Both are taken over
  * all rows of the table, so that leaving out classes does not change what near means. "plain" tables stay as they are.
  *
- * @param {object} table as in `startEngine`
+ * @param {FeatureValues} table
  * @param {Int32Array} rows
  * @param {Int32Array} columns
  * @param {"features"|"bins"} by
@@ -47,7 +47,8 @@ function factorsOf(table, columns, by) {
 
 function variance({ rows, values }, column) {
   const start = column * rows;
-  let mean = 0, total = 0;
+  let mean = 0,
+    total = 0;
   for (let row = 0; row < rows; row++) mean += values[start + row] / rows;
   for (let row = 0; row < rows; row++) total += (values[start + row] - mean) ** 2;
   return total / rows;
@@ -67,7 +68,7 @@ export function* squaredDistances(points) {
 /**
  * The k nearest other rows of every row, nearest first.
  *
- * @returns {{ k: number, rows: Int32Array, squared: Float64Array }} k entries for each row
+ * @returns {Steps<{ k: number, rows: Int32Array, squared: Float64Array }>} k entries for each row
  */
 export function* nearestRows(points, k) {
   const rows = new Int32Array(points.count * k).fill(-1);
@@ -101,10 +102,15 @@ function* visitPairs({ count, width, values }, visit) {
     for (let other = 0; other <= row; other += 2) {
       const third = other * width;
       const fourth = other + 1 < count ? third + width : third;
-      let ac = 0, ad = 0, bc = 0, bd = 0;
+      let ac = 0,
+        ad = 0,
+        bc = 0,
+        bd = 0;
       for (let place = 0; place < width; place++) {
-        const a = values[first + place], b = values[second + place];
-        const c = values[third + place], d = values[fourth + place];
+        const a = values[first + place],
+          b = values[second + place];
+        const c = values[third + place],
+          d = values[fourth + place];
         ac += (a - c) * (a - c);
         ad += (a - d) * (a - d);
         bc += (b - c) * (b - c);

@@ -12,13 +12,13 @@ const ROWS = 64;
  * Points that tie for the last places share them equally. A neighbour without a label is a miss; a shape without one
  * has no hit (NaN) and no part in the means.
  *
- * @param {object} table not used: a map stands for itself
- * @param {object} parameters
- *   xy: Float32Array or Float64Array (2 n); groups: Int32Array, each shape's class from 0, or -1 without a label; k
- * @returns {{ hit: Float64Array, hitOfClass: Float64Array, hitOfAll: number }}
+ * @param {FeatureValues} _table not used: a map stands for itself
+ * @param {{ xy: Float32Array | Float64Array, groups: Int32Array, k: number }} parameters
+ *   xy (2 n); groups: each shape's class from 0, or -1 without a label
+ * @returns {Steps<{ hit: Float64Array, hitOfClass: Float64Array, hitOfAll: number }>}
  *   of every shape, of every class by its number, of the map; NaN where nothing is defined
  */
-export function* measureHit(table, { xy, groups, k }) {
+export function* measureHit(_table, { xy, groups, k }) {
   const count = groups.length;
   const neighbours = Math.min(k, count - 1);
   const hit = new Float64Array(count).fill(NaN);
@@ -45,7 +45,10 @@ function hitOfRow(row, xy, groups, squared, nearest) {
     if (distance < nearest[k - 1]) insert(nearest, distance);
   }
   const last = nearest[k - 1];
-  let nearer = 0, nearerHits = 0, tied = 0, tiedHits = 0;
+  let nearer = 0,
+    nearerHits = 0,
+    tied = 0,
+    tiedHits = 0;
   for (let other = 0; other < count; other++) {
     const same = groups[other] === groups[row] ? 1 : 0;
     if (squared[other] < last * (1 - TIE)) {
@@ -70,7 +73,8 @@ function means(hit, groups) {
   const classes = groups.reduce((most, group) => Math.max(most, group + 1), 0);
   const totals = new Float64Array(classes);
   const sizes = new Float64Array(classes);
-  let total = 0, labelled = 0;
+  let total = 0,
+    labelled = 0;
   for (let row = 0; row < groups.length; row++) {
     if (groups[row] < 0) continue;
     totals[groups[row]] += hit[row];

@@ -35,12 +35,17 @@ export class Inquiry {
     const job = start(report);
     this.#job = job;
     this.tell({ kind: "working", progress: 0 });
-    const ending = await job.done.then((answer) => ({ answer }), (error) => ({ error }));
+    const ending = await job.done.then(
+      (answer) => ({ answer }),
+      (error) => ({ error }),
+    );
     if (this.#job !== job) return;
     this.#job = null;
     if (ending.error) {
       this.key = null;
-      this.tell(ending.error instanceof Cancelled ? { kind: "stopped" } : { kind: "failed", message: ending.error.message });
+      this.tell(
+        ending.error instanceof Cancelled ? { kind: "stopped" } : { kind: "failed", message: ending.error.message },
+      );
       return;
     }
     this.#keep(key, ending.answer);

@@ -19,13 +19,12 @@ const ENOUGH = 0.5;
  * The map, and every partial one, is fitted into [-1, 1] by one factor, and turned and mirrored to agree with `start`,
  * else with `reference`, else with its own start, so that nothing jumps.
  *
- * @param {object} table as in `startEngine`
- * @param {object} parameters
- *   method: "tsne" or "umap"; rows, columns: Int32Array; by: "features" or "bins", see `scaledPoints`;
- *   start: Float32Array (2 n), an earlier map of these rows to start from, NaN where a row had no place, or null;
- *   reference: likewise, only to agree with; seed: a whole number
- * @yields {{ progress: number, partial: { xy: Float32Array } }}
- * @returns {{ xy: Float32Array, seconds: number }}
+ * @param {FeatureValues} table
+ * @param {{ method: "tsne" | "umap", rows: Int32Array, columns: Int32Array, by: "features" | "bins",
+ *   start?: Float32Array | null, reference?: Float32Array | null, seed: number }} parameters
+ *   by: see `scaledPoints`; start (2 n): an earlier map of these rows to start from, NaN where a row had no place;
+ *   reference: likewise, only to agree with
+ * @returns {Steps<{ xy: Float32Array, seconds: number }, { xy: Float32Array }>}
  */
 export function* layOut(table, { method, rows, columns, by, start = null, reference = null, seed }) {
   const began = performance.now();

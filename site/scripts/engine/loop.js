@@ -12,8 +12,8 @@ const REPORT = 30;
 /** Runs several tasks at once, each a slice in turn, and posts what becomes of them. */
 export class TaskLoop {
   /**
-   * @param {Object<string, function>} tasks generator functions by name
-   * @param {function(object)} post sends a message to the page
+   * @param {Record<string, (table: FeatureValues, parameters: any) => Steps<any>>} tasks generator functions by name
+   * @param {(message: object) => void} post sends a message to the page
    */
   constructor(tasks, post) {
     this.tasks = tasks;
@@ -79,7 +79,7 @@ export class TaskLoop {
 }
 
 function unknown(name) {
-  return function* () {
+  return () => {
     throw new Error(`the engine has no task '${name}'`);
   };
 }
@@ -87,6 +87,6 @@ function unknown(name) {
 /** Serve the page that started this worker. */
 export function serve(tasks) {
   const loop = new TaskLoop(tasks, (message) => postMessage(message));
-  onmessage = (event) => loop.receive(event.data);
+  self.onmessage = (event) => loop.receive(event.data);
   postMessage({ ready: true });
 }

@@ -60,7 +60,7 @@ export function* principalComponents({ count, width, values }) {
  *
  * @param {number} count
  * @param {number} rounds
- * @param {function(Float64Array, Float64Array)} multiply writes the product with a centred vector
+ * @param {(vector: Float64Array, product: Float64Array) => void} multiply writes the product with a centred vector
  */
 function* principalCoordinates(count, rounds, multiply) {
   const random = new Random(1);
@@ -114,7 +114,7 @@ function remove(vector, other) {
  * Give rows that an earlier map did not have a place among their neighbours.
  *
  * @param {Float32Array|Float64Array} xy (2 n), NaN where a row has no place; some have one
- * @param {function(function(number, number, number))} visitPairs hands over pairs of neighbours and their weight
+ * @param {(visit: (row: number, other: number, weight: number) => void) => void} visitPairs hands over pairs of neighbours and their weight
  * @returns {Float64Array} (2 n)
  */
 export function placeNewcomers(xy, visitPairs) {
@@ -155,7 +155,10 @@ export function placeNewcomers(xy, visitPairs) {
  */
 export function placeLike(xy, reference) {
   const [x, y, toX, toY] = meansOfPlaced(xy, reference);
-  let xx = 0, xy_ = 0, yx = 0, yy = 0;
+  let xx = 0,
+    xy_ = 0,
+    yx = 0,
+    yy = 0;
   for (let at = 0; at < xy.length; at += 2) {
     if (!isPlaced(reference, at)) continue;
     xx += (xy[at] - x) * (reference[at] - toX);
@@ -168,7 +171,8 @@ export function placeLike(xy, reference) {
   const mirrored = Math.hypot(xx - yy, xy_ + yx);
   const mirror = mirrored > turned ? -1 : 1;
   const angle = mirror < 0 ? Math.atan2(xy_ + yx, xx - yy) : Math.atan2(xy_ - yx, xx + yy);
-  const cosine = Math.cos(angle), sine = Math.sin(angle);
+  const cosine = Math.cos(angle),
+    sine = Math.sin(angle);
   const placed = new Float64Array(xy.length);
   for (let at = 0; at < xy.length; at += 2) {
     const second = mirror * xy[at + 1];
@@ -180,7 +184,8 @@ export function placeLike(xy, reference) {
 
 /** The larger root mean square of the two coordinates. */
 export function extent(xy) {
-  let x = 0, y = 0;
+  let x = 0,
+    y = 0;
   for (let at = 0; at < xy.length; at += 2) {
     x += xy[at] * xy[at];
     y += xy[at + 1] * xy[at + 1];
@@ -209,7 +214,10 @@ function meansOfPlaced(xy, reference) {
 
 /** Centre points and scale them by one factor into [-1, 1]. */
 function fitSquare(xy) {
-  let left = Infinity, right = -Infinity, bottom = Infinity, top = -Infinity;
+  let left = Infinity,
+    right = -Infinity,
+    bottom = Infinity,
+    top = -Infinity;
   for (let at = 0; at < xy.length; at += 2) {
     left = Math.min(left, xy[at]);
     right = Math.max(right, xy[at]);

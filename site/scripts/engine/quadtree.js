@@ -40,13 +40,17 @@ export class Quadtree {
     const limit = OPENING * OPENING;
     let normaliser = 0;
     for (let point = 0; point < count; point++) {
-      const ownX = xy[2 * point], ownY = xy[2 * point + 1];
-      let pushX = 0, pushY = 0, sum = 0;
+      const ownX = xy[2 * point],
+        ownY = xy[2 * point + 1];
+      let pushX = 0,
+        pushY = 0,
+        sum = 0;
       let open = 1;
       stack[0] = 0;
       while (open > 0) {
         const node = stack[--open];
-        const toX = ownX - x[node], toY = ownY - y[node];
+        const toX = ownX - x[node],
+          toY = ownY - y[node];
         const squared = toX * toX + toY * toY;
         // A leaf has a side of 0.
         if (side[node] * side[node] <= limit * squared || side[node] === 0) {
@@ -71,7 +75,10 @@ export class Quadtree {
   }
 
   build(xy) {
-    let left = Infinity, right = -Infinity, bottom = Infinity, top = -Infinity;
+    let left = Infinity,
+      right = -Infinity,
+      bottom = Infinity,
+      top = -Infinity;
     for (let at = 0; at < xy.length; at += 2) {
       left = Math.min(left, xy[at]);
       right = Math.max(right, xy[at]);

@@ -144,7 +144,8 @@ class LassoPath {
       const column = active[place];
       const pull = this.slope(column);
       const limit = now * penalties[column];
-      const excess = coefficients[column] === 0 ? Math.abs(pull) - limit : Math.abs(pull - Math.sign(coefficients[column]) * limit);
+      const excess =
+        coefficients[column] === 0 ? Math.abs(pull) - limit : Math.abs(pull - Math.sign(coefficients[column]) * limit);
       violation = Math.max(violation, excess);
     }
     return violation;
@@ -207,7 +208,10 @@ class LassoPath {
     const { count, values, residuals } = this;
     const start = column * count;
     const whole = count - (count % 4);
-    let a = 0, b = 0, c = 0, d = 0;
+    let a = 0,
+      b = 0,
+      c = 0,
+      d = 0;
     for (let row = 0; row < whole; row += 4) {
       const at = start + row;
       a += values[at] * residuals[row];

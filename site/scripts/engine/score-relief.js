@@ -160,11 +160,15 @@ function pairShares(distances, { count, stride, positives }) {
     const hits = nearness(distances, i, stride, own, kernel);
     const misses = nearness(distances, i, stride, other, kernel);
     // The probability that the nearest row of all is of the same group, as if both groups were of the same size.
-    const advantage = Math.log(hits.total / (own[1] - own[0] - 1) / (misses.total / (other[1] - other[0]))) + (misses.nearest - hits.nearest) / kernel;
+    const advantage =
+      Math.log(hits.total / (own[1] - own[0] - 1) / (misses.total / (other[1] - other[0]))) +
+      (misses.nearest - hits.nearest) / kernel;
     const noOutlier = hits.total === 0 ? 1 : 1 / (1 + Math.exp(-advantage));
     const counts = (0.5 / (own[1] - own[0])) * noOutlier;
-    for (let j = own[0]; j < own[1]; j += 1) if (j !== i) shares[i * stride + j] = (-counts * hits.likely[j - own[0]]) / hits.total;
-    for (let j = other[0]; j < other[1]; j += 1) shares[i * stride + j] = (counts * misses.likely[j - other[0]]) / misses.total;
+    for (let j = own[0]; j < own[1]; j += 1)
+      if (j !== i) shares[i * stride + j] = (-counts * hits.likely[j - own[0]]) / hits.total;
+    for (let j = other[0]; j < other[1]; j += 1)
+      shares[i * stride + j] = (counts * misses.likely[j - other[0]]) / misses.total;
   }
   for (let i = 0; i < count; i += 1) {
     for (let j = 0; j < i; j += 1) {
@@ -176,7 +180,8 @@ function pairShares(distances, { count, stride, positives }) {
 }
 
 /** How likely each row of a group is the nearest to row i, up to the factor `total`. */
-function nearness(distances, i, stride, [begin, end], kernel) {
+function nearness(distances, i, stride, rows, kernel) {
+  const [begin, end] = rows;
   let nearest = Infinity;
   for (let j = begin; j < end; j += 1) if (j !== i) nearest = Math.min(nearest, distances[i * stride + j]);
   const likely = new Float64Array(end - begin);

@@ -48,7 +48,8 @@ class Forest {
       if (middle > 0) nodes.push([begin, middle], [middle, end]);
     }
     const whole = this.gains.reduce((sum, gain) => sum + gain, 0);
-    if (whole > 0) for (let place = 0; place < this.width; place += 1) this.total[place] += this.gains[place] / whole / TREES;
+    if (whole > 0)
+      for (let place = 0; place < this.width; place += 1) this.total[place] += this.gains[place] / whole / TREES;
   }
 
   /** Cut a node in two; returns the place in `rows` where the second part begins, 0 if there is nothing to cut. */

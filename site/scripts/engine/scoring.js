@@ -11,6 +11,7 @@ import { scoreByTrees } from "./score-trees.js";
  * The methods by their keys. Each is a generator `(table, contest, columns, seed)` that yields `{ progress }` and returns a
  * score for each of the columns, which all vary over the contest's rows.
  */
+/** @type {Map<string, (table: FeatureValues, contest: { positive: Int32Array, negative: Int32Array }, columns: Int32Array, seed: number) => Steps<Float64Array>>} */
 const METHODS = new Map([
   ["chi2", scoreByChi2],
   ["anova", scoreByAnova],
@@ -37,7 +38,13 @@ export function* score(table, { method, contests, columns, seed }) {
     };
     const places = varying(table, contest, columns);
     if (places.length === 0) continue;
-    const steps = measure(table, contest, places.map((place) => columns[place]), seed);
+    const steps = measure(
+      table,
+      contest,
+      places.map((place) => columns[place]),
+      seed,
+    );
+    /** @type {IteratorResult<any>} */
     let step = steps.next();
     let progress = 0;
     while (!step.done) {

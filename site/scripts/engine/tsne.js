@@ -36,11 +36,11 @@ const ROWS = 256;
 /**
  * Lay out rows by t-SNE.
  *
- * @param {object} points as `scaledPoints` gives them; at least 5, not all equal
- * @param {Float64Array|null} start an earlier map of these rows, NaN where a row had no place; null to start anew
+ * @param {{ count: number, width: number, values: Float32Array }} points as `scaledPoints` gives them; at least 5, not all
+ *   equal
+ * @param {Float32Array | Float64Array | null} start an earlier map of these rows, NaN where a row had no place; null to start anew
  * @param {number} seed
- * @yields {{ progress: number, partial: Float64Array }} first with the map it starts from
- * @returns {Float64Array} (2 n)
+ * @returns {Steps<Float64Array, Float64Array>} (2 n); the first to see is the map it starts from
  */
 export function* layOutByTsne(points, start, seed) {
   const { count } = points;
@@ -103,9 +103,9 @@ function allAffinities(squared, count) {
 /**
  * Affinities of near pairs, each pair once, adding up to 1/2.
  *
- * @param {object} nearest as `nearestRows` gives it
+ * @param {{ k: number, rows: Int32Array, squared: Float64Array }} nearest
  * @param {number} count
- * @returns {{ from: Int32Array, to: Int32Array, share: Float64Array }}
+ * @returns {Steps<{ from: Int32Array, to: Int32Array, share: Float64Array }>}
  */
 function* nearAffinities({ k, rows, squared }, count) {
   const perplexity = perplexityOf(count);
@@ -114,12 +114,15 @@ function* nearAffinities({ k, rows, squared }, count) {
     if (row % ROWS === 0) yield { progress: row / count };
     shareOut(shares.subarray(row * k, (row + 1) * k), perplexity);
   }
-  const from = [], to = [], share = [];
+  const from = [],
+    to = [],
+    share = [];
   const place = new Int32Array(count).fill(-1);
   const partners = Array.from({ length: count }, () => []);
   for (let row = 0; row < count; row++) {
     for (let at = row * k; at < (row + 1) * k; at++) {
-      const low = Math.min(row, rows[at]), high = Math.max(row, rows[at]);
+      const low = Math.min(row, rows[at]),
+        high = Math.max(row, rows[at]);
       partners[low].push([high, shares[at]]);
     }
   }
@@ -145,7 +148,8 @@ function* nearAffinities({ k, rows, squared }, count) {
 function shareOut(distances, perplexity) {
   const size = distances.length;
   const target = Math.log(perplexity);
-  let nearest = Infinity, mean = 0;
+  let nearest = Infinity,
+    mean = 0;
   for (let at = 0; at < size; at++) {
     nearest = Math.min(nearest, distances[at]);
     mean += distances[at] / size;
@@ -158,9 +162,13 @@ function shareOut(distances, perplexity) {
     return;
   }
   for (let at = 0; at < size; at++) distances[at] = (distances[at] - nearest) / mean;
-  let low = 0, high = Infinity, precision = 1, total = 1;
+  let low = 0,
+    high = Infinity,
+    precision = 1,
+    total = 1;
   for (let round = 0; round < 60; round++) {
-    let first = 0, second = 0;
+    let first = 0,
+      second = 0;
     total = 0;
     for (let at = 0; at < size; at++) {
       const excess = distances[at];
@@ -206,10 +214,15 @@ class AllPairs {
     push.fill(0);
     let normaliser = 0;
     for (let row = 0; row < count; row++) {
-      const x = xy[2 * row], y = xy[2 * row + 1];
-      let pullX = 0, pullY = 0, pushX = 0, pushY = 0;
+      const x = xy[2 * row],
+        y = xy[2 * row + 1];
+      let pullX = 0,
+        pullY = 0,
+        pushX = 0,
+        pushY = 0;
       for (let other = 0, at = row * count; other < row; other++, at++) {
-        const toX = x - xy[2 * other], toY = y - xy[2 * other + 1];
+        const toX = x - xy[2 * other],
+          toY = y - xy[2 * other + 1];
         const kernel = 1 / (1 + toX * toX + toY * toY);
         normaliser += kernel;
         const weight = shares[at] * kernel;
@@ -251,8 +264,10 @@ class NearPairs {
     const { from, to, share } = this.pairs;
     pull.fill(0);
     for (let pair = 0; pair < share.length; pair++) {
-      const one = 2 * from[pair], other = 2 * to[pair];
-      const toX = xy[one] - xy[other], toY = xy[one + 1] - xy[other + 1];
+      const one = 2 * from[pair],
+        other = 2 * to[pair];
+      const toX = xy[one] - xy[other],
+        toY = xy[one + 1] - xy[other + 1];
       const weight = share[pair] / (1 + toX * toX + toY * toY);
       pull[one] += weight * toX;
       pull[one + 1] += weight * toY;
@@ -271,12 +286,14 @@ class NearPairs {
  * @param {Float64Array} xy where the points start, (2 n); they move
  * @param {number} exaggeration factor on the affinities at first
  * @param {{ early: number, late: number }} steps with exaggeration, and without
- * @returns {Float64Array} the points
+ * @returns {Steps<Float64Array, Float64Array>} the points
  */
 function* descend(forces, xy, exaggeration, { early, late }) {
   const size = xy.length;
-  const pull = new Float64Array(size), push = new Float64Array(size);
-  const speed = new Float64Array(size), gain = new Float64Array(size).fill(1);
+  const pull = new Float64Array(size),
+    push = new Float64Array(size);
+  const speed = new Float64Array(size),
+    gain = new Float64Array(size).fill(1);
   // Belkina et al. 2019: rows over exaggeration; 4 stands in the gradient already.
   const rate = Math.max(size / 2 / exaggeration / 4, 50);
   const smallest = extent(xy);
@@ -306,7 +323,8 @@ function* descend(forces, xy, exaggeration, { early, late }) {
  * linear and scale means nothing, so that rounding cannot swallow what tells them apart.
  */
 function keepSize(xy, speed, smallest) {
-  let x = 0, y = 0;
+  let x = 0,
+    y = 0;
   const count = xy.length / 2;
   for (let at = 0; at < xy.length; at += 2) {
     x += xy[at] / count;

@@ -45,7 +45,7 @@ export function* layOutByUmap(points, start, seed) {
   yield { progress: 0.4, partial: origin };
   const random = new Random(seed);
   const unit = extent(origin);
-  const xy = origin.map((value) => (value / unit + JITTER * random.normal()) * SIDE / 4);
+  const xy = origin.map((value) => ((value / unit + JITTER * random.normal()) * SIDE) / 4);
   return yield* part(descend(edges, xy, start ? PLANS.onwards : PLANS.anew, random), 0.4, 1);
 }
 
@@ -59,7 +59,9 @@ function memberships({ k, rows, squared }, count) {
     const own = distances.subarray(row * k, (row + 1) * k);
     const first = own.find((distance) => distance > 0) ?? 0;
     const ownMean = own.reduce((sum, value) => sum + value, 0) / (k + 1);
-    let low = 0, high = Infinity, width = 1;
+    let low = 0,
+      high = Infinity,
+      width = 1;
     for (let round = 0; round < 64; round++) {
       const total = own.reduce((sum, distance) => sum + fall(distance - first, width), 0);
       if (Math.abs(total - target) < 1e-5) break;
@@ -87,9 +89,12 @@ function fuzzyUnion({ k, rows, weight }, count) {
       pairs.set(key, before + weight[at] - before * weight[at]);
     }
   }
-  const from = [], to = [], sure = [];
+  const from = [],
+    to = [],
+    sure = [];
   for (const [key, value] of pairs) {
-    const low = Math.floor(key / count), high = key % count;
+    const low = Math.floor(key / count),
+      high = key % count;
     from.push(low, high);
     to.push(high, low);
     sure.push(value, value);
@@ -114,13 +119,16 @@ function* descend({ from, to, weight }, xy, { epochs, rate: first }, random) {
     for (let edge = 0; edge < due.length; edge++) {
       if (due[edge] > epoch + 1) continue;
       due[edge] += interval[edge];
-      const own = 2 * from[edge], other = 2 * to[edge];
-      let toX = xy[own] - xy[other], toY = xy[own + 1] - xy[other + 1];
+      const own = 2 * from[edge],
+        other = 2 * to[edge];
+      let toX = xy[own] - xy[other],
+        toY = xy[own + 1] - xy[other + 1];
       let squared = toX * toX + toY * toY;
       if (squared > 0) {
-        const power = Math.pow(squared, B);
+        const power = squared ** B;
         const pull = (-2 * A * B * power) / (squared * (1 + A * power));
-        const stepX = clip(pull * toX) * rate, stepY = clip(pull * toY) * rate;
+        const stepX = clip(pull * toX) * rate,
+          stepY = clip(pull * toY) * rate;
         xy[own] += stepX;
         xy[own + 1] += stepY;
         xy[other] -= stepX;
@@ -132,7 +140,7 @@ function* descend({ from, to, weight }, xy, { epochs, rate: first }, random) {
         toY = xy[own + 1] - xy[far + 1];
         squared = toX * toX + toY * toY;
         if (squared === 0) continue;
-        const push = (2 * B) / ((0.001 + squared) * (1 + A * Math.pow(squared, B)));
+        const push = (2 * B) / ((0.001 + squared) * (1 + A * squared ** B));
         xy[own] += clip(push * toX) * rate;
         xy[own + 1] += clip(push * toY) * rate;
       }

@@ -13,7 +13,9 @@ export class Boxes {
     this.list = document.getElementById("legend");
     // Columns of the subsets' classes, the highest median first.
     const { boxes, classes } = subsets.data;
-    this.order = boxes.map((_, column) => column).sort((a, b) => boxes[b].median - boxes[a].median || classes[a] - classes[b]);
+    this.order = boxes
+      .map((_, column) => column)
+      .sort((a, b) => boxes[b].median - boxes[a].median || classes[a] - classes[b]);
     state.listen((changed) => {
       if (changed.has("chosen")) this.render();
     });
@@ -35,8 +37,18 @@ export class Boxes {
         );
       }),
     );
-    const bars = await drawChart(document.getElementById("bars"), database.data.charts.bars, database.marks.config, "svg");
-    const boxes = await drawChart(document.getElementById("boxes"), subsets.data.charts.boxes, database.marks.config, "svg");
+    const bars = await drawChart(
+      document.getElementById("bars"),
+      database.data.charts.bars,
+      database.marks.config,
+      "svg",
+    );
+    const boxes = await drawChart(
+      document.getElementById("boxes"),
+      subsets.data.charts.boxes,
+      database.marks.config,
+      "svg",
+    );
     const { ink, bar, accent, ground } = this.marks();
     bars.signal("ink", ink).signal("chance", subsets.data.chance ?? -1);
     boxes.signal("ink", ink).signal("bar", bar).signal("accent", accent).signal("ground", ground);
@@ -50,9 +62,18 @@ export class Boxes {
   render() {
     const { subsets } = this;
     const hits = subsets.data.hitOfClass[this.state.get("chosen")];
-    const { highestOfClass } = hitRange(subsets.data.rows === null ? this.database.groups : subsets.data.rows.map((row) => this.database.groups[row]), subsets.data.neighbours);
+    const { highestOfClass } = hitRange(
+      subsets.data.rows === null ? this.database.groups : subsets.data.rows.map((row) => this.database.groups[row]),
+      subsets.data.neighbours,
+    );
     const most = (column) => highestOfClass.get(subsets.data.classes[column]) ?? null;
-    const rows = this.order.map((column, row) => ({ row, ...subsets.data.boxes[column], hit: hits[column], highest: most(column), present: true }));
+    const rows = this.order.map((column, row) => ({
+      row,
+      ...subsets.data.boxes[column],
+      hit: hits[column],
+      highest: most(column),
+      present: true,
+    }));
     const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
     for (const [id, vega] of this.vegas ?? []) {
       vega.width(document.getElementById(id).clientWidth).height(height);

@@ -1,6 +1,5 @@
 // What the reader sets on the map of the Features page.
 
-
 export function watchMapKeys(surface, state, gestures) {
   surface.addEventListener("keydown", (event) => {
     if (event.key === "+" || event.key === "=") gestures.zoom(1.5);

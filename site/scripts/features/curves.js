@@ -28,7 +28,8 @@ export class Curves {
   /** Bring one line out, or none. */
   point(key) {
     this.pointed = key;
-    for (const line of this.plot.querySelectorAll("[data-key]")) line.classList.toggle("pointed", line.dataset.key === key);
+    for (const line of this.plot.querySelectorAll("[data-key]"))
+      line.classList.toggle("pointed", line.dataset.key === key);
     this.plot.classList.toggle("pointing", key !== null);
     // What is pointed at lies on top of what crosses it.
     const pointed = this.plot.querySelector(".rating-line.pointed");
@@ -41,7 +42,10 @@ export class Curves {
     const [inner, high] = [width - MARGIN.left - MARGIN.right, HEIGHT - MARGIN.top - MARGIN.bottom];
     const x = (share) => MARGIN.left + share * inner;
     const y = (share) => MARGIN.top + (1 - share) * high;
-    const path = (precision) => precision.map((value, place) => `${place ? "L" : "M"}${x(this.levels[place]).toFixed(1)} ${y(value).toFixed(1)}`).join("");
+    const path = (precision) =>
+      precision
+        .map((value, place) => `${place ? "L" : "M"}${x(this.levels[place]).toFixed(1)} ${y(value).toFixed(1)}`)
+        .join("");
     // Later is above: what matters most is drawn last.
     const behind = [...this.lines].reverse();
     this.plot.setAttribute("viewBox", `0 0 ${width} ${HEIGHT}`);
@@ -53,13 +57,25 @@ export class Curves {
         { class: "axes" },
         TICKS.map((tick) => svg("line", { x1: x(0), x2: x(1), y1: y(tick), y2: y(tick) })),
         TICKS.map((tick) => svg("text", { x: x(0) - 8, y: y(tick) + 4, "text-anchor": "end" }, String(tick))),
-        TICKS.map((tick) => svg("text", { x: x(tick), y: y(0) + 16, "text-anchor": tick === 1 ? "end" : "middle" }, String(tick))),
+        TICKS.map((tick) =>
+          svg("text", { x: x(tick), y: y(0) + 16, "text-anchor": tick === 1 ? "end" : "middle" }, String(tick)),
+        ),
         svg("text", { x: x(0.5), y: HEIGHT - 4, "text-anchor": "middle" }, "recall: share of the class found"),
         svg("text", { transform: `translate(11 ${y(0.5)}) rotate(-90)`, "text-anchor": "middle" }, "precision"),
       ),
-      svg("g", {}, behind.map(({ key, kind, color, precision }) => styled(svg("path", { class: "rating-line", "data-kind": kind, "data-key": key, d: path(precision) }), color))),
+      svg(
+        "g",
+        {},
+        behind.map(({ key, kind, color, precision }) =>
+          styled(svg("path", { class: "rating-line", "data-kind": kind, "data-key": key, d: path(precision) }), color),
+        ),
+      ),
       // Lines are thin; a pointer need not be exact.
-      svg("g", { class: "reach" }, behind.map(({ key, precision }) => svg("path", { "data-key": key, d: path(precision) }))),
+      svg(
+        "g",
+        { class: "reach" },
+        behind.map(({ key, precision }) => svg("path", { "data-key": key, d: path(precision) })),
+      ),
     );
     this.point(this.pointed);
   }
@@ -70,7 +86,11 @@ export function lineMark(kind, color) {
   return element(
     "span",
     { class: "rating-mark", "aria-hidden": "true" },
-    svg("svg", { viewBox: "0 0 24 8", width: 24, height: 8 }, styled(svg("path", { class: "rating-line", "data-kind": kind, d: "M0 4H24" }), color)),
+    svg(
+      "svg",
+      { viewBox: "0 0 24 8", width: 24, height: 8 },
+      styled(svg("path", { class: "rating-line", "data-kind": kind, d: "M0 4H24" }), color),
+    ),
   );
 }
 

@@ -12,7 +12,15 @@ export function dotCharts(subsets, marks) {
     .map((effect) => ({ ...effect, name: subsets.features[effect.feature], feature: data.hues[effect.feature] }));
   const best = Math.max(...data.spread.map(({ mean }) => mean));
   const seeds = data.spread.flatMap(({ place, hits, mean, margin, apart }) =>
-    hits.map((hit) => ({ name: subsets.names(place).join(" "), hit, mean, low: mean - margin, high: mean + margin, best, apart })),
+    hits.map((hit) => ({
+      name: subsets.names(place).join(" "),
+      hit,
+      mean,
+      low: mean - margin,
+      high: mean + margin,
+      best,
+      apart,
+    })),
   );
   return [
     new DotChart("effect-dots", data.charts.effects, "effects", effects, effects.length, marks),
@@ -22,7 +30,12 @@ export function dotCharts(subsets, marks) {
 
 class DotChart {
   constructor(id, spec, name, rows, count, marks) {
-    Object.assign(this, { node: document.getElementById(id), spec, name, rows, count, marks });
+    this.node = document.getElementById(id);
+    this.spec = spec;
+    this.name = name;
+    this.rows = rows;
+    this.count = count;
+    this.marks = marks;
   }
 
   async start() {
@@ -40,6 +53,9 @@ class DotChart {
     if (!this.vega) return;
     const width = this.node.clientWidth;
     if (this.spec.params.some(({ name }) => name === "label_limit")) this.vega.signal("label_limit", width * 0.42);
-    await this.vega.width(width).height(this.count * ROW + 44).runAsync();
+    await this.vega
+      .width(width)
+      .height(this.count * ROW + 44)
+      .runAsync();
   }
 }

@@ -1,6 +1,6 @@
 // The chosen subset in figures, and chips that lead to each neighbouring subset.
 
-import { element } from "../base/dom.js";
+import { element, focused } from "../base/dom.js";
 import { figure } from "../base/words.js";
 
 export class Panel {
@@ -17,7 +17,7 @@ export class Panel {
   }
 
   render() {
-    const focused = document.activeElement?.dataset?.key;
+    const kept = focused()?.dataset.key;
     const { subsets } = this;
     const place = this.state.get("chosen");
     this.node.replaceChildren(
@@ -25,12 +25,21 @@ export class Panel {
         element("h2", {}, "The chosen subset"),
         subsets.labelled && this.#headline(place),
         element("p", { class: "quiet" }, this.#hint()),
-        element("div", { class: "chips", role: "group", "aria-label": "Features of the subset" }, subsets.data.order.map((feature) => this.#chip(place, feature))),
+        element(
+          "div",
+          { class: "chips", role: "group", "aria-label": "Features of the subset" },
+          subsets.data.order.map((feature) => this.#chip(place, feature)),
+        ),
         this.#moves(place),
-        this.link && element("p", {}, element("a", { id: "open-overview", href: this.link(place) }, "Open this map in the Overview")),
+        this.link &&
+          element(
+            "p",
+            {},
+            element("a", { id: "open-overview", href: this.link(place) }, "Open this map in the Overview"),
+          ),
       ].filter(Boolean),
     );
-    if (focused !== undefined) this.node.querySelector(`[data-key="${focused}"]`)?.focus();
+    if (kept !== undefined) this.node.querySelector(`[data-key="${kept}"]`)?.focus();
   }
 
   #hint() {
@@ -50,7 +59,13 @@ export class Panel {
       element(
         "span",
         { class: "beside" },
-        place === 0 ? ["the best of all, chosen by the labels; ", element("b", {}, figure(subsets.data.chanceBest)), " with random ones"] : against(0, "the best"),
+        place === 0
+          ? [
+              "the best of all, chosen by the labels; ",
+              element("b", {}, figure(subsets.data.chanceBest)),
+              " with random ones",
+            ]
+          : against(0, "the best"),
         element("br"),
         place === subsets.everything ? "all features" : against(subsets.everything, "all features"),
       ),
@@ -64,8 +79,10 @@ export class Panel {
     const pressed = subsets.has(place, feature);
     const mark = element("i", { class: "hued" });
     mark.style.background = this.marks().features[subsets.data.hues[feature]];
-    const change = target === undefined || !subsets.labelled ? "" : difference(subsets.data.hit[target] - subsets.data.hit[place]);
-    const reason = pressed && subsets.single(place) >= 0 ? "A map needs at least one feature" : "This subset was not evaluated";
+    const change =
+      target === undefined || !subsets.labelled ? "" : difference(subsets.data.hit[target] - subsets.data.hit[place]);
+    const reason =
+      pressed && subsets.single(place) >= 0 ? "A map needs at least one feature" : "This subset was not evaluated";
     return element(
       "button",
       {
@@ -85,7 +102,17 @@ export class Panel {
 
   #moves(place) {
     const move = (key, words, target) =>
-      element("button", { type: "button", class: "plain", "data-key": key, disabled: target === place || target < 0 || target >= this.subsets.count, onclick: () => this.state.set({ chosen: target }) }, words);
+      element(
+        "button",
+        {
+          type: "button",
+          class: "plain",
+          "data-key": key,
+          disabled: target === place || target < 0 || target >= this.subsets.count,
+          onclick: () => this.state.set({ chosen: target }),
+        },
+        words,
+      );
     return element(
       "div",
       { class: "moves" },

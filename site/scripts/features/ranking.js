@@ -54,15 +54,24 @@ export class Ranking {
     const { charts } = subsets.data;
     for (const vega of this.vegas ?? []) vega.finalize();
     this.vegas = [];
-    const matrix = await drawChart(document.getElementById("feature-matrix"), charts.matrix, this.marks().config, "canvas");
+    const matrix = await drawChart(
+      document.getElementById("feature-matrix"),
+      charts.matrix,
+      this.marks().config,
+      "canvas",
+    );
     const row = new Map(subsets.data.order.map((feature, place) => [feature, place]));
     const cells = [];
     for (let place = 0; place < subsets.count; place += 1) {
       for (const feature of row.keys()) {
-        if (subsets.has(place, feature)) cells.push({ place, row: row.get(feature), feature: subsets.data.hues[feature] });
+        if (subsets.has(place, feature))
+          cells.push({ place, row: row.get(feature), feature: subsets.data.hues[feature] });
       }
     }
-    matrix.signal("features", row.size).height(ROW * row.size).data("cells", cells);
+    matrix
+      .signal("features", row.size)
+      .height(ROW * row.size)
+      .data("cells", cells);
     this.vegas.push(matrix);
     if (subsets.labelled) {
       const bars = await drawChart(document.getElementById("subset-bars"), charts.bars, this.marks().config, "canvas");
@@ -70,9 +79,13 @@ export class Ranking {
       bars.signal("bar", this.marks().bar).height(BARS).data("subsets", rows);
       this.vegas.push(bars);
     }
-    document.getElementById("rows").replaceChildren(
-      ...subsets.data.order.map((feature) => element("li", { dir: "auto", title: subsets.features[feature] }, subsets.features[feature])),
-    );
+    document
+      .getElementById("rows")
+      .replaceChildren(
+        ...subsets.data.order.map((feature) =>
+          element("li", { dir: "auto", title: subsets.features[feature] }, subsets.features[feature]),
+        ),
+      );
     this.step = null;
     await this.resize();
   }
@@ -96,16 +109,30 @@ export class Ranking {
     this.#point();
     this.#trace();
     for (const vega of this.vegas) {
-      vega.width(this.width).signal("count", this.subsets.count).signal("fill", step > 2 ? (step - 1) / step : 1);
+      vega
+        .width(this.width)
+        .signal("count", this.subsets.count)
+        .signal("fill", step > 2 ? (step - 1) / step : 1);
     }
     await Promise.all(this.vegas.map((vega) => vega.runAsync()));
   }
 
   #level() {
     const { chance, chanceBest, highest } = this.subsets.data;
-    const rule = (value, kind) => value !== null && svg("line", { class: kind, x1: 0, x2: this.width, y1: this.#y(value), y2: this.#y(value) });
+    const rule = (value, kind) =>
+      value !== null && svg("line", { class: kind, x1: 0, x2: this.width, y1: this.#y(value), y2: this.#y(value) });
     if (!this.subsets.labelled) return;
-    this.levels.replaceChildren(...[rule(0.25, "grid"), rule(0.5, "grid"), rule(0.75, "grid"), rule(1, "grid"), rule(chance, "rule"), rule(chanceBest, "rule strong"), isBelowOne(highest) && rule(highest, "rule most")].filter(Boolean));
+    this.levels.replaceChildren(
+      ...[
+        rule(0.25, "grid"),
+        rule(0.5, "grid"),
+        rule(0.75, "grid"),
+        rule(1, "grid"),
+        rule(chance, "rule"),
+        rule(chanceBest, "rule strong"),
+        isBelowOne(highest) && rule(highest, "rule most"),
+      ].filter(Boolean),
+    );
   }
 
   #x(place) {
@@ -142,7 +169,9 @@ export class Ranking {
   }
 
   #words(place) {
-    const rank = this.subsets.labelled ? `Rank ${place + 1} of ${this.subsets.count}, NH ${figure(this.subsets.data.hit[place])}: ` : "";
+    const rank = this.subsets.labelled
+      ? `Rank ${place + 1} of ${this.subsets.count}, NH ${figure(this.subsets.data.hit[place])}: `
+      : "";
     return `${rank}${this.subsets.names(place).join(", ")}`;
   }
 
@@ -160,12 +189,24 @@ export class Ranking {
     const { subsets } = this;
     const scored = () => [
       element("span", {}, "rank ", element("b", {}, String(place + 1)), ` of ${subsets.count}`),
-      element("span", {}, "NH", element("sub", {}, "s"), " ", element("b", {}, figure(subsets.data.hit[place])), ofAtMost(subsets.data.highest)),
+      element(
+        "span",
+        {},
+        "NH",
+        element("sub", {}, "s"),
+        " ",
+        element("b", {}, figure(subsets.data.hit[place])),
+        ofAtMost(subsets.data.highest),
+      ),
     ];
     this.reading.replaceChildren(
       element("span", { class: "which" }, pointed === null ? "Chosen" : "Pointed at"),
       ...(subsets.labelled ? scored() : []),
-      element("span", { class: "members" }, subsets.names(place).map((name) => this.#member(name))),
+      element(
+        "span",
+        { class: "members" },
+        subsets.names(place).map((name) => this.#member(name)),
+      ),
     );
   }
 
@@ -192,13 +233,24 @@ export class Ranking {
     this.path.append(
       svg("polyline", { points: places.map((place) => place.join()).join(" ") }),
       ...places.map(([x, y]) => svg("circle", { cx: x, cy: y, r: 3.5 })),
-      ...numbered.map(([x, y]) => svg("text", { x, y: Math.max(y - 8, 10), "text-anchor": "middle" }, String(places.findIndex((place) => place[0] === x) + 1))),
+      ...numbered.map(([x, y]) =>
+        svg(
+          "text",
+          { x, y: Math.max(y - 8, 10), "text-anchor": "middle" },
+          String(places.findIndex((place) => place[0] === x) + 1),
+        ),
+      ),
     );
     const steps = greedy.path.map((place, index) => [
       index > 0 && " → ",
       element(
         "button",
-        { type: "button", class: "step", title: `Choose ${this.subsets.names(place).join(", ")}`, onclick: () => this.state.set({ chosen: place }) },
+        {
+          type: "button",
+          class: "step",
+          title: `Choose ${this.subsets.names(place).join(", ")}`,
+          onclick: () => this.state.set({ chosen: place }),
+        },
         `${index + 1}. ${this.subsets.names(place).join(" ")} `,
         element("b", {}, figure(hit[place])),
       ),

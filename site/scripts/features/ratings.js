@@ -36,11 +36,23 @@ export class Ratings {
     const subsets = [
       { key: "chosen", kind: "chosen", row: chosen },
       { key: "everything", kind: "everything", row: this.everything },
-      this.choosable && !data.order.some((feature) => this.alone(feature) === data.best) && { key: "best", kind: "best", row: data.best },
-      ...data.order.map((feature) => ({ key: `feature ${feature}`, kind: "feature", feature, row: this.alone(feature) })),
+      this.choosable &&
+        !data.order.some((feature) => this.alone(feature) === data.best) && {
+          key: "best",
+          kind: "best",
+          row: data.best,
+        },
+      ...data.order.map((feature) => ({
+        key: `feature ${feature}`,
+        kind: "feature",
+        feature,
+        row: this.alone(feature),
+      })),
     ].filter(Boolean);
     const rows = subsets.map(({ row }) => row);
-    const once = subsets.filter(({ row }, place) => rows.indexOf(row) === place).map((choice) => ({ ...choice, rating: data.subsets[choice.row] }));
+    const once = subsets
+      .filter(({ row }, place) => rows.indexOf(row) === place)
+      .map((choice) => ({ ...choice, rating: data.subsets[choice.row] }));
     const others = [
       data.byBins && { key: "bins", kind: "bins", rating: data.byBins },
       { key: "chance", kind: "chance", rating: data.chance },

@@ -38,13 +38,22 @@ export class RetrievalSection {
 
   render() {
     const { ratings, over } = this;
-    const focused = this.rows.contains(document.activeElement) ? document.activeElement.closest("tr").dataset.key : null;
+    const focused = this.rows.contains(document.activeElement)
+      ? document.activeElement.closest("tr").dataset.key
+      : null;
     this.row = this.chosen === null ? ratings.everything : ratings.find(this.chosen());
     this.choices = ratings.choices(this.row);
-    this.curves.show(this.choices.map((choice) => ({ ...choice, color: this.#color(choice), precision: ratings.curve(choice.rating, over) })));
+    this.curves.show(
+      this.choices.map((choice) => ({
+        ...choice,
+        color: this.#color(choice),
+        precision: ratings.curve(choice.rating, over),
+      })),
+    );
     this.rows.replaceChildren(...this.choices.map((choice) => this.#row(choice)));
     // What was chosen has become another row.
-    if (focused !== null) (this.rows.querySelector(`[data-key="${focused}"] button`) ?? this.rows.querySelector("button"))?.focus();
+    if (focused !== null)
+      (this.rows.querySelector(`[data-key="${focused}"] button`) ?? this.rows.querySelector("button"))?.focus();
     this.#renderClasses();
   }
 
@@ -55,7 +64,11 @@ export class RetrievalSection {
     const titles = measures.map(({ title }) => title);
     const mean = `mean over ${over}`;
     return [
-      table(`Retrieval, ${mean}`, ["Compared", ...titles], choices.map((choice) => [this.#words(choice), ...ratings.scores(choice.rating, over).map(figure)])),
+      table(
+        `Retrieval, ${mean}`,
+        ["Compared", ...titles],
+        choices.map((choice) => [this.#words(choice), ...ratings.scores(choice.rating, over).map(figure)]),
+      ),
       table(
         `Precision at each recall, ${mean}`,
         ["Compared", ...recall.map((level) => level.toFixed(2))],
@@ -64,9 +77,19 @@ export class RetrievalSection {
       table(
         `Retrieval of each class by ${ratings.names(this.row).join(", ")}`,
         ["Class", "Shapes", ...titles],
-        ratings.each(choices[0].rating).map((scores, place) => [this.#className(place), String(queries[place]), ...scores.map(figure)]),
+        ratings
+          .each(choices[0].rating)
+          .map((scores, place) => [this.#className(place), String(queries[place]), ...scores.map(figure)]),
       ),
-      element("p", {}, "Every subset: ", dataLink("data/retrieval.csv"), "; by class: ", dataLink("data/retrieval-classes.csv"), "."),
+      element(
+        "p",
+        {},
+        "Every subset: ",
+        dataLink("data/retrieval.csv"),
+        "; by class: ",
+        dataLink("data/retrieval-classes.csv"),
+        ".",
+      ),
     ];
   }
 
@@ -82,18 +105,30 @@ export class RetrievalSection {
     return element(
       "tr",
       { "data-key": choice.key },
-      element("th", { scope: "row", title: this.#words(choice) }, element("span", { class: "rating-of" }, lineMark(choice.kind, this.#color(choice)), this.#name(choice))),
-      values.map((value, place) => element("td", { class: place === values.length - 1 ? "number rating-main" : "number" }, figure(value))),
+      element(
+        "th",
+        { scope: "row", title: this.#words(choice) },
+        element("span", { class: "rating-of" }, lineMark(choice.kind, this.#color(choice)), this.#name(choice)),
+      ),
+      values.map((value, place) =>
+        element("td", { class: place === values.length - 1 ? "number rating-main" : "number" }, figure(value)),
+      ),
     );
   }
 
   /** What a row compares; a button where it can be chosen. */
   #name(choice) {
     const words = this.#parts(choice);
-    if (choice.row === undefined || choice.kind === "chosen" || this.choose === null) return element("span", { class: "rating-name" }, words);
+    if (choice.row === undefined || choice.kind === "chosen" || this.choose === null)
+      return element("span", { class: "rating-name" }, words);
     return element(
       "button",
-      { type: "button", class: "rating-name step", title: "Choose this subset", onclick: () => this.choose(this.ratings.names(choice.row)) },
+      {
+        type: "button",
+        class: "rating-name step",
+        title: "Choose this subset",
+        onclick: () => this.choose(this.ratings.names(choice.row)),
+      },
       words,
     );
   }
@@ -111,7 +146,10 @@ export class RetrievalSection {
     ].filter(Boolean);
     if (notes.length === 0) return listed;
     const note = notes.join(", ");
-    return [element("span", {}, note[0].toUpperCase() + note.slice(1)), row !== ratings.everything && element("span", { class: "rating-members" }, listed)];
+    return [
+      element("span", {}, note[0].toUpperCase() + note.slice(1)),
+      row !== ratings.everything && element("span", { class: "rating-members" }, listed),
+    ];
   }
 
   #words(choice) {
@@ -131,7 +169,13 @@ export class RetrievalSection {
     const { queries, measures } = ratings.data;
     const rows = ratings.each(this.choices[0].rating).map((scores, place) => ({ scores, place }));
     rows.sort((one, other) => other.scores.at(-1) - one.scores.at(-1));
-    const head = element("tr", {}, ["Class", "Shapes", ...measures.map(({ title }) => title)].map((title, place) => element("th", { scope: "col", class: place > 0 && "number" }, title)));
+    const head = element(
+      "tr",
+      {},
+      ["Class", "Shapes", ...measures.map(({ title }) => title)].map((title, place) =>
+        element("th", { scope: "col", class: place > 0 && "number" }, title),
+      ),
+    );
     const body = rows.map(({ scores, place }) =>
       element(
         "tr",

@@ -1,6 +1,5 @@
 // The map of a subset among those of the database.
 
-
 /** The index of a subset's map in the database. Shapes that the search left out have no place on it. */
 export async function shown(database, subsets, place) {
   const { rows } = subsets.data;
@@ -10,5 +9,8 @@ export async function shown(database, subsets, place) {
     for (const [index, row] of rows.entries()) all[row] = values[index];
     return all;
   };
-  return database.add(rows === null ? map : { ...map, x: spread(map.x, NaN), y: spread(map.y, NaN), hit: spread(map.hit, null) }, null);
+  return database.add(
+    rows === null ? map : { ...map, x: spread(map.x, NaN), y: spread(map.y, NaN), hit: spread(map.hit, null) },
+    null,
+  );
 }

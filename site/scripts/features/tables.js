@@ -19,18 +19,33 @@ export function subsetTables(database, subsets, state) {
   ]);
   const map = state.get("method") === null ? null : database.methods[state.get("method")];
   const tables = [
-    greedy && table(`Greedy search, s = ${greedy.s}`, ["Step", "NH", "Features"], greedy.path.map((place, step) => [String(step + 1), figure(data.hit[place]), names(place)])),
-    classes.length > 0 && table(
-      "Neighbourhood hit by class",
-      ["Class", "chosen", "least", "lower quartile", "median", "upper quartile", "most"],
-      classes,
-    ),
+    greedy &&
+      table(
+        `Greedy search, s = ${greedy.s}`,
+        ["Step", "NH", "Features"],
+        greedy.path.map((place, step) => [String(step + 1), figure(data.hit[place]), names(place)]),
+      ),
+    classes.length > 0 &&
+      table(
+        "Neighbourhood hit by class",
+        ["Class", "chosen", "least", "lower quartile", "median", "upper quartile", "most"],
+        classes,
+      ),
     table(
       "Subsets",
       subsets.labelled ? ["Rank", "NH", "Features"] : ["Number", "Features"],
-      places.map((place) => [String(place + 1), subsets.labelled && figure(data.hit[place]), names(place)].filter(Boolean)),
+      places.map((place) =>
+        [String(place + 1), subsets.labelled && figure(data.hit[place]), names(place)].filter(Boolean),
+      ),
     ),
-    subsets.count > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `, dataLink("data/subsets.csv"), "."),
+    subsets.count > MOST_ROWS &&
+      element(
+        "p",
+        {},
+        `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `,
+        dataLink("data/subsets.csv"),
+        ".",
+      ),
     map && shapesTable("The map of the chosen subset", database, map, [...database.ids.keys()]),
   ].filter(Boolean);
   return { title: "Subsets of the features in figures", tables };

@@ -28,7 +28,8 @@ export function watchBrush(surface, plot, state) {
     if (!drawn) return;
     const [left, right] = [Math.min(x, start[0]), Math.max(x, start[0])];
     const [top, bottom] = [Math.min(y, start[1]), Math.max(y, start[1])];
-    for (const [name, value] of Object.entries({ x: left, y: top, width: right - left, height: bottom - top })) box.setAttribute(name, value);
+    for (const [name, value] of Object.entries({ x: left, y: top, width: right - left, height: bottom - top }))
+      box.setAttribute(name, value);
     box.classList.add("shown");
     state.set({ brushing: true, selection: new Set([...before, ...plot.inside(left, top, right, bottom)]) });
   });
@@ -53,7 +54,7 @@ export function watchBrush(surface, plot, state) {
     plot.draw();
   };
   state.listen((changed) => {
-    if (changed.has("selection")) frame ??= requestAnimationFrame(draw);
+    if (changed.has("selection") && frame === null) frame = requestAnimationFrame(draw);
   });
 }
 

@@ -10,6 +10,8 @@ export class Card {
   constructor(state) {
     this.state = state;
     this.node = document.getElementById("card");
+    this.shown = null;
+    this.map = null;
     state.listen((changed) => {
       if (changed.has("theme")) this.shown = null;
       const camera = state.get("pointedFrom")?.scene.cameraName;
@@ -30,7 +32,8 @@ export class Card {
   #fill(index, database, map) {
     [this.shown, this.map] = [index, map];
     const group = database.groups[index];
-    const neighbours = database.count > 1 ? database.census(database.neighbours(index, database.methods.indexOf(map))) : [];
+    const neighbours =
+      database.count > 1 ? database.census(database.neighbours(index, database.methods.indexOf(map))) : [];
     this.node.replaceChildren(
       picture(database, index, 112),
       element(
@@ -38,14 +41,22 @@ export class Card {
         {},
         element("p", { class: "name", dir: "auto" }, shortened(database.names[index], 48)),
         database.labelled && classLine(database, group),
-        map.hit[index] !== null && element("p", {}, "NH ", element("b", {}, figure(map.hit[index])), ofAtMost(highestOf(database, map, index))),
-        neighbours.length > 0 && database.labelled && element(
-          "p",
-          { class: "census" },
-          "near it: ",
-          neighbours.slice(0, MOST_CLASSES).map(([other, number], place) => `${place > 0 ? ", " : ""}${number} ${shortened(database.className(other), 18)}`),
-          neighbours.length > MOST_CLASSES && " …",
-        ),
+        map.hit[index] !== null &&
+          element("p", {}, "NH ", element("b", {}, figure(map.hit[index])), ofAtMost(highestOf(database, map, index))),
+        neighbours.length > 0 &&
+          database.labelled &&
+          element(
+            "p",
+            { class: "census" },
+            "near it: ",
+            neighbours
+              .slice(0, MOST_CLASSES)
+              .map(
+                ([other, number], place) =>
+                  `${place > 0 ? ", " : ""}${number} ${shortened(database.className(other), 18)}`,
+              ),
+            neighbours.length > MOST_CLASSES && " …",
+          ),
       ),
     );
   }
@@ -65,5 +76,10 @@ export class Card {
 
 /** The mark and the name of a class. */
 export function classLine(database, group) {
-  return element("p", { class: "of-class", dir: "auto" }, swatch(database.symbol(group), database.color(group)), shortened(database.className(group), 60));
+  return element(
+    "p",
+    { class: "of-class", dir: "auto" },
+    swatch(database.symbol(group), database.color(group)),
+    shortened(database.className(group), 60),
+  );
 }

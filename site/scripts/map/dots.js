@@ -76,8 +76,14 @@ export class Dots {
     const { symbols, plain } = database.data.marks;
     const none = () => [plain, marks.unlabelled];
     const kinds = {
-      class: [(index) => database.groups[index], (group) => (group < 0 ? none() : [symbols[group], marks.classes[group]])],
-      hit: [(index) => reachOf(database, database.methods[scene.target], index), (reach) => (reach === null ? none() : [plain, shade(marks.hit, reach)])],
+      class: [
+        (index) => database.groups[index],
+        (group) => (group < 0 ? none() : [symbols[group], marks.classes[group]]),
+      ],
+      hit: [
+        (index) => reachOf(database, database.methods[scene.target], index),
+        (reach) => (reach === null ? none() : [plain, shade(marks.hit, reach)]),
+      ],
       thumbnail: [() => 0, none],
     };
     const [kindOf, look] = kinds[view.name];
@@ -125,7 +131,14 @@ export class Dots {
   #picture(index) {
     if (!this.#pictures.has(index)) {
       if (this.#pictures.size >= MOST_PICTURES_KEPT) this.#pictures.clear();
-      this.#pictures.set(index, element("img", { src: this.view.database.picture(index), decoding: "async", onload: () => this.view.scene.draw() }));
+      this.#pictures.set(
+        index,
+        element("img", {
+          src: this.view.database.picture(index),
+          decoding: "async",
+          onload: () => this.view.scene.draw(),
+        }),
+      );
     }
     return this.#pictures.get(index);
   }

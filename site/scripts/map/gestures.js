@@ -44,7 +44,7 @@ export class Gestures {
     const moves = this.state.get("drag") === "move" || event.button === 1;
     this.#drag = {
       kind: "press",
-      then: moves ? "move" : "select",
+      becomes: moves ? "move" : "select",
       start: place,
       camera: this.scene.camera(),
       before: event.shiftKey ? this.state.get("selection") : new Set(),
@@ -65,7 +65,7 @@ export class Gestures {
     }
     const [dx, dy] = [place[0] - drag.start[0], place[1] - drag.start[1]];
     if (drag.kind === "press" && Math.hypot(dx, dy) > CLICK) {
-      drag.kind = drag.then;
+      drag.kind = drag.becomes;
       this.state.set({ pointed: null, brushing: drag.kind === "select" });
     }
     if (drag.kind === "move") {
@@ -107,7 +107,8 @@ export class Gestures {
     this.state.set({ pointed: index, pointedFrom: this.view });
   }
 
-  #select(drag, [x, y]) {
+  #select(drag, place) {
+    const [x, y] = place;
     const [left, right] = [Math.min(x, drag.start[0]), Math.max(x, drag.start[0])];
     const [top, bottom] = [Math.min(y, drag.start[1]), Math.max(y, drag.start[1])];
     const { brush } = this.view;

@@ -10,6 +10,9 @@ const LONGEST = 26;
 const DIRECTIONS = 12;
 const DISTANCES = [0, 16, 28, 42, 58];
 
+/** Measures texts. */
+let pen = null;
+
 export class Labels {
   #layer = svg("g", { class: "labels" });
   #placed = [];
@@ -73,9 +76,17 @@ export class Labels {
       for (let step = 0; step < (distance === 0 ? 1 : DIRECTIONS); step += 1) {
         const angle = (2 * Math.PI * step) / DIRECTIONS - Math.PI / 2;
         const reach = distance === 0 ? 0 : distance + radius;
-        const x = anchor.x + Math.cos(angle) * (reach + (Math.abs(Math.cos(angle)) * textWidth) / 2 * Math.sign(reach));
+        const x =
+          anchor.x + Math.cos(angle) * (reach + ((Math.abs(Math.cos(angle)) * textWidth) / 2) * Math.sign(reach));
         const y = anchor.y + Math.sin(angle) * reach;
-        const box = { x, y, left: x - textWidth / 2, right: x + textWidth / 2, top: y - HEIGHT / 2, bottom: y + HEIGHT / 2 };
+        const box = {
+          x,
+          y,
+          left: x - textWidth / 2,
+          right: x + textWidth / 2,
+          top: y - HEIGHT / 2,
+          bottom: y + HEIGHT / 2,
+        };
         if (box.left < 2 || box.right > width - 2 || box.top < 2 || box.bottom > height - 2) continue;
         if (boxes.some((other) => overlap(box, other))) continue;
         const [own, others] = crowd.within(box, group, 0);
@@ -91,7 +102,7 @@ export class Labels {
 
   #width(text) {
     if (!this.#widths.has(text)) {
-      const context = (Labels.canvas ??= document.createElement("canvas").getContext("2d"));
+      const context = (pen ??= document.createElement("canvas").getContext("2d"));
       context.font = `600 13px ${getComputedStyle(document.body).fontFamily}`;
       this.#widths.set(text, context.measureText(text).width + 10);
     }
@@ -140,7 +151,8 @@ function densest(members) {
   const around = (point) => {
     const [column, row] = [Math.floor(point.x / size), Math.floor(point.y / size)];
     let sum = 0;
-    for (let i = -1; i <= 1; i += 1) for (let j = -1; j <= 1; j += 1) sum += counts.get(cellKey(column + i, row + j)) ?? 0;
+    for (let i = -1; i <= 1; i += 1)
+      for (let j = -1; j <= 1; j += 1) sum += counts.get(cellKey(column + i, row + j)) ?? 0;
     return sum;
   };
   let [best, most] = [members[0], -1];
@@ -149,7 +161,9 @@ function densest(members) {
     if (sum > most) [best, most] = [point, sum];
   }
   // Of the crowd around it, the one nearest to its middle.
-  const crowd = members.filter((point) => Math.abs(point.x - best.x) < 1.5 * size && Math.abs(point.y - best.y) < 1.5 * size);
+  const crowd = members.filter(
+    (point) => Math.abs(point.x - best.x) < 1.5 * size && Math.abs(point.y - best.y) < 1.5 * size,
+  );
   const mean = (pick) => crowd.reduce((sum, point) => sum + pick(point), 0) / crowd.length;
   const [x, y] = [mean((point) => point.x), mean((point) => point.y)];
   return crowd.reduce((a, b) => ((a.x - x) ** 2 + (a.y - y) ** 2 <= (b.x - x) ** 2 + (b.y - y) ** 2 ? a : b));

@@ -42,7 +42,8 @@ export class LiveScene extends Scene {
     this.#last = last;
     for (let index = 0; index < this.x.length; index += 1) {
       // A shape that comes to the map starts where it belongs; one that leaves is gone.
-      if (Number.isNaN(this.x[index]) !== Number.isNaN(goal.x[index])) [this.x[index], this.y[index]] = [goal.x[index], goal.y[index]];
+      if (Number.isNaN(this.x[index]) !== Number.isNaN(goal.x[index]))
+        [this.x[index], this.y[index]] = [goal.x[index], goal.y[index]];
     }
     this.weigh();
     if (this.#frame !== null) return;

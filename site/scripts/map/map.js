@@ -25,6 +25,8 @@ export class MapView {
     this.pictured = [];
     this.sent = new Map();
     this.started = false;
+    this.dots = null;
+    this.order = null;
     this.measure();
   }
 
@@ -130,7 +132,8 @@ export class MapView {
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
       const distance = Math.hypot(left + this.scene.x[index] * scale - x, top - this.scene.y[index] * scale - y);
-      if (distance <= (this.pictured[index] ? pictureReach : markReach) && distance < least) [best, least] = [index, distance];
+      if (distance <= (this.pictured[index] ? pictureReach : markReach) && distance < least)
+        [best, least] = [index, distance];
     }
     return best;
   }
@@ -222,7 +225,8 @@ export class MapView {
     if (this.name === "thumbnail") Object.assign(values, { pictured: this.pictured, picture_size: this.pictureSize });
     for (const [name, value] of Object.entries(values)) {
       const before = this.sent.get(name);
-      if (before === value || (name.endsWith("_domain") && before?.[0] === value[0] && before[1] === value[1])) continue;
+      if (before === value || (name.endsWith("_domain") && before?.[0] === value[0] && before[1] === value[1]))
+        continue;
       vega.signal(name, value);
       this.sent.set(name, value);
     }
@@ -310,7 +314,12 @@ export class MapView {
       if (x < 0 || y < 0 || x > this.width || y > this.clearHeight) continue;
       points.push({ index, group: this.database.groups[index], x, y });
     }
-    this.labels.place(points, this.width, this.clearHeight, this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius);
+    this.labels.place(
+      points,
+      this.width,
+      this.clearHeight,
+      this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius,
+    );
     this.labels.follow((index) => this.screen(index));
   }
 }

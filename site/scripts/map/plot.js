@@ -24,9 +24,22 @@ export class Plot {
    * `mark(index)` says how a shape is drawn: `{ color, path, radius, faint }`; `first(index)` puts shapes below the
    * others; `selection()` are the shapes that stand out, all where there are none; `drawn` is called after every drawing.
    */
-  constructor(database, { mark, first = () => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} }) {
-    Object.assign(this, { database, mark, first, selection, margin, drawn });
-    this.node = element("canvas", { class: "few-plot", role: label === null ? null : "img", "aria-label": label, "aria-hidden": label === null ? "true" : null });
+  constructor(
+    database,
+    { mark, first = (_) => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} },
+  ) {
+    this.database = database;
+    this.mark = mark;
+    this.first = first;
+    this.selection = selection;
+    this.margin = margin;
+    this.drawn = drawn;
+    this.node = element("canvas", {
+      class: "few-plot",
+      role: label === null ? null : "img",
+      "aria-label": label,
+      "aria-hidden": label === null ? "true" : null,
+    });
     this.pen = this.node.getContext("2d");
     this.map = null;
     new ResizeObserver(() => this.draw()).observe(this.node);
@@ -121,6 +134,7 @@ function pathOf(text) {
 }
 
 function between(from, to, share) {
-  const mix = (a, b) => b.map((value, index) => (Number.isNaN(a[index]) ? value : a[index] + share * (value - a[index])));
+  const mix = (a, b) =>
+    b.map((value, index) => (Number.isNaN(a[index]) ? value : a[index] + share * (value - a[index])));
   return { x: mix(from.x, to.x), y: mix(from.y, to.y) };
 }

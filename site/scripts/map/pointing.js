@@ -39,7 +39,13 @@ export class Pointing {
           "div",
           {},
           element("p", { class: "name", dir: "auto" }, database.names[index]),
-          database.labelled && element("p", { class: "of-class" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group))),
+          database.labelled &&
+            element(
+              "p",
+              { class: "of-class" },
+              swatch(database.symbol(group), database.color(group)),
+              element("bdi", {}, database.className(group)),
+            ),
         ),
       );
       this.shown = index;

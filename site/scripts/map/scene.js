@@ -138,7 +138,7 @@ export class Scene {
     const selection = this.state.get("selection");
     const matches = this.state.get("matches");
     const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
-    this.present = this.x.reduce((number, value) => number + !Number.isNaN(value), 0);
+    this.present = this.x.reduce((number, value) => number + Number(!Number.isNaN(value)), 0);
     this.emphasis = this.database.groups.map((group, index) => {
       if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
       if (pointed !== null) return group === pointed ? CHOSEN : FAINT;

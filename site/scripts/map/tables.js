@@ -17,13 +17,26 @@ export function mapTables(database, state) {
   const groups = database.classes.map((_, group) => group);
   groups.sort((a, b) => (method.hitOfClass[b] ?? -1) - (method.hitOfClass[a] ?? -1) || a - b);
   const tables = [
-    database.labelled && table(
-      "Neighbourhood hit by class",
-      ["Class", "Shapes", "NH", "NH at most"],
-      groups.map((group) => [database.className(group), String(database.sizes.get(group)), figure(method.hitOfClass[group]), figure(rangeOf(database, method).highestOfClass.get(group))]),
-    ),
+    database.labelled &&
+      table(
+        "Neighbourhood hit by class",
+        ["Class", "Shapes", "NH", "NH at most"],
+        groups.map((group) => [
+          database.className(group),
+          String(database.sizes.get(group)),
+          figure(method.hitOfClass[group]),
+          figure(rangeOf(database, method).highestOfClass.get(group)),
+        ]),
+      ),
     shapesTable(selection.size > 0 ? "Selected shapes" : "Shapes", database, method, shown),
-    shown.length > MOST_ROWS && element("p", {}, `The first ${MOST_ROWS} of ${count(shown.length, "shape")}. All are in `, dataLink("data/shapes.csv"), "."),
+    shown.length > MOST_ROWS &&
+      element(
+        "p",
+        {},
+        `The first ${MOST_ROWS} of ${count(shown.length, "shape")}. All are in `,
+        dataLink("data/shapes.csv"),
+        ".",
+      ),
   ].filter(Boolean);
   return { title: `The ${method.title} map in figures`, tables };
 }
@@ -33,13 +46,15 @@ export function shapesTable(title, database, method, indices) {
   return table(
     title,
     ["Shape", "Class", "NH", "NH at most", "x", "y"],
-    indices.slice(0, MOST_ROWS).map((index) => [
-      database.ids[index],
-      database.className(database.groups[index]),
-      figure(method.hit[index]),
-      figure(highestOf(database, method, index)),
-      figure(method.x[index]),
-      figure(method.y[index]),
-    ]),
+    indices
+      .slice(0, MOST_ROWS)
+      .map((index) => [
+        database.ids[index],
+        database.className(database.groups[index]),
+        figure(method.hit[index]),
+        figure(highestOf(database, method, index)),
+        figure(method.x[index]),
+        figure(method.y[index]),
+      ]),
   );
 }

@@ -22,6 +22,12 @@ export function swap(figures, large, scene) {
     const [from, to] = [before.get(name), node.getBoundingClientRect()];
     if (from.width === to.width && from.left === to.left) continue;
     const start = `translate(${from.left - to.left}px, ${from.top - to.top}px) scale(${from.width / to.width}, ${from.height / to.height})`;
-    node.animate([{ transform: start, opacity: 0.4 }, { transform: "none", opacity: 1 }], { duration: 220, easing: "ease-out" });
+    node.animate(
+      [
+        { transform: start, opacity: 0.4 },
+        { transform: "none", opacity: 1 },
+      ],
+      { duration: 220, easing: "ease-out" },
+    );
   }
 }

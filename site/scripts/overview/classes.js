@@ -1,7 +1,7 @@
 // The classes: a legend that filters, a bar of NH for each, and in words what the map as a whole reaches.
 
 import { drawChart } from "../base/chart.js";
-import { element, swatch } from "../base/dom.js";
+import { element, focused, swatch } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 
@@ -38,10 +38,10 @@ export class ClassList {
   }
 
   render() {
-    const focused = document.activeElement?.dataset?.group;
+    const kept = focused()?.dataset.group;
     this.buttons = new Map(this.order.map((group) => [group, this.#button(group)]));
     this.list.replaceChildren(...[...this.buttons.values()].map((button) => element("li", {}, button)));
-    if (focused !== undefined) this.buttons.get(Number(focused))?.focus();
+    if (kept !== undefined) this.buttons.get(Number(kept))?.focus();
     document.getElementById("quality").replaceChildren(...this.#quality());
     this.#mark();
   }
@@ -92,7 +92,12 @@ export class ClassList {
     const method = this.database.methods[this.state.get("method")];
     const { hitOfClass, chance } = method;
     const { highestOfClass } = rangeOf(this.database, method);
-    const rows = this.order.map((group, row) => ({ row, hit: group < 0 ? null : hitOfClass[group], highest: highestOfClass.get(group) ?? null, present: !hidden.has(group) }));
+    const rows = this.order.map((group, row) => ({
+      row,
+      hit: group < 0 ? null : hitOfClass[group],
+      highest: highestOfClass.get(group) ?? null,
+      present: !hidden.has(group),
+    }));
     const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
     this.vega.width(this.node.clientWidth).height(height);
     this.vega.signal("chance", chance ?? -1).signal("ink", this.database.marks.ink);
@@ -128,7 +133,11 @@ export class ClassList {
     }
     if (!database.labelled) {
       return [
-        element("p", {}, "This database has no labels, so there is no neighbourhood hit to tell how well classes keep together. "),
+        element(
+          "p",
+          {},
+          "This database has no labels, so there is no neighbourhood hit to tell how well classes keep together. ",
+        ),
         element("p", {}, "The map needs none: it places shapes by their surfaces alone."),
       ];
     }
@@ -137,10 +146,29 @@ export class ClassList {
       { class: "headline" },
       element("span", { class: "symbol" }, "NH", element("sub", {}, "s")),
       element("output", { class: "value" }, figure(hitOfAll)),
-      element("span", { class: "beside" }, element("b", {}, figure(chance)), chanceSpread !== null && ` ± ${figure(chanceSpread)}`, element("br"), "with labels dealt at random", isBelowOne(rangeOf(database, method).highest) && [element("br"), element("b", {}, figure(rangeOf(database, method).highest)), " at most"]),
+      element(
+        "span",
+        { class: "beside" },
+        element("b", {}, figure(chance)),
+        chanceSpread !== null && ` ± ${figure(chanceSpread)}`,
+        element("br"),
+        "with labels dealt at random",
+        isBelowOne(rangeOf(database, method).highest) && [
+          element("br"),
+          element("b", {}, figure(rangeOf(database, method).highest)),
+          " at most",
+        ],
+      ),
     );
     if (database.classes.length === 1) {
-      return [headline, element("p", {}, "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.")];
+      return [
+        headline,
+        element(
+          "p",
+          {},
+          "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.",
+        ),
+      ];
     }
     return [
       headline,
@@ -151,8 +179,14 @@ export class ClassList {
         database.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
           : this.#best(method),
-        withoutCopies && ` Without ${count(withoutCopies.copies, "copy", "copies")} of other shapes the map has ${figure(withoutCopies.hitOfAll)}${ofAtMost(withoutCopies.highest)}.`,
-        base !== this.state.get("method") && [` This map is made from `, element("bdi", {}, features.join(", ")), " alone.", this.#chosen(features)],
+        withoutCopies &&
+          ` It is ${figure(withoutCopies.hitOfAll)}${ofAtMost(withoutCopies.highest)} without ${count(withoutCopies.copies, "copy", "copies")} of other shapes.`,
+        base !== this.state.get("method") && [
+          ` This map is made from `,
+          element("bdi", {}, features.join(", ")),
+          " alone.",
+          this.#chosen(features),
+        ],
       ),
     ];
   }

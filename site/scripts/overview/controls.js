@@ -3,7 +3,7 @@
 import { coarse } from "../base/dom.js";
 import { VIEWS } from "./arrangement.js";
 
-export function watchControls(database, state, scene, gestures) {
+export function watchControls(database, state, gestures) {
   const methods = document.getElementById("methods");
   const drag = document.getElementById("drag");
   const check = (group, value) => {
@@ -42,11 +42,11 @@ export function watchKeys(state, gestures) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (document.querySelector("dialog[open]")) return;
     if (event.key === "Escape") {
-      escape(state);
+      takeBack(state);
       return;
     }
     if (event.target instanceof HTMLInputElement && event.target.type === "search") return;
-    if (["1", "2", "3"].includes(event.key)) state.set({ view: VIEWS[event.key - 1] });
+    if (["1", "2", "3"].includes(event.key)) state.set({ view: VIEWS[Number(event.key) - 1] });
     else if (event.key in zooms) zoom(zooms[event.key], state, gestures);
     else if (event.key === "/") document.getElementById("search").focus();
     else return;
@@ -55,7 +55,7 @@ export function watchKeys(state, gestures) {
 }
 
 /** One press takes back the last thing that is open: the panel, then the search, then the selection. */
-function escape(state) {
+function takeBack(state) {
   if (state.get("opened") !== null) state.set({ opened: null });
   else if (state.get("query") !== "") state.set({ query: "" });
   else state.set({ selection: new Set() });

@@ -1,7 +1,7 @@
 // What is known of one shape: picture, labels, facts, and its nearest neighbours on the map.
 
 import { chunk } from "../base/chunks.js";
-import { element, picture } from "../base/dom.js";
+import { element, focused, picture } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
@@ -30,7 +30,7 @@ export class Detail {
     const { labelings, shapes } = await chunk("details");
     if (this.state.get("opened") !== index) return;
     const first = this.node.hidden;
-    if (first) this.returnTo = document.activeElement;
+    if (first) this.returnTo = focused();
     this.node.replaceChildren(...this.#content(index, labelings, shapes[index]));
     this.node.hidden = false;
     this.node.scrollTop = 0;
@@ -48,10 +48,18 @@ export class Detail {
         "div",
         { class: "detail-head" },
         element("h2", { dir: "auto" }, database.names[index]),
-        element("button", { type: "button", class: "plain", "aria-label": "Close", onclick: () => this.state.set({ opened: null }) }, "Close"),
+        element(
+          "button",
+          { type: "button", class: "plain", "aria-label": "Close", onclick: () => this.state.set({ opened: null }) },
+          "Close",
+        ),
       ),
       element("div", { class: "portrait" }, picture(database, index, 256, database.names[index])),
-      element("p", {}, element("a", { href: pageAddress("shape.html", this.#pageQuery(index)) }, "All about this shape")),
+      element(
+        "p",
+        {},
+        element("a", { href: pageAddress("shape.html", this.#pageQuery(index)) }, "All about this shape"),
+      ),
       database.labelled && classLine(database, database.groups[index]),
       ...this.#neighbours(index, method),
       others.length > 0 && facts("Other labels", others),
@@ -64,7 +72,11 @@ export class Detail {
         ["watertight", known.watertight ? "yes" : "no"],
         ["deviation", `${(known.deviation * 100).toFixed(3)} % of the diagonal`],
       ]),
-      known.repairs.length > 0 && facts("Repairs", known.repairs.map(([repair, number]) => [repair, grouped(number)])),
+      known.repairs.length > 0 &&
+        facts(
+          "Repairs",
+          known.repairs.map(([repair, number]) => [repair, grouped(number)]),
+        ),
     ].filter(Boolean);
   }
 
@@ -82,7 +94,14 @@ export class Detail {
     const hit = method.hit[index];
     return [
       element("h3", {}, `${count(near.length, "nearest neighbour")} on the ${method.title} map`),
-      hit !== null && element("p", {}, "NH ", element("b", {}, figure(hit)), `${ofAtMost(highestOf(database, method, index))}: the share of them in its own class.`),
+      hit !== null &&
+        element(
+          "p",
+          {},
+          "NH ",
+          element("b", {}, figure(hit)),
+          `${ofAtMost(highestOf(database, method, index))}: the share of them in its own class.`,
+        ),
       element(
         "div",
         { class: "neighbours" },
@@ -91,7 +110,10 @@ export class Detail {
             "button",
             {
               type: "button",
-              class: database.groups[other] === database.groups[index] || database.groups[index] < 0 ? "shape" : "shape stranger",
+              class:
+                database.groups[other] === database.groups[index] || database.groups[index] < 0
+                  ? "shape"
+                  : "shape stranger",
               "aria-label": `Open ${database.names[other]}, ${database.className(database.groups[other])}`,
               title: `${database.names[other]}\n${database.className(database.groups[other])}`,
               onclick: () => this.state.set({ opened: other }),
@@ -102,7 +124,9 @@ export class Detail {
           ),
         ),
       ),
-      database.groups[index] >= 0 && near.some((other) => database.groups[other] !== database.groups[index]) && element("p", { class: "key" }, "Underlined: of another class."),
+      database.groups[index] >= 0 &&
+        near.some((other) => database.groups[other] !== database.groups[index]) &&
+        element("p", { class: "key" }, "Underlined: of another class."),
     ].filter(Boolean);
   }
 }
@@ -112,6 +136,10 @@ function facts(title, rows) {
     "section",
     {},
     element("h3", {}, title),
-    element("dl", {}, rows.map(([name, value]) => [element("dt", { dir: "auto" }, name), element("dd", { dir: "auto" }, value)])),
+    element(
+      "dl",
+      {},
+      rows.map(([name, value]) => [element("dt", { dir: "auto" }, name), element("dd", { dir: "auto" }, value)]),
+    ),
   );
 }

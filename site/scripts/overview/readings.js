@@ -9,5 +9,9 @@ export function reading(name, database, state) {
   if (!database.labelled) return ["Without labels there is no neighbourhood hit."];
   const scale = element("span", { class: "ramp", role: "img", "aria-label": "from red to yellow" });
   scale.style.background = `linear-gradient(to right, ${database.marks.hit.join(", ")})`;
-  return [`Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${database.data.standIn ? "cluster" : "class"}: 0 `, scale, " 1"];
+  return [
+    `Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${database.data.standIn ? "cluster" : "class"}: 0 `,
+    scale,
+    " 1",
+  ];
 }

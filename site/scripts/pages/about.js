@@ -11,7 +11,10 @@ carryAddress();
 const meshes = document.getElementById("meshes");
 const field = document.getElementById("find-mesh");
 const status = meshes.querySelector("[role=status]");
-const rows = [...meshes.querySelectorAll("tbody tr")].map((row) => ({ row, text: row.textContent.toLocaleLowerCase() }));
+const rows = [...meshes.querySelectorAll("tbody tr")].map((row) => ({
+  row,
+  text: row.textContent.toLocaleLowerCase(),
+}));
 field.closest("p").hidden = false;
 field.addEventListener("input", () => {
   const words = field.value.toLocaleLowerCase().split(/\s+/);

@@ -9,7 +9,7 @@ import { currentTheme } from "../base/theme.js";
 import { BinCard } from "../bins-kit/bin-card.js";
 import { Look } from "../bins-kit/look.js";
 import { BinChips } from "../bins/bin-chip.js";
-import { ClassCards } from "../bins/class-cards.js";
+import { chooseSet, ClassCards } from "../bins/class-cards.js";
 import { PathPlayer } from "../bins/path-player.js";
 import { binsTables } from "../bins/tables.js";
 import { Turntable } from "../bins/turntable.js";
@@ -20,7 +20,9 @@ import { carrySelection } from "../tray/carry.js";
 import { clearOnEscape, Tray } from "../tray/tray.js";
 
 async function main() {
-  const [overview, selection, data, bytes] = await Promise.all(["overview", "selection", "workbench", "bins"].map(chunk));
+  const [overview, selection, data, bytes] = await Promise.all(
+    ["overview", "selection", "workbench", "bins"].map(chunk),
+  );
   const bins = new Bins(data, bytes);
   const database = new Database(overview, currentTheme);
   const first = firstBin(selection);
@@ -40,7 +42,8 @@ async function main() {
   };
   const open = (columns) => workbenchAddress(columns, data.features);
   if (selection.minimal.length > 0) new ClassCards(database, selection, state, chips, { open }).render();
-  if (selection.path.length > 0) new PathPlayer(database, selection, bins, state, chips, { open, pointing, choose, announce }).start();
+  if (selection.path.length > 0)
+    new PathPlayer(database, selection, bins, state, chips, { open, pointing, choose, announce }).start();
   new Look(database, bins, selection, state, card).render();
   new Turntable(database, bins, selection, state, { pointing, announce }).start();
   new Tray(database, state, { open: choose });
@@ -63,9 +66,15 @@ async function main() {
 
 /** The bin to look at first, and its class: one that separates a class alone, if any does, the best of these. */
 function firstBin({ minimal }) {
-  const found = minimal.map((separated) => ({ group: separated.group, highest: separated.highest, ...chooseSet(separated, "fewest") }));
+  const found = minimal.map((separated) => ({
+    group: separated.group,
+    highest: separated.highest,
+    ...chooseSet(separated, "fewest"),
+  }));
   if (found.length === 0) return { bin: 0, group: null };
-  const best = found.reduce((a, b) => (b.bins.length - a.bins.length || a.nh / (a.highest || 1) - b.nh / (b.highest || 1)) < 0 ? b : a);
+  const best = found.reduce((a, b) =>
+    (b.bins.length - a.bins.length || a.nh / (a.highest || 1) - b.nh / (b.highest || 1)) < 0 ? b : a,
+  );
   return { bin: best.bins[0], group: best.group };
 }
 

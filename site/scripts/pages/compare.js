@@ -18,12 +18,15 @@ import { carrySelection, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
-  const [overview, data, bytes, clusters] = await Promise.all(["overview", "compare", "neighbours", "clusters"].map(chunk));
+  const [overview, data, bytes, clusters] = await Promise.all(
+    ["overview", "compare", "neighbours", "clusters"].map(chunk),
+  );
   const database = new Database(overview, currentTheme);
   const neighbours = new Neighbours(database, data, bytes);
   // The values of all bins are large where shapes are many: they come when they are first needed.
   let loaded = null;
-  const bins = () => (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
+  const bins = () =>
+    (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
   const { state, announce, ready } = await openPage({ read: () => readView(database, data, neighbours) });
   const groups = new GroupsView(database, data, clusters, neighbours, state, { bins, announce });
   const outliers = new Outliers(database, data, neighbours, state, { bins, announce });

@@ -20,7 +20,7 @@ import { subsetTables } from "../features/tables.js";
 import { Card } from "../map/card.js";
 import { Gestures } from "../map/gestures.js";
 import { MapView } from "../map/map.js";
-import { Scene } from "../map/scene.js";
+import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
 import { carryAddress, carrySelection } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
@@ -30,7 +30,16 @@ async function main() {
   const database = new Database(overview, currentTheme);
   const { state, announce, ready } = await openPage({
     read: () => readFeaturesAddress(subsets, database),
-    values: { ...NOTHING_POINTED, ...dragging(), pointedPlace: null, method: null, hidden: new Set(), matches: null, opened: null, camera: null },
+    values: {
+      ...NOTHING_POINTED,
+      ...dragging(),
+      pointedPlace: null,
+      method: null,
+      hidden: new Set(),
+      matches: null,
+      opened: null,
+      camera: null,
+    },
   });
   const marks = () => ({
     ...search.marks[currentTheme()],
@@ -52,10 +61,14 @@ async function main() {
     return { title, tables: [...tables, ...(retrieval?.tables() ?? [])] };
   });
   const paint = () => {
-    for (const mark of document.querySelectorAll("[data-hue]")) mark.style.background = marks().features[mark.dataset.hue];
+    for (const mark of document.querySelectorAll("[data-hue]"))
+      mark.style.background = marks().features[mark.dataset.hue];
   };
   paint();
-  for (const [id, value] of [["chance", search.chance], ["chance-best", search.chanceBest]]) {
+  for (const [id, value] of [
+    ["chance", search.chance],
+    ["chance-best", search.chanceBest],
+  ]) {
     if (subsets.labelled) document.getElementById(id).textContent = figure(value);
   }
   await ranking.start();

@@ -11,7 +11,7 @@ import { Search } from "../database/search.js";
 import { Card } from "../map/card.js";
 import { Gestures } from "../map/gestures.js";
 import { MapView } from "../map/map.js";
-import { Scene } from "../map/scene.js";
+import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
 import { mapTables } from "../map/tables.js";
 import { arrange, swap, VIEWS } from "../overview/arrangement.js";
 import { ClassList } from "../overview/classes.js";
@@ -38,7 +38,8 @@ async function main() {
   const promote = (name) => state.set({ view: name });
   const gestures = new Map();
   for (const [name, view] of views) {
-    const announceShape = (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`);
+    const announceShape = (index) =>
+      announce(`${database.names[index]}, ${database.className(database.groups[index])}`);
     gestures.set(name, new Gestures(view, { open, promote, announce: announceShape }));
   }
 
@@ -53,20 +54,23 @@ async function main() {
   watchTables(() => mapTables(database, state));
   if (database.data.subsets) new FeatureChoice(database, state);
   watchIntroduction();
-  watchControls(database, state, scene, gestures);
+  watchControls(database, state, gestures);
   watchKeys(state, gestures);
 
   const readings = () => {
     for (const [name, figure] of figures) {
       const notes = database.methods.map(({ note }) => element("span", {}, note));
-      figure.querySelector(".reading").replaceChildren(...notes, element("span", { class: "shown" }, reading(name, database, state)));
+      figure
+        .querySelector(".reading")
+        .replaceChildren(...notes, element("span", { class: "shown" }, reading(name, database, state)));
     }
   };
   const write = delayed(() => writeAddress(database, state));
   state.listen((changed) => {
     if (changed.has("view")) swap(figures, state.get("view"), scene);
     if (changed.has("method")) readings();
-    if (["method", "view", "hidden", "selection", "opened", "query", "camera"].some((name) => changed.has(name))) write();
+    if (["method", "view", "hidden", "selection", "opened", "query", "camera"].some((name) => changed.has(name)))
+      write();
   });
 
   readings();
@@ -97,6 +101,5 @@ async function addressed(database) {
   const method = features.length > 0 ? await subsetMethod(database, features) : null;
   return method === null ? values : { ...values, method };
 }
-
 
 main();

@@ -46,7 +46,8 @@ async function main() {
         page.focus({ preventScroll: true });
       }
       opened = false;
-    } else if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name))) writeShapeAddress(database, state);
+    } else if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name)))
+      writeShapeAddress(database, state);
   });
   clearOnEscape(state);
   new Tray(database, state, { open: go });

@@ -30,7 +30,10 @@ async function main() {
   const [overview, described, hierarchy] = await Promise.all(["overview", "fields", "hierarchy"].map(chunk));
   const database = new Database(overview, currentTheme);
   const fields = new Fields(database, described, hierarchy);
-  const { state, announce, ready } = await openPage({ read: () => readGalleryAddress(database, fields), values: { matches: null, opened: null } });
+  const { state, announce, ready } = await openPage({
+    read: () => readGalleryAddress(database, fields),
+    values: { matches: null, opened: null },
+  });
   const sieve = new Sieve(database, fields);
   const arrangement = new Arrangement(database, fields);
   const grid = new Grid(database, state);
@@ -47,7 +50,11 @@ async function main() {
       cells = new Cells(database, fields, how);
       cells.how = JSON.stringify([how, state.get("theme")]);
     }
-    grid.show(arrangement.arrange((row) => sieve.passes(row), how), cells, fromTop);
+    grid.show(
+      arrangement.arrange((row) => sieve.passes(row), how),
+      cells,
+      fromTop,
+    );
     grid.mark();
   };
   const sift = () => {

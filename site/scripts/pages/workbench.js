@@ -13,6 +13,7 @@ import { Card } from "../map/card.js";
 import { Gestures } from "../map/gestures.js";
 import { LiveScene } from "../map/live-scene.js";
 import { MapView } from "../map/map.js";
+import { dragging, NOTHING_POINTED } from "../map/scene.js";
 import { carrySelection } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 import { Answers } from "../workbench/answers.js";
@@ -37,22 +38,25 @@ async function main() {
   const bins = new Bins(data, bytes);
   const database = new Database(overview, currentTheme);
   const content = document.getElementById("content");
-  const { state, announce, ready } = await openPage({ read: () => readWorkAddress(database, data), values: {
-    ...NOTHING_POINTED,
-    ...dragging(),
-    step: 0,
-    originalMap: null,
-    originalStatus: { kind: "none" },
-    originalCamera: null,
-    refinedMap: null,
-    refinedStatus: { kind: "none" },
-    refinedCamera: null,
-    scores: null,
-    scoresStatus: { kind: "none" },
-    method: 0,
-    matches: null,
-    opened: null,
-  } });
+  const { state, announce, ready } = await openPage({
+    read: () => readWorkAddress(database, data),
+    values: {
+      ...NOTHING_POINTED,
+      ...dragging(),
+      step: 0,
+      originalMap: null,
+      originalStatus: { kind: "none" },
+      originalCamera: null,
+      refinedMap: null,
+      refinedStatus: { kind: "none" },
+      refinedCamera: null,
+      scores: null,
+      scoresStatus: { kind: "none" },
+      method: 0,
+      matches: null,
+      opened: null,
+    },
+  });
   const marks = () => data.marks[currentTheme()];
   const answers = new Answers(database, data, bins);
 
@@ -65,7 +69,15 @@ async function main() {
     scene.views = [view];
     return view;
   });
-  const desk = new Desk(database, data, bins, state, answers, Object.fromEntries(WHICH.map((which, place) => [which, scenes[place]])), announce);
+  const desk = new Desk(
+    database,
+    data,
+    bins,
+    state,
+    answers,
+    Object.fromEntries(WHICH.map((which, place) => [which, scenes[place]])),
+    announce,
+  );
 
   const open = (opened) => state.set({ opened: opened === state.get("opened") ? null : opened });
   const announceShape = (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`);
@@ -74,13 +86,20 @@ async function main() {
   // A picture in the tray marks its shape on both maps.
   new Tray(database, state, { open });
   carrySelection(database, state);
-  const panels = WHICH.map((which) => new MapPanel(which, database, state, bins, {
-    other: which === "refined" ? "originalMap" : null,
-    again: () => desk.ask([which]),
-    stop: () => desk.stop(which),
-    empty: () => emptyMap(which, state, answers, desk),
-  }));
-  if (database.labelled) new ClassTable(database, state, { change: (hidden) => desk.use({ hidden }), separate: (part, groups) => desk.separate(part, groups) });
+  const panels = WHICH.map(
+    (which) =>
+      new MapPanel(which, database, state, bins, {
+        other: which === "refined" ? "originalMap" : null,
+        again: () => desk.ask([which]),
+        stop: () => desk.stop(which),
+        empty: () => emptyMap(which, state, answers, desk),
+      }),
+  );
+  if (database.labelled)
+    new ClassTable(database, state, {
+      change: (hidden) => desk.use({ hidden }),
+      separate: (part, groups) => desk.separate(part, groups),
+    });
   new FeatureList(bins, state, marks, (features) => desk.use({ features }));
   const strip = new HistoryStrip(database, state, desk.history, { go: (place) => desk.go(place) });
   const binCard = new BinCard(bins, database);
@@ -91,7 +110,10 @@ async function main() {
     onPoint: (column, box) => (column === null ? binCard.hide() : binCard.show(column, box)),
     announce,
   });
-  const status = new StatusLine(document.getElementById("scores-status"), { again: () => desk.ask(["scores"]), stop: () => desk.stop("scores") });
+  const status = new StatusLine(document.getElementById("scores-status"), {
+    again: () => desk.ask(["scores"]),
+    stop: () => desk.stop("scores"),
+  });
   const noScores = new Float64Array(bins.count).fill(NaN);
   const drawChart = () => {
     const scores = state.get("scores") ?? noScores;
@@ -100,7 +122,9 @@ async function main() {
     const { positive } = sides(separation, groups);
     binCard.know({
       scores,
-      scorer: database.separable ? data.scorers.find(({ key }) => key === state.get("scorer")).title : "standard deviation",
+      scorer: database.separable
+        ? data.scorers.find(({ key }) => key === state.get("scorer")).title
+        : "standard deviation",
       separated: positive,
       others: groups.filter((group) => !positive.includes(group)),
     });
@@ -119,7 +143,8 @@ async function main() {
 
   const write = delayed(() => replaceHash(workAddress(database, data, state)));
   state.listen((changed) => {
-    if (["scores", "bins", "scoresStatus", "separation", "hidden", "scorer"].some((name) => changed.has(name))) drawChart();
+    if (["scores", "bins", "scoresStatus", "separation", "hidden", "scorer"].some((name) => changed.has(name)))
+      drawChart();
     if (changed.has("scoresStatus")) status.show(state.get("scoresStatus"));
     if ([...changed].some((name) => name.endsWith("Status"))) content.setAttribute("aria-busy", String(desk.busy));
     if (changed.has("color")) {
@@ -128,7 +153,8 @@ async function main() {
         map.start();
       }
     }
-    if (["projection", "scorer", "separation", "sample", "color"].some((name) => changed.has(name)) && !desk.arriving) replaceHash(workAddress(database, data, state));
+    if (["projection", "scorer", "separation", "sample", "color"].some((name) => changed.has(name)) && !desk.arriving)
+      replaceHash(workAddress(database, data, state));
     if (changed.has("selection")) write();
     // Every step is a place that the browser's way back leads to, unless it has just led here.
     if (changed.has("step") && !desk.arriving) pushHash(workAddress(database, data, state));
@@ -142,7 +168,8 @@ async function main() {
     for (const map of maps) map.resize();
     chart.resize();
   });
-  for (const node of [...maps.map(({ surface }) => surface), document.getElementById("bin-chart")]) observer.observe(node);
+  for (const node of [...maps.map(({ surface }) => surface), document.getElementById("bin-chart")])
+    observer.observe(node);
   ready({
     arrive: (found) => desk.arrive(found),
     redraw() {

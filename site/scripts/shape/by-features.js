@@ -30,11 +30,16 @@ export function whenSeen(node, then) {
 export async function showFeatures(database, state, { links, portrait }) {
   const section = document.getElementById("by-features");
   const waiting = document.getElementById("waiting");
-  waiting.textContent = database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
+  waiting.textContent =
+    database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
   const [data, bytes, selection] = await Promise.all(["workbench", "bins", "selection"].map(chunk));
   const bins = new Bins(data, bytes);
   const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, state);
-  const histograms = new Histograms(database, bins, state, { spread: new Spread(database, bins), dimensions: selection.dimensions, card: new ValueCard(bins, kind(database)) });
+  const histograms = new Histograms(database, bins, state, {
+    spread: new Spread(database, bins),
+    dimensions: selection.dimensions,
+    card: new ValueCard(bins, kind(database)),
+  });
   const similar = new SimilarShapes(database, bins, state, { links, comparison, similarity: new Similarity(bins) });
   waiting.hidden = true;
   section.removeAttribute("aria-busy");

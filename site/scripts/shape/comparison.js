@@ -1,17 +1,23 @@
 // What similar means on this page: which features are compared, or which bins. The address has it as text.
 
-import { shortNames } from "../addresses/bin-names.js";
+import { readShortNames, shortNames } from "../addresses/bin-names.js";
 import { joinNames, splitNames } from "../addresses/names.js";
 import { count } from "../base/words.js";
 
 export class Comparison {
   /** `data` is the chunk "workbench", `selected` the bins of the site's own search or null. */
   constructor(data, selected, state) {
-    Object.assign(this, { data, state });
+    this.data = data;
+    this.state = state;
     this.names = data.features.map(({ name }) => name);
     this.sets = [
       data.bins && { key: "maps", columns: data.bins, words: `The ${count(data.bins.length, "bin")} of the maps` },
-      selected && { key: "selected", columns: selected, words: count(selected.length, "selected bin"), title: "The bins that the Bins page found to separate all classes" },
+      selected && {
+        key: "selected",
+        columns: selected,
+        words: count(selected.length, "selected bin"),
+        title: "The bins that the Bins page found to separate all classes",
+      },
     ].filter(Boolean);
   }
 
@@ -36,7 +42,12 @@ export class Comparison {
   /** Add a feature to those that are compared, or leave it out; from all features or from bins, to this one alone. */
   toggle(feature) {
     const { features } = this.choice;
-    const kept = features === undefined || this.everything ? [feature] : features.includes(feature) ? features.filter((other) => other !== feature) : [...features, feature];
+    const kept =
+      features === undefined || this.everything
+        ? [feature]
+        : features.includes(feature)
+          ? features.filter((other) => other !== feature)
+          : [...features, feature];
     if (kept.length === 0 || kept.length === this.names.length) this.compareAll();
     else this.#compare(joinNames(this.names.filter((_, other) => kept.includes(other))), "");
   }

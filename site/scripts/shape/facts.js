@@ -11,7 +11,9 @@ const DIGITS = 4;
 
 export class Facts {
   constructor(database, state, { links }) {
-    Object.assign(this, { database, state, links });
+    this.database = database;
+    this.state = state;
+    this.links = links;
     this.node = document.getElementById("facts");
     this.groups = [];
     state.listen((changed) => {
@@ -29,12 +31,20 @@ export class Facts {
   }
 
   #section({ title, rows, note, shapes }) {
-    const named = (name, place) => (shapes ? this.links.link(shapes[place], { title: this.database.ids[shapes[place]] }, name) : name);
+    const named = (name, place) =>
+      shapes ? this.links.link(shapes[place], { title: this.database.ids[shapes[place]] }, name) : name;
     return element(
       "section",
       {},
       element("h2", {}, title),
-      element("dl", {}, rows.map(([name, value], place) => [element("dt", { dir: "auto" }, named(name, place)), element("dd", { dir: "auto" }, linked(value))])),
+      element(
+        "dl",
+        {},
+        rows.map(([name, value], place) => [
+          element("dt", { dir: "auto" }, named(name, place)),
+          element("dd", { dir: "auto" }, linked(value)),
+        ]),
+      ),
       note && element("p", { class: "key" }, note),
     );
   }
@@ -45,13 +55,19 @@ function factGroups(database, shape, labelings, known, clusters) {
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
   const others = known.metadata.filter((pair) => rank(pair) < 0);
-  const labels = labelings.map((labeling, place) => [labeling, known.labels[place]]).filter(([, label]) => label !== null && label !== undefined);
+  const labels = labelings
+    .map((labeling, place) => [labeling, known.labels[place]])
+    .filter(([, label]) => label !== null && label !== undefined);
   // Where clusters stand in for labels, the cluster stands below the name already.
   if (clusters !== null && !clusters.standIn) labels.push(["cluster", clusters.clusters[clusters.of[shape]].name]);
   const [wide, high, deep] = known.extents.map(measured);
   return [
     { title: "Licence and source", rows: rights },
-    { title: "The same shape as", rows: known.copies.map(([other, evidence]) => [database.names[other], evidence]), shapes: known.copies.map(([other]) => other) },
+    {
+      title: "The same shape as",
+      rows: known.copies.map(([other, evidence]) => [database.names[other], evidence]),
+      shapes: known.copies.map(([other]) => other),
+    },
     { title: labels.length > 1 ? "Labels" : "", rows: labels.length > 1 ? labels : [] },
     { title: "From the database", rows: others },
     {
@@ -87,7 +103,8 @@ function linked(value) {
 function measured(value) {
   if (value === null) return "–";
   const rounded = Number(value.toPrecision(DIGITS));
-  if (rounded !== 0 && (Math.abs(rounded) < 1e-3 || Math.abs(rounded) >= 1e7)) return rounded.toExponential().replace("-", "−");
+  if (rounded !== 0 && (Math.abs(rounded) < 1e-3 || Math.abs(rounded) >= 1e7))
+    return rounded.toExponential().replace("-", "−");
   const [whole, ...parts] = String(rounded).split(".");
   return [grouped(Number(whole)), ...parts].join(".");
 }

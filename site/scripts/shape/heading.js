@@ -8,7 +8,10 @@ import { findShapes } from "../database/shape-finder.js";
 
 export class Heading {
   constructor(database, state, { links, go, site }) {
-    Object.assign(this, { database, state, links, site });
+    this.database = database;
+    this.state = state;
+    this.links = links;
+    this.site = site;
     findShapes(database, go);
     this.choose = document.getElementById("choose");
     this.choose.addEventListener("click", () => this.#toggle());
@@ -23,8 +26,18 @@ export class Heading {
     const name = shape === null ? "No such shape" : database.names[shape];
     document.title = `${name} · ${this.site}`;
     document.getElementById("name").textContent = name;
-    document.getElementById("of-class").replaceChildren(...(shape !== null && database.labelled ? this.#group(database.groups[shape]) : []));
-    document.getElementById("way-back").replaceChildren(element("a", { href: this.#gallery(), title: shape === null ? null : "The gallery, at this shape" }, "All shapes"));
+    document
+      .getElementById("of-class")
+      .replaceChildren(...(shape !== null && database.labelled ? this.#group(database.groups[shape]) : []));
+    document
+      .getElementById("way-back")
+      .replaceChildren(
+        element(
+          "a",
+          { href: this.#gallery(), title: shape === null ? null : "The gallery, at this shape" },
+          "All shapes",
+        ),
+      );
     this.#offerSelection(shape);
     document.getElementById("turn-over").replaceChildren(...(shape === null ? [] : this.#turnOver(shape)));
     document.getElementById("known").hidden = shape === null;
@@ -61,11 +74,21 @@ export class Heading {
   }
 
   #nowhere(id) {
-    const offer = ["Find one by its name above, or choose one in the ", element("a", { href: this.#gallery() }, "gallery"), "."];
+    const offer = [
+      "Find one by its name above, or choose one in the ",
+      element("a", { href: this.#gallery() }, "gallery"),
+      ".",
+    ];
     if (id === null) return [element("p", {}, "The address names no shape. ", offer)];
     return [
       element("p", {}, "There is no shape ", element("b", {}, element("bdi", {}, id)), " in this database. ", offer),
-      element("p", {}, "Files that could not be used are listed on the page ", element("a", { href: pageAddress("about.html") }, "About"), "."),
+      element(
+        "p",
+        {},
+        "Files that could not be used are listed on the page ",
+        element("a", { href: pageAddress("about.html") }, "About"),
+        ".",
+      ),
     ];
   }
 
@@ -76,10 +99,16 @@ export class Heading {
     const fellows = [...database.groups.keys()].filter((index) => database.groups[index] === own);
     if (fellows.length < 2) return [];
     const place = fellows.indexOf(shape);
-    const step = (by, words, rel, said) => links.link(fellows.at((place + by) % fellows.length), { rel, "aria-label": said }, words);
+    const step = (by, words, rel, said) =>
+      links.link(fellows.at((place + by) % fellows.length), { rel, "aria-label": said }, words);
     return [
       step(-1, "‹ Previous", "prev", "Previous shape"),
-      element("span", { class: "quiet" }, `${grouped(place + 1)} of ${grouped(fellows.length)}`, database.labelled && [own < 0 ? " without label" : [" in ", element("bdi", {}, database.className(own))]]),
+      element(
+        "span",
+        { class: "quiet" },
+        `${grouped(place + 1)} of ${grouped(fellows.length)}`,
+        database.labelled && [own < 0 ? " without label" : [" in ", element("bdi", {}, database.className(own))]],
+      ),
       step(1, "Next ›", "next", "Next shape"),
     ];
   }

@@ -1,7 +1,7 @@
 // The histograms of a shape, one a feature, against those of its class and of all shapes.
 
 import { joinNames } from "../addresses/names.js";
-import { element } from "../base/dom.js";
+import { element, focused } from "../base/dom.js";
 import { shortened } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { percent } from "../bins-kit/bin-card.js";
@@ -18,7 +18,12 @@ const FLAT = 0.02;
 export class Histograms {
   /** `dimensions` are those of the chunk "selection": what each measures, and where its bins end. */
   constructor(database, bins, state, { spread, dimensions, card }) {
-    Object.assign(this, { database, bins, state, spread, dimensions, card });
+    this.database = database;
+    this.bins = bins;
+    this.state = state;
+    this.spread = spread;
+    this.dimensions = dimensions;
+    this.card = card;
     this.section = document.getElementById("histograms");
     this.grid = document.getElementById("histogram-grid");
     this.panels = bins.features.map((_, feature) => {
@@ -45,9 +50,14 @@ export class Histograms {
     const { dimensions, name } = this.bins.features[feature];
     if (dimensions === 1) return 0;
     const start = `${joinNames([name])}[`;
-    const word = this.state.get("parts").split(" ").findLast((part) => part.startsWith(start));
+    const word = this.state
+      .get("parts")
+      .split(" ")
+      .findLast((part) => part.startsWith(start));
     const chosen = word === undefined ? NaN : Number(word.slice(start.length, -1));
-    return Number.isInteger(chosen) && chosen >= 0 && chosen < dimensions ? chosen : this.spread.mostUnusual(feature, shape);
+    return Number.isInteger(chosen) && chosen >= 0 && chosen < dimensions
+      ? chosen
+      : this.spread.mostUnusual(feature, shape);
   }
 
   /** What a column is of one shape and of those it is compared with, in words. */
@@ -86,7 +96,14 @@ export class Histograms {
     };
     return [
       element("span", {}, mark("own"), "this shape"),
-      this.spread.fellows(0, shape) && element("span", {}, mark("fellows", database.color(group)), "the middle half of the others in ", element("bdi", {}, shortened(database.className(group), 40))),
+      this.spread.fellows(0, shape) &&
+        element(
+          "span",
+          {},
+          mark("fellows", database.color(group)),
+          "the middle half of the others in ",
+          element("bdi", {}, shortened(database.className(group), 40)),
+        ),
       database.count > 1 && element("span", {}, mark("all"), "the middle half of all shapes"),
     ].filter(Boolean);
   }
@@ -96,18 +113,27 @@ export class Histograms {
     const { start, dimensions, bins: width, title, name } = bins.features[feature];
     const part = this.partOf(feature, shape);
     const columns = Array.from({ length: width }, (_, place) => start + part * width + place);
-    const focused = panel.contains(document.activeElement) ? document.activeElement.dataset : null;
+    const kept = panel.contains(focused()) ? focused().dataset : null;
     panel.replaceChildren(
       element(
         "figcaption",
         {},
-        element("h3", {}, hue(bins.colorOf(feature)), element("bdi", {}, shortened(title, 60)), title !== name && element("span", { class: "quiet" }, ` ${shortened(name, 16)}`)),
+        element(
+          "h3",
+          {},
+          hue(bins.colorOf(feature)),
+          element("bdi", {}, shortened(title, 60)),
+          title !== name && element("span", { class: "quiet" }, ` ${shortened(name, 16)}`),
+        ),
         dimensions > 1 && this.#parts(feature, part),
       ),
       ...(width > 1 ? this.#bars(columns, shape) : this.#strip(columns[0], shape)),
     );
-    if (focused?.column) panel.querySelector(`[data-column="${start + part * width + ((Number(focused.column) - start) % width)}"]`)?.focus({ preventScroll: true });
-    else if (focused?.part !== undefined) panel.querySelector("select").focus({ preventScroll: true });
+    if (kept?.column)
+      panel
+        .querySelector(`[data-column="${start + part * width + ((Number(kept.column) - start) % width)}"]`)
+        ?.focus({ preventScroll: true });
+    else if (kept?.part !== undefined) panel.querySelector("select").focus({ preventScroll: true });
   }
 
   /** A choice among the dimensions of a feature. */
@@ -127,7 +153,10 @@ export class Histograms {
 
   #choose(feature, part) {
     const name = joinNames([this.bins.features[feature].name]);
-    const others = this.state.get("parts").split(" ").filter((word) => word !== "" && !word.startsWith(`${name}[`));
+    const others = this.state
+      .get("parts")
+      .split(" ")
+      .filter((word) => word !== "" && !word.startsWith(`${name}[`));
     this.state.set({ parts: [...others, `${name}[${part}]`].join(" ") });
   }
 
@@ -143,7 +172,10 @@ export class Histograms {
     const own = columns.map((column) => bins.share(column, shape));
     const fellows = columns.map((column) => spread.fellows(column, shape));
     const all = columns.map((column) => spread.all(column));
-    const end = Math.min(axisEnd(Math.max(...own, ...fellows.map((band) => band?.high ?? 0), ...all.map(({ high }) => high))), 1);
+    const end = Math.min(
+      axisEnd(Math.max(...own, ...fellows.map((band) => band?.high ?? 0), ...all.map(({ high }) => high))),
+      1,
+    );
     const height = (value) => `${Math.min((100 * value) / end, 100)}%`;
     const band = (name, { low, high }, color) => {
       const node = element("i", { class: high - low < FLAT * end ? `${name} flat` : name });
@@ -156,16 +188,29 @@ export class Histograms {
     return [
       element(
         "div",
-        { class: "bars", role: "group", "aria-label": `${bins.names[columns[0]].split(":")[0]}: arrow keys go through its bins`, onkeydown: (event) => this.#walk(event) },
+        {
+          class: "bars",
+          role: "group",
+          "aria-label": `${bins.names[columns[0]].split(":")[0]}: arrow keys go through its bins`,
+          onkeydown: (event) => this.#walk(event),
+        },
         element("span", { class: "end", "aria-hidden": "true" }, percent(end)),
         columns.map((column, place) => {
           const bar = element("i", { class: "own" });
           bar.style.height = height(own[place]);
           bar.style.background = bins.color(column);
-          return this.#button(column, place === 0, shape, [database.count > 1 && band("all", all[place]), bar, fellows[place] && band("fellows", fellows[place], database.color(group))]);
+          return this.#button(column, place === 0, shape, [
+            database.count > 1 && band("all", all[place]),
+            bar,
+            fellows[place] && band("fellows", fellows[place], database.color(group)),
+          ]);
         }),
       ),
-      element("div", { class: "ticks", "aria-hidden": "true" }, edges.slice(1, -1).map((edge) => element("span", {}, measured(edge)))),
+      element(
+        "div",
+        { class: "ticks", "aria-hidden": "true" },
+        edges.slice(1, -1).map((edge) => element("span", {}, measured(edge))),
+      ),
       element("p", { class: "quantity" }, quantityInWords(quantity, unit)),
     ];
   }
@@ -187,9 +232,25 @@ export class Histograms {
     own.style.left = across(bins.share(column, shape));
     own.style.background = bins.color(column);
     return [
-      element("div", { class: "value-strip" }, this.#button(column, true, shape, [database.count > 1 && band("all", all), fellows && band("fellows", fellows, database.color(database.groups[shape])), own])),
-      element("div", { class: "strip-ends", "aria-hidden": "true" }, [all.least, all.most].map((value) => element("span", {}, measured(value)))),
-      element("p", { class: "quantity" }, "A feature that was brought along: its value, from the least to the most of all shapes"),
+      element(
+        "div",
+        { class: "value-strip" },
+        this.#button(column, true, shape, [
+          database.count > 1 && band("all", all),
+          fellows && band("fellows", fellows, database.color(database.groups[shape])),
+          own,
+        ]),
+      ),
+      element(
+        "div",
+        { class: "strip-ends", "aria-hidden": "true" },
+        [all.least, all.most].map((value) => element("span", {}, measured(value))),
+      ),
+      element(
+        "p",
+        { class: "quantity" },
+        "A feature that was brought along: its value, from the least to the most of all shapes",
+      ),
     ];
   }
 
@@ -197,7 +258,13 @@ export class Histograms {
     const { bins } = this;
     const show = (event) => this.card.show(column, this.tell(column, this.state.get("shape")), event.currentTarget);
     const { own, fellows, all } = this.tell(column, shape);
-    const said = [`${bins.names[column]}: this shape ${own}`, fellows && `others of its ${kind(this.database)} ${fellows}`, all && `all shapes ${all}`].filter(Boolean).join(", ");
+    const said = [
+      `${bins.names[column]}: this shape ${own}`,
+      fellows && `others of its ${kind(this.database)} ${fellows}`,
+      all && `all shapes ${all}`,
+    ]
+      .filter(Boolean)
+      .join(", ");
     return element(
       "button",
       {
@@ -206,7 +273,8 @@ export class Histograms {
         tabindex: first ? "0" : "-1",
         "data-column": column,
         "aria-label": said,
-        onclick: () => this.state.set({ bin: this.state.get("bin") === bins.names[column] ? null : bins.names[column] }),
+        onclick: () =>
+          this.state.set({ bin: this.state.get("bin") === bins.names[column] ? null : bins.names[column] }),
         onpointerenter: (event) => event.pointerType === "mouse" && show(event),
         onpointerleave: () => this.card.hide(),
         onfocus: (event) => {
@@ -234,7 +302,8 @@ export class Histograms {
 
   #mark() {
     const column = this.bins.names.indexOf(this.state.get("bin"));
-    for (const button of this.grid.querySelectorAll("button")) button.setAttribute("aria-pressed", String(Number(button.dataset.column) === column));
+    for (const button of this.grid.querySelectorAll("button"))
+      button.setAttribute("aria-pressed", String(Number(button.dataset.column) === column));
   }
 }
 

@@ -6,7 +6,8 @@ import { element, picture } from "../base/dom.js";
 export class ShapeLinks {
   /** `opened` is told when a reader follows one within this window. */
   constructor(database, state, { opened }) {
-    Object.assign(this, { database, state });
+    this.database = database;
+    this.state = state;
     state.listen((changed) => {
       if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name))) this.#follow();
     });
@@ -16,11 +17,16 @@ export class ShapeLinks {
   }
 
   #follow() {
-    for (const link of document.querySelectorAll("a[data-shape]")) link.href = shapeAddress(this.database, this.state, Number(link.dataset.shape));
+    for (const link of document.querySelectorAll("a[data-shape]"))
+      link.href = shapeAddress(this.database, this.state, Number(link.dataset.shape));
   }
 
   link(shape, attributes, ...children) {
-    return element("a", { href: shapeAddress(this.database, this.state, shape), "data-shape": shape, ...attributes }, children);
+    return element(
+      "a",
+      { href: shapeAddress(this.database, this.state, shape), "data-shape": shape, ...attributes },
+      children,
+    );
   }
 
   /** A shape as a picture, underlined where it is a stranger. */
@@ -30,7 +36,12 @@ export class ShapeLinks {
     const words = database.labelled ? [database.names[shape], database.className(group)] : [database.names[shape]];
     return this.link(
       shape,
-      { class: stranger ? "shape stranger" : "shape", "aria-label": words.join(", "), title: words.join("\n"), ...attributes },
+      {
+        class: stranger ? "shape stranger" : "shape",
+        "aria-label": words.join(", "),
+        title: words.join("\n"),
+        ...attributes,
+      },
       picture(database, shape, size),
     );
   }

@@ -10,9 +10,12 @@ import { Paint } from "../viewer/paint.js";
 import { hue } from "./hue.js";
 
 export class Portrait {
+  #paint = null;
+
   /** `models` is whether the site has 3D data. */
   constructor(database, state, { models }) {
-    Object.assign(this, { database, state });
+    this.database = database;
+    this.state = state;
     this.node = document.getElementById("stage");
     this.words = document.getElementById("painted");
     const load = models ? async (shape) => modelBytes((await chunk("selection")).models[shape]) : null;
@@ -25,7 +28,8 @@ export class Portrait {
 
   /** Bins can be shown from now on. */
   know(bins, selection, comparison) {
-    Object.assign(this, { bins, comparison });
+    this.bins = bins;
+    this.comparison = comparison;
     this.legend = new Legend(selection);
     if (this.state.get("bin") !== null) this.render();
   }
@@ -47,8 +51,8 @@ export class Portrait {
     this.stage.show(shape, {
       label: `${database.names[shape]} in 3D${column === null ? "" : `, values of ${bins.names[column]}`}`,
       paint: async (solid) => {
-        this.paint ??= new Paint(await chunk("selection"));
-        return column === null ? this.paint.plain(solid) : this.paint.values(solid, dimensionOf(column, bins));
+        this.#paint ??= new Paint(await chunk("selection"));
+        return column === null ? this.#paint.plain(solid) : this.#paint.values(solid, dimensionOf(column, bins));
       },
       reason: column === null || bins.isShare(column) ? null : "This feature has no values on the surface.",
     });
@@ -63,12 +67,23 @@ export class Portrait {
     }
     const action = (text, onclick) => element("button", { type: "button", class: "plain", onclick }, text);
     words.append(
-      element("p", {}, hue(bins.color(column)), element("b", {}, element("bdi", {}, bins.names[column])), " ", bins.sentence(column)),
+      element(
+        "p",
+        {},
+        hue(bins.color(column)),
+        element("b", {}, element("bdi", {}, bins.names[column])),
+        " ",
+        bins.sentence(column),
+      ),
       element(
         "p",
         { class: "actions" },
         action("Find shapes with as much of it", () => this.comparison.compareBins([column])),
-        element("a", { href: pageAddress("bins.html", { bin: bins.names[column], id: database.ids[shape] }) }, "Open on the Bins page"),
+        element(
+          "a",
+          { href: pageAddress("bins.html", { bin: bins.names[column], id: database.ids[shape] }) },
+          "Open on the Bins page",
+        ),
         action("Plain again", () => state.set({ bin: null })),
       ),
     );
@@ -80,6 +95,7 @@ export class Portrait {
   /** On a narrow window the histograms stand far below the shape that they colour. */
   #bringIntoSight() {
     const { top, bottom } = this.node.getBoundingClientRect();
-    if (bottom < 80 || top > window.innerHeight - 80) this.node.scrollIntoView({ behavior: calm() ? "instant" : "smooth", block: "start" });
+    if (bottom < 80 || top > window.innerHeight - 80)
+      this.node.scrollIntoView({ behavior: calm() ? "instant" : "smooth", block: "start" });
   }
 }

@@ -14,7 +14,12 @@ const MOST_NAMED = 4;
 
 export class SimilarShapes {
   constructor(database, bins, state, { links, comparison, similarity }) {
-    Object.assign(this, { database, bins, state, links, comparison, similarity });
+    this.database = database;
+    this.bins = bins;
+    this.state = state;
+    this.links = links;
+    this.comparison = comparison;
+    this.similarity = similarity;
     this.section = document.getElementById("similar");
     this.chips = document.getElementById("compared");
     this.list = document.getElementById("similar-list");
@@ -61,7 +66,12 @@ export class SimilarShapes {
   #chips() {
     const { comparison, bins } = this;
     this.buttons = [
-      this.#chip([`All ${count(bins.features.length, "feature")}`], () => comparison.compareAll(), null, () => comparison.everything),
+      this.#chip(
+        [`All ${count(bins.features.length, "feature")}`],
+        () => comparison.compareAll(),
+        null,
+        () => comparison.everything,
+      ),
       ...bins.features.map(({ title }, feature) =>
         this.#chip(
           [hue(bins.colorOf(feature)), element("bdi", {}, shortened(bins.features[feature].name, 24))],
@@ -71,7 +81,12 @@ export class SimilarShapes {
         ),
       ),
       ...comparison.sets.map(({ columns, words, title }) =>
-        this.#chip([words], () => comparison.compareBins(columns), title, () => same(comparison.choice.columns, columns)),
+        this.#chip(
+          [words],
+          () => comparison.compareBins(columns),
+          title,
+          () => same(comparison.choice.columns, columns),
+        ),
       ),
     ];
     return this.buttons;
@@ -87,13 +102,20 @@ export class SimilarShapes {
     const words = [];
     if (choice.columns) {
       const names = choice.columns.slice(0, MOST_NAMED).map((column) => bins.names[column]);
-      words.push("Compared by ", element("bdi", {}, names.join(", ")), choice.columns.length > MOST_NAMED ? ` and ${choice.columns.length - MOST_NAMED} more bins. ` : ". ");
+      words.push(
+        "Compared by ",
+        element("bdi", {}, names.join(", ")),
+        choice.columns.length > MOST_NAMED ? ` and ${choice.columns.length - MOST_NAMED} more bins. ` : ". ",
+      );
     }
     if (own >= 0 && database.separable) {
       const fellows = found.filter(({ row }) => database.groups[row] === own).length;
       words.push(element("b", {}, `${fellows} of these ${found.length}`), ` are of its ${kind(database)}. `);
     }
-    return [...words, `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. Bars and percentages say how many of all shapes are farther away in one feature alone: 100 % means that no shape is more alike in it.`];
+    return [
+      ...words,
+      `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. Bars and percentages say how many of all shapes are farther away in one feature alone: 100 % means that no shape is more alike in it.`,
+    ];
   }
 
   #card(shape, { row, distance, closer }) {
@@ -108,11 +130,26 @@ export class SimilarShapes {
         "div",
         {},
         element("p", { class: "name", dir: "auto" }, this.links.link(row, {}, shortened(database.names[row], 60))),
-        database.labelled && element("p", { class: "class-of" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, shortened(database.className(group), 40))),
+        database.labelled &&
+          element(
+            "p",
+            { class: "class-of" },
+            swatch(database.symbol(group), database.color(group)),
+            element("bdi", {}, shortened(database.className(group), 40)),
+          ),
         element("p", { class: "quiet" }, `distance ${figure(distance)}`),
         this.#bars(closer),
         element("p", { class: "why" }, this.#reasons(closer)),
-        differ && element("p", {}, element("a", { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group }) }, `Compare ${database.data.standIn ? "clusters" : "classes"}`)),
+        differ &&
+          element(
+            "p",
+            {},
+            element(
+              "a",
+              { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group }) },
+              `Compare ${database.data.standIn ? "clusters" : "classes"}`,
+            ),
+          ),
       ),
     );
   }
@@ -126,7 +163,11 @@ export class SimilarShapes {
         const bar = element("i", {});
         bar.style.height = `${100 * share}%`;
         bar.style.background = bins.colorOf(feature);
-        return element("span", { title: `${bins.features[feature].name}: nearer than ${whole(share)} of all shapes` }, bar);
+        return element(
+          "span",
+          { title: `${bins.features[feature].name}: nearer than ${whole(share)} of all shapes` },
+          bar,
+        );
       }),
     );
   }

@@ -52,7 +52,9 @@ export class Similarity {
   #choose(row, { features, columns }) {
     const total = new Float64Array(this.bins.rows);
     if (columns) for (const column of columns) this.#addSquares(total, row, column, this.#columnWeight(column));
-    else for (const feature of features) this.#know(row).byFeature[feature].forEach((value, other) => (total[other] += value));
+    else
+      for (const feature of features)
+        this.#know(row).byFeature[feature].forEach((value, other) => (total[other] += value));
     return total;
   }
 
@@ -60,7 +62,11 @@ export class Similarity {
   #know(row) {
     if (this.#last.row !== row) {
       const byFeature = [...this.bins.features.keys()].map((feature) => this.#byFeature(row, feature));
-      this.#last = { row, byFeature, sorted: byFeature.map((squared) => squared.filter((_, other) => other !== row).sort()) };
+      this.#last = {
+        row,
+        byFeature,
+        sorted: byFeature.map((squared) => squared.filter((_, other) => other !== row).sort()),
+      };
     }
     return this.#last;
   }

@@ -6,7 +6,8 @@ const QUARTERS = [0.25, 0.5, 0.75];
 
 export class Spread {
   constructor(database, bins) {
-    Object.assign(this, { database, bins });
+    this.database = database;
+    this.bins = bins;
     this.ofAll = new Map();
   }
 
@@ -21,7 +22,10 @@ export class Spread {
     if (this.fellowsOf?.shape !== shape) {
       const { groups } = this.database;
       const own = groups[shape];
-      this.fellowsOf = { shape, rows: own < 0 ? [] : [...groups.keys()].filter((row) => groups[row] === own && row !== shape) };
+      this.fellowsOf = {
+        shape,
+        rows: own < 0 ? [] : [...groups.keys()].filter((row) => groups[row] === own && row !== shape),
+      };
     }
     const { rows } = this.fellowsOf;
     return rows.length > 0 ? this.#quarters(column, rows) : null;
@@ -32,10 +36,11 @@ export class Spread {
     const { steps, rows } = this.bins;
     const start = column * rows;
     const own = steps[start + shape];
-    let below = 0, equal = -1;
+    let below = 0,
+      equal = -1;
     for (let row = 0; row < rows; row += 1) {
-      below += steps[start + row] < own;
-      equal += steps[start + row] === own;
+      below += Number(steps[start + row] < own);
+      equal += Number(steps[start + row] === own);
     }
     return rows > 1 ? (below + equal / 2) / (rows - 1) : 0.5;
   }
@@ -69,7 +74,9 @@ export class Spread {
 
   #quarters(column, rows) {
     const { bins } = this;
-    const values = Float64Array.from(rows ?? { length: bins.rows }, (row, place) => bins.share(column, rows ? row : place)).sort();
+    const values = Float64Array.from(rows ?? { length: bins.rows }, (row, place) =>
+      bins.share(column, rows ? row : place),
+    ).sort();
     const [low, middle, high] = QUARTERS.map((share) => quantile(values, share));
     return { low, middle, high, least: values[0], most: values.at(-1) };
   }

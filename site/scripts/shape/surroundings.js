@@ -14,7 +14,9 @@ const MOST_CLASSES = 6;
 
 export class Surroundings {
   constructor(database, state, { links, pointing, go }) {
-    Object.assign(this, { database, state, links });
+    this.database = database;
+    this.state = state;
+    this.links = links;
     this.section = document.querySelector(".surroundings");
     this.#offerMaps();
     this.plot = new Plot(database, {
@@ -36,11 +38,17 @@ export class Surroundings {
 
   #offerMaps() {
     const { database, state } = this;
-    const inputs = database.methods.map(({ title }, method) =>
+    const inputs = database.methods.map((_, method) =>
       element("input", { type: "radio", name: "map", value: method, onchange: () => state.set({ method }) }),
     );
     const check = () => inputs.forEach((input, method) => (input.checked = method === state.get("method")));
-    document.getElementById("maps").replaceChildren(...inputs.map((input, method) => element("label", {}, input, element("span", {}, database.methods[method].title))));
+    document
+      .getElementById("maps")
+      .replaceChildren(
+        ...inputs.map((input, method) =>
+          element("label", {}, input, element("span", {}, database.methods[method].title)),
+        ),
+      );
     state.listen((changed) => changed.has("method") && check());
     check();
   }
@@ -57,11 +65,15 @@ export class Surroundings {
     const own = database.groups[shape];
     const stranger = (other) => own >= 0 && database.groups[other] !== own;
     document.getElementById("nh").replaceChildren(...this.#tell(shape, near, database.methods[method]));
-    document.getElementById("neighbours").replaceChildren(...near.map((other) => this.links.pictured(other, 64, { stranger: stranger(other) })));
-    document.getElementById("neighbours-key").replaceChildren(
-      near.some(stranger) ? `Underlined: of another ${kind(database)}. ` : "",
-      element("a", { href: this.#overview(shape) }, "Open on the Overview"),
-    );
+    document
+      .getElementById("neighbours")
+      .replaceChildren(...near.map((other) => this.links.pictured(other, 64, { stranger: stranger(other) })));
+    document
+      .getElementById("neighbours-key")
+      .replaceChildren(
+        near.some(stranger) ? `Underlined: of another ${kind(database)}. ` : "",
+        element("a", { href: this.#overview(shape) }, "Open on the Overview"),
+      );
   }
 
   #overview(shape) {
@@ -80,14 +92,29 @@ export class Surroundings {
     if (!database.labelled) return [...words, `These ${count(near.length, "shape")} are nearest.`];
     const census = database.census(near);
     const own = database.groups[shape];
-    const listed = census.slice(0, MOST_CLASSES).flatMap(([group, number], place) => [
-      place > 0 ? ", " : "",
-      `${number} `,
-      group < 0 ? "without label" : group === own ? `of its own ${kind(database)}` : element("bdi", {}, database.className(group)),
-    ]);
-    words.push(`Its ${count(near.length, "nearest neighbour")}: `, ...listed, census.length > MOST_CLASSES ? ", and others. " : ". ");
+    const listed = census
+      .slice(0, MOST_CLASSES)
+      .flatMap(([group, number], place) => [
+        place > 0 ? ", " : "",
+        `${number} `,
+        group < 0
+          ? "without label"
+          : group === own
+            ? `of its own ${kind(database)}`
+            : element("bdi", {}, database.className(group)),
+      ]);
+    words.push(
+      `Its ${count(near.length, "nearest neighbour")}: `,
+      ...listed,
+      census.length > MOST_CLASSES ? ", and others. " : ". ",
+    );
     if (hit[shape] === null) return words;
-    return [...words, `Neighbourhood hit (NH), the share that is of its ${kind(database)}: `, element("b", {}, figure(hit[shape])), `${ofAtMost(highestOf(database, method, shape))}; its ${kind(database)} on average ${figure(hitOfClass[own])}.`];
+    return [
+      ...words,
+      `Neighbourhood hit (NH), the share that is of its ${kind(database)}: `,
+      element("b", {}, figure(hit[shape])),
+      `${ofAtMost(highestOf(database, method, shape))}; its ${kind(database)} on average ${figure(hitOfClass[own])}.`,
+    ];
   }
 
   #mark(index) {

@@ -8,7 +8,8 @@ const GAP = 8;
 export class ValueCard {
   /** `kind` is what the groups are, a class or a cluster. */
   constructor(bins, kind) {
-    Object.assign(this, { bins, kind });
+    this.bins = bins;
+    this.kind = kind;
     this.node = element("div", { class: "card value-card", hidden: true });
     document.getElementById("content").append(this.node);
     window.addEventListener("scroll", () => this.hide(), { passive: true });
@@ -21,13 +22,23 @@ export class ValueCard {
     node.replaceChildren(
       element("p", { class: "name" }, hue(bins.color(column)), element("bdi", {}, bins.names[column])),
       element("p", {}, bins.sentence(column)),
-      element("dl", {}, row("this shape", own), row(`half of its ${this.kind}`, fellows), row("half of all shapes", all), row("more than", rank)),
+      element(
+        "dl",
+        {},
+        row("this shape", own),
+        row(`half of its ${this.kind}`, fellows),
+        row("half of all shapes", all),
+        row("more than", rank),
+      ),
     );
     node.hidden = false;
     const box = bar.getBoundingClientRect();
     const { offsetWidth: width, offsetHeight: height } = node;
     const left = Math.min(Math.max(box.left + box.width / 2 - width / 2, GAP), window.innerWidth - width - GAP);
-    const top = box.top - GAP - height >= GAP ? box.top - GAP - height : Math.min(box.bottom + GAP, window.innerHeight - height - GAP);
+    const top =
+      box.top - GAP - height >= GAP
+        ? box.top - GAP - height
+        : Math.min(box.bottom + GAP, window.innerHeight - height - GAP);
     node.style.transform = `translate(${Math.round(left)}px, ${Math.round(top)}px)`;
   }
 

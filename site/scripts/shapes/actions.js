@@ -7,7 +7,9 @@ import { writeSelection } from "../database/selection.js";
 
 /** Watch the buttons above the gallery; returns what brings them up to date after sifting. */
 export function watchActions(database, sieve, grid, state) {
-  const [select, map, compare, fold] = ["select-shown", "on-map", "compare-shown", "fold"].map((id) => document.getElementById(id));
+  const [select, map, compare, fold] = ["select-shown", "on-map", "compare-shown", "fold"].map((id) =>
+    document.getElementById(id),
+  );
   const shown = () => database.ids.map((_, row) => row).filter((row) => sieve.passes(row));
   select.addEventListener("click", () => state.set({ selection: new Set(shown()) }));
   fold.addEventListener("click", () => {

@@ -26,7 +26,9 @@ export class Arrangement {
       const value = of(row);
       rows[value < 0 ? count : value].push(row);
     }
-    return rows.map((members, value) => ({ ...describe(value === count ? NONE : value), rows: members })).filter((found) => found.rows.length > 0);
+    return rows
+      .map((members, value) => ({ ...describe(value === count ? NONE : value), rows: members }))
+      .filter((found) => found.rows.length > 0);
   }
 
   #order(sort, down) {
@@ -44,7 +46,7 @@ function sorted({ byKey, byName }, sort, down) {
   const sign = down ? -1 : 1;
   // Sorting keeps the order of equals.
   return [...byName].sort((a, b) => {
-    if (values[a] === null || values[b] === null) return (values[a] === null) - (values[b] === null);
+    if (values[a] === null || values[b] === null) return Number(values[a] === null) - Number(values[b] === null);
     return sign * (values[a] - values[b]);
   });
 }

@@ -21,13 +21,23 @@ export class Cells {
   shape(row, selected) {
     const { database } = this;
     const name = database.names[row];
-    const said = [name, database.labelled && valueName(this.active, this.active.of[row]), this.showsNumber && this.#number(row)];
+    const said = [
+      name,
+      database.labelled && valueName(this.active, this.active.of[row]),
+      this.showsNumber && this.#number(row),
+    ];
     return element(
       "div",
       { class: "cell", role: "gridcell", "data-row": row, "aria-selected": String(selected) },
       element(
         "a",
-        { href: pageAddress("shape.html", { id: database.ids[row] }), tabindex: "-1", draggable: "false", title: name, "aria-label": said.filter(Boolean).join(", ") },
+        {
+          href: pageAddress("shape.html", { id: database.ids[row] }),
+          tabindex: "-1",
+          draggable: "false",
+          title: name,
+          "aria-label": said.filter(Boolean).join(", "),
+        },
         // Its source follows when the shape stays in sight.
         element("img", { alt: "", decoding: "async", draggable: "false" }),
         element("span", { class: "name", dir: "auto" }, name),
@@ -40,7 +50,10 @@ export class Cells {
   #beside(row) {
     if (this.showsNumber) return this.#number(row);
     const { database, active } = this;
-    return [swatch(database.symbol(database.groups[row]), database.color(database.groups[row])), valueName(active, active.of[row])];
+    return [
+      swatch(database.symbol(database.groups[row]), database.color(database.groups[row])),
+      valueName(active, active.of[row]),
+    ];
   }
 
   #number(row) {

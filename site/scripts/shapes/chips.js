@@ -12,12 +12,17 @@ function activeFilters(fields, state) {
   const query = state.get("query");
   const search = query === "" ? [] : [{ key: "search", title: "Search", text: `“${shortened(query, LONGEST)}”` }];
   const only = state.get("only") ? [{ key: "only", title: "Only", text: "the selected shapes" }] : [];
-  return [...search, ...only, ...[...state.get("filters")].map(([key, filter]) => describe(fields.byKey.get(key), key, filter))];
+  return [
+    ...search,
+    ...only,
+    ...[...state.get("filters")].map(([key, filter]) => describe(fields.byKey.get(key), key, filter)),
+  ];
 }
 
 function describe(field, key, filter) {
   const title = field.title;
-  if (!(filter instanceof Set)) return { key, title, text: `${numberText(filter.low, field)} to ${numberText(filter.high, field)}` };
+  if (!(filter instanceof Set))
+    return { key, title, text: `${numberText(filter.low, field)} to ${numberText(filter.high, field)}` };
   const names = [...filter].map((value) => shortened(nameOf(field, value), LONGEST));
   const rest = names.length - MOST_NAMES;
   return { key, title, text: names.slice(0, MOST_NAMES).join(", ") + (rest > 0 ? ` and ${rest} more` : "") };
@@ -58,7 +63,8 @@ export class Chips {
     const { sieve } = this;
     const total = sieve.database.count;
     const filters = activeFilters(this.fields, this.state);
-    this.number.textContent = filters.length === 0 ? count(total, "shape") : `${grouped(sieve.size)} of ${count(total, "shape")}`;
+    this.number.textContent =
+      filters.length === 0 ? count(total, "shape") : `${grouped(sieve.size)} of ${count(total, "shape")}`;
     const focused = this.node.contains(document.activeElement);
     this.node.replaceChildren(...filters.map((filter) => this.#chip(filter)));
     document.getElementById("clear").hidden = filters.length < 2;
@@ -71,25 +77,54 @@ export class Chips {
     return element(
       "li",
       {},
-      element("span", { class: "in-words" }, key !== "search" && element("bdi", { class: "of-field" }, title), element("bdi", {}, text)),
-      element("button", { type: "button", class: "plain", "aria-label": `Remove the filter ${title}: ${text}`, onclick: () => this.remove(key) }, "×"),
+      element(
+        "span",
+        { class: "in-words" },
+        key !== "search" && element("bdi", { class: "of-field" }, title),
+        element("bdi", {}, text),
+      ),
+      element(
+        "button",
+        {
+          type: "button",
+          class: "plain",
+          "aria-label": `Remove the filter ${title}: ${text}`,
+          onclick: () => this.remove(key),
+        },
+        "×",
+      ),
     );
   }
 
   /** Nothing passed: which filter to take back, and what that would bring. */
   #nothing(filters) {
-    const found = filters.map((filter) => ({ ...filter, size: this.sieve.without(filter.key) })).filter(({ size }) => size > 0);
+    const found = filters
+      .map((filter) => ({ ...filter, size: this.sieve.without(filter.key) }))
+      .filter(({ size }) => size > 0);
     return [
       element("h2", {}, filters.length === 1 ? "No shape has this" : "No shape has all of this"),
-      filters.length === 1 && filters[0].key === "search" && element("p", {}, "The search looks for all words, or parts of words, in names, labels and metadata."),
+      filters.length === 1 &&
+        filters[0].key === "search" &&
+        element("p", {}, "The search looks for all words, or parts of words, in names, labels and metadata."),
       element(
         "ul",
         {},
         found.map(({ key, title, text, size }) =>
-          element("li", {}, element("button", { type: "button", class: "plain", onclick: () => this.remove(key) }, "Without ", element("bdi", {}, `${title}: ${text}`), ` there are ${grouped(size)}`)),
+          element(
+            "li",
+            {},
+            element(
+              "button",
+              { type: "button", class: "plain", onclick: () => this.remove(key) },
+              "Without ",
+              element("bdi", {}, `${title}: ${text}`),
+              ` there are ${grouped(size)}`,
+            ),
+          ),
         ),
       ),
-      (found.length !== 1 || filters.length > 1) && element("button", { type: "button", class: "plain", onclick: () => this.clear() }, "Show all shapes"),
+      (found.length !== 1 || filters.length > 1) &&
+        element("button", { type: "button", class: "plain", onclick: () => this.clear() }, "Show all shapes"),
     ].filter(Boolean);
   }
 }

@@ -53,7 +53,12 @@ class Facet {
     this.state = parts.state;
     this.content = new Kind(field, parts);
     this.mark = element("span", { class: "in-use" });
-    this.node = element("details", { class: "facet" }, element("summary", {}, element("bdi", {}, field.title), this.mark), this.content.node);
+    this.node = element(
+      "details",
+      { class: "facet" },
+      element("summary", {}, element("bdi", {}, field.title), this.mark),
+      this.content.node,
+    );
     this.node.addEventListener("toggle", () => this.show());
   }
 
@@ -78,10 +83,19 @@ class Choice {
     const totals = new Int32Array(field.names.length);
     for (const value of field.of) if (value >= 0) totals[value] += 1;
     // The values that say most come first, and stay where they are while one filters.
-    if (field.numbers === null && this.values.length > FEW && !field.active) this.values.sort((a, b) => totals[b] - totals[a]);
+    if (field.numbers === null && this.values.length > FEW && !field.active)
+      this.values.sort((a, b) => totals[b] - totals[a]);
     if (field.of.includes(NONE)) this.values.push(NONE);
     const title = field.title;
-    this.find = this.values.length > MANY && element("input", { type: "search", class: "find-value", placeholder: "Find", "aria-label": `Find a value of ${title}`, oninput: () => this.show(this.filter) });
+    this.find =
+      this.values.length > MANY &&
+      element("input", {
+        type: "search",
+        class: "find-value",
+        placeholder: "Find",
+        "aria-label": `Find a value of ${title}`,
+        oninput: () => this.show(this.filter),
+      });
     this.list = element("ul", { "aria-label": title, onchange: (event) => this.#toggle(Number(event.target.value)) });
     this.more = element("button", { type: "button", class: "plain more-values", onclick: () => this.#unfold() });
     this.node = element("div", { class: "facet-values" }, this.find, this.list, this.more);
@@ -103,12 +117,17 @@ class Choice {
     this.filter = filter;
     const counts = sieve.counts(field);
     const typed = this.find ? this.find.value.trim().toLocaleLowerCase() : "";
-    const found = typed === "" ? this.values : this.values.filter((value) => valueName(field, value).toLocaleLowerCase().includes(typed));
+    const found =
+      typed === ""
+        ? this.values
+        : this.values.filter((value) => valueName(field, value).toLocaleLowerCase().includes(typed));
     const usual = typed !== "" || field.active ? MOST : FEW;
     const few = this.#all && typed === "" ? Infinity : usual;
     const shown = found.filter((value, place) => place < few || filter?.has(value));
     const focused = this.list.contains(document.activeElement) ? document.activeElement.value : null;
-    this.list.replaceChildren(...shown.map((value) => this.#item(value, counts.at(value), filter?.has(value) ?? false)));
+    this.list.replaceChildren(
+      ...shown.map((value) => this.#item(value, counts.at(value), filter?.has(value) ?? false)),
+    );
     if (focused !== null) this.list.querySelector(`input[value="${focused}"]`)?.focus();
     this.more.hidden = found.length <= usual || typed !== "";
     this.more.textContent = this.#all ? "Fewer" : `All ${grouped(found.length)}`;
@@ -143,11 +162,30 @@ class Range {
     const intervals = field.edges.length - 1;
     const title = field.title;
     const thumb = (side) =>
-      element("input", { type: "range", class: side, min: 0, max: intervals, step: 1, "aria-label": `${title}, ${side === "low" ? "from" : "to"}`, oninput: () => this.#slide(side) });
-    [this.low, this.high] = [thumb("low"), thumb("high")];
-    this.bars = element("div", { class: "spread", "aria-hidden": "true" }, field.edges.slice(1).map(() => element("i")));
+      element("input", {
+        type: "range",
+        class: side,
+        min: 0,
+        max: intervals,
+        step: 1,
+        "aria-label": `${title}, ${side === "low" ? "from" : "to"}`,
+        oninput: () => this.#slide(side),
+      });
+    this.low = thumb("low");
+    this.high = thumb("high");
+    this.bars = element(
+      "div",
+      { class: "spread", "aria-hidden": "true" },
+      field.edges.slice(1).map(() => element("i")),
+    );
     this.words = element("p", { class: "between" });
-    this.node = element("div", { class: "range" }, this.bars, element("div", { class: "thumbs" }, this.low, this.high), this.words);
+    this.node = element(
+      "div",
+      { class: "range" },
+      this.bars,
+      element("div", { class: "thumbs" }, this.low, this.high),
+      this.words,
+    );
   }
 
   #slide(side) {
@@ -162,10 +200,12 @@ class Range {
 
   #place(low, high) {
     const { field } = this;
-    [this.low.value, this.high.value] = [low, high];
+    this.low.value = low;
+    this.high.value = high;
     this.low.setAttribute("aria-valuetext", numberText(field.edges[low], field));
     this.high.setAttribute("aria-valuetext", numberText(field.edges[high], field));
-    for (const [place, bar] of [...this.bars.children].entries()) bar.classList.toggle("within", place >= low && place < high);
+    for (const [place, bar] of [...this.bars.children].entries())
+      bar.classList.toggle("within", place >= low && place < high);
   }
 
   show(filter) {
@@ -178,7 +218,8 @@ class Range {
       bar.style.height = counts[place] === 0 ? "0" : `${Math.max((counts[place] / most) * 100, 4)}%`;
       bar.title = `${numberText(edges[place], field)} to ${numberText(edges[place + 1], field)}: ${count(counts[place], "shape")}`;
     }
-    const nearest = (number) => edges.reduce((best, edge, place) => (Math.abs(edge - number) < Math.abs(edges[best] - number) ? place : best), 0);
+    const nearest = (number) =>
+      edges.reduce((best, edge, place) => (Math.abs(edge - number) < Math.abs(edges[best] - number) ? place : best), 0);
     const [low, high] = filter === null ? [0, edges.length - 1] : [nearest(filter.low), nearest(filter.high)];
     this.#place(low, Math.max(high, low));
     const [from, to] = filter === null ? [edges[0], edges.at(-1)] : [filter.low, filter.high];

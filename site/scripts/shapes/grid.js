@@ -47,7 +47,8 @@ export class Grid {
     else this.#hold(anchor);
     const { sequence } = this.layout;
     // Where the shape with the focus has gone, the one in its place has it.
-    if (focused && place >= 0 && this.placeOf[this.active.shape] < 0) this.active = { shape: sequence[Math.min(place, sequence.length - 1)] ?? null, head: null };
+    if (focused && place >= 0 && this.placeOf[this.active.shape] < 0)
+      this.active = { shape: sequence[Math.min(place, sequence.length - 1)] ?? null, head: null };
     this.draw();
     if (focused) this.#stop()?.focus({ preventScroll: true });
     this.#showPictures(false);
@@ -71,7 +72,12 @@ export class Grid {
     this.width = this.node.clientWidth;
     const { lines } = this.#cells;
     const text = parseFloat(getComputedStyle(document.documentElement).fontSize);
-    this.layout = layOut(this.#groups, this.state.get("closed"), { width: this.width, size: this.state.get("size"), lines, text });
+    this.layout = layOut(this.#groups, this.state.get("closed"), {
+      width: this.width,
+      size: this.state.get("size"),
+      lines,
+      text,
+    });
     this.placeOf.fill(-1);
     for (const [place, shape] of this.layout.sequence.entries()) this.placeOf[shape] = place;
     this.#rows.clear();
@@ -90,7 +96,9 @@ export class Grid {
   /** What of the gallery is in the window, from top to bottom. */
   #window() {
     const own = this.node.getBoundingClientRect();
-    const frame = this.#framed() ? this.scroller.getBoundingClientRect() : { top: this.#covered(), bottom: window.innerHeight };
+    const frame = this.#framed()
+      ? this.scroller.getBoundingClientRect()
+      : { top: this.#covered(), bottom: window.innerHeight };
     return { top: frame.top - own.top, bottom: frame.bottom - own.top };
   }
 
@@ -142,7 +150,8 @@ export class Grid {
     const focused = this.node.contains(document.activeElement);
     if (!focused) this.#moveTabStop(top, bottom);
     const wanted = new Set();
-    for (let index = rowAt(rows, top - AHEAD); index < rows.length && rows[index].top < bottom + AHEAD; index += 1) wanted.add(index);
+    for (let index = rowAt(rows, top - AHEAD); index < rows.length && rows[index].top < bottom + AHEAD; index += 1)
+      wanted.add(index);
     // The row with the focus stays, or the focus would be lost with it.
     const kept = this.#rowOfActive();
     if (kept !== null) wanted.add(kept);
@@ -160,7 +169,8 @@ export class Grid {
     const made = new Map();
     for (const block of [...blocks].sort((a, b) => a - b)) if (!this.#sections.has(block)) this.#addSection(block);
     for (const index of wanted) if (!rows[index].head && !this.#rows.has(index)) this.#addRow(index);
-    for (const index of this.#rows.keys()) for (const shape of this.#shapesOf(index)) made.set(shape, this.#made.get(shape));
+    for (const index of this.#rows.keys())
+      for (const shape of this.#shapesOf(index)) made.set(shape, this.#made.get(shape));
     this.#made = made;
     this.#markActive();
     this.#showPictures(Math.abs(top - this.#top) > RUSH);
@@ -188,7 +198,11 @@ export class Grid {
     section.style.top = `${top}px`;
     section.style.height = `${height}px`;
     if (group.title !== null) {
-      const head = element("div", { class: "block-head", role: "row", "aria-rowindex": rowAt(this.layout.rows, top) + 1 }, this.#cells.head(group, folded));
+      const head = element(
+        "div",
+        { class: "block-head", role: "row", "aria-rowindex": rowAt(this.layout.rows, top) + 1 },
+        this.#cells.head(group, folded),
+      );
       section.append(head);
     }
     const after = [...this.#sections].find(([other]) => other > block)?.[1] ?? null;
@@ -210,7 +224,10 @@ export class Grid {
     });
     const row = element("div", { class: "row", role: "row", "aria-rowindex": index + 1 }, cells);
     row.style.top = `${top - this.layout.blocks[block].top}px`;
-    const after = [...this.#rows].filter(([other]) => other > index && this.layout.rows[other].block === block).sort(([a], [b]) => a - b)[0]?.[1] ?? null;
+    const after =
+      [...this.#rows]
+        .filter(([other]) => other > index && this.layout.rows[other].block === block)
+        .sort(([a], [b]) => a - b)[0]?.[1] ?? null;
     this.#sections.get(block).insertBefore(row, after);
     this.#rows.set(index, row);
   }

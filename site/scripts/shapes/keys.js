@@ -117,8 +117,13 @@ export class Keys {
     if (key === "End") return this.#at(sequence.length - 1);
     if (key === "ArrowUp") return this.#inRow(row - 1, column);
     if (key === "ArrowDown") return this.#inRow(row + 1, column);
-    if (key === "PageUp") return this.#inRow(Math.min(rowAt(rows, Math.max(rows[row].top - grid.page + rows[row].height, 0)), row - 1), column);
-    if (key === "PageDown") return this.#inRow(Math.max(rowAt(rows, rows[row].top + grid.page - rows[row].height) , row + 1), column);
+    if (key === "PageUp")
+      return this.#inRow(
+        Math.min(rowAt(rows, Math.max(rows[row].top - grid.page + rows[row].height, 0)), row - 1),
+        column,
+      );
+    if (key === "PageDown")
+      return this.#inRow(Math.max(rowAt(rows, rows[row].top + grid.page - rows[row].height), row + 1), column);
     return undefined;
   }
 

@@ -41,7 +41,18 @@ export function layOut(groups, closed, { width, size, lines, text }) {
     if (title !== null && !folded) top += GAP;
     blocks.push({ top: start, height: top - start, folded });
   }
-  return { rows, blocks, sequence, rowOf, columns, cell, gap, captioned: size >= CAPTIONED, head: HEAD * text, height: top };
+  return {
+    rows,
+    blocks,
+    sequence,
+    rowOf,
+    columns,
+    cell,
+    gap,
+    captioned: size >= CAPTIONED,
+    head: HEAD * text,
+    height: top,
+  };
 }
 
 /** The first row that ends below a place. */

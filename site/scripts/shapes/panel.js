@@ -47,6 +47,7 @@ export class Panel {
   show() {
     const used = this.state.get("filters").size;
     this.opener.textContent = used === 0 ? "Filters" : `Filters (${used})`;
-    this.closer.textContent = this.sieve.size === 0 ? "No shape has all of this" : `Show ${count(this.sieve.size, "shape")}`;
+    this.closer.textContent =
+      this.sieve.size === 0 ? "No shape has all of this" : `Show ${count(this.sieve.size, "shape")}`;
   }
 }

@@ -2,6 +2,9 @@
 
 import { findWords, searchTexts } from "../database/search.js";
 
+/** What the search looks through, made with the first search. */
+let texts = null;
+
 /** The shapes that the words of the search find; null without words. */
 export async function search(database, state) {
   const query = state.get("query");
@@ -9,9 +12,9 @@ export async function search(database, state) {
     state.set({ matches: null });
     return;
   }
-  search.texts ??= searchTexts(database);
-  const texts = await search.texts;
-  if (state.get("query") === query) state.set({ matches: new Set(findWords(texts, query)) });
+  texts ??= searchTexts(database);
+  const known = await texts;
+  if (state.get("query") === query) state.set({ matches: new Set(findWords(known, query)) });
 }
 
 export function watchSearch(state) {
@@ -25,7 +28,7 @@ export function watchSearch(state) {
   });
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
-    if (event.key === "Escape") escape(state);
+    if (event.key === "Escape") takeBack(state);
     else if (event.key === "/" && !event.target.matches("input[type=search]")) {
       field.focus();
       event.preventDefault();
@@ -35,7 +38,7 @@ export function watchSearch(state) {
 }
 
 /** One press takes back the last thing: the search, then the selection. */
-function escape(state) {
+function takeBack(state) {
   if (state.get("query") !== "") state.set({ query: "" });
   else state.set({ selection: new Set() });
 }

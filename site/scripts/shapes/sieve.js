@@ -20,14 +20,26 @@ export class Sieve {
    */
   sift(matches, only, filters) {
     this.conditions = new Map();
-    for (const [key, shapes] of [["search", matches], ["only", only]]) {
-      if (shapes !== null) this.conditions.set(key, this.#of(shapes, () => (row) => shapes.has(row)));
+    for (const [key, shapes] of [
+      ["search", matches],
+      ["only", only],
+    ]) {
+      if (shapes !== null)
+        this.conditions.set(
+          key,
+          this.#of(shapes, () => (row) => shapes.has(row)),
+        );
     }
-    for (const [key, filter] of filters) this.conditions.set(key, this.#of(filter, () => passing(this.fields.byKey.get(key), filter)));
+    for (const [key, filter] of filters)
+      this.conditions.set(
+        key,
+        this.#of(filter, () => passing(this.fields.byKey.get(key), filter)),
+      );
     this.failures = this.everything;
     if (this.conditions.size > 0) {
       this.failures = new Uint8Array(this.database.count);
-      for (const failing of this.conditions.values()) for (let row = 0; row < failing.length; row += 1) this.failures[row] += failing[row];
+      for (const failing of this.conditions.values())
+        for (let row = 0; row < failing.length; row += 1) this.failures[row] += failing[row];
     }
     this.size = this.#remaining(this.everything);
   }
@@ -36,7 +48,10 @@ export class Sieve {
   #of(filter, make) {
     if (!this.#failing.has(filter)) {
       const passes = make();
-      this.#failing.set(filter, Uint8Array.from({ length: this.database.count }, (_, row) => (passes(row) ? 0 : 1)));
+      this.#failing.set(
+        filter,
+        Uint8Array.from({ length: this.database.count }, (_, row) => (passes(row) ? 0 : 1)),
+      );
     }
     return this.#failing.get(filter);
   }
@@ -68,7 +83,8 @@ export class Sieve {
   /** The same for the nodes of a tree with all below them. */
   countsOfTree({ key, tree: { nodes, of } }) {
     const counts = this.counts({ key, names: nodes, of });
-    for (let node = nodes.length - 1; node >= 0; node -= 1) if (nodes[node].parent >= 0) counts[nodes[node].parent] += counts[node];
+    for (let node = nodes.length - 1; node >= 0; node -= 1)
+      if (nodes[node].parent >= 0) counts[nodes[node].parent] += counts[node];
     return counts;
   }
 
@@ -99,7 +115,8 @@ export function interval(edges, number) {
 }
 
 function passing({ tree, of, numbers }, filter) {
-  if (!(filter instanceof Set)) return (row) => numbers[row] !== null && numbers[row] >= filter.low && numbers[row] <= filter.high;
+  if (!(filter instanceof Set))
+    return (row) => numbers[row] !== null && numbers[row] >= filter.low && numbers[row] <= filter.high;
   if (tree === null) return (row) => filter.has(of[row]);
   const under = new Set(filter);
   for (const [node, { parent }] of tree.nodes.entries()) if (under.has(parent) && parent !== NONE) under.add(node);

@@ -11,12 +11,16 @@ export function galleryTables(database, fields, sieve, groups) {
   const rows = groups.flatMap((group) => [...group.rows]);
   const title = rows.length > MOST_SHAPES ? `The first ${MOST_SHAPES} of ${count(rows.length, "shape")}` : "Shapes";
   const columns = fields.all.filter(({ numbers, names, active }) => active || numbers !== null || names !== null);
-  const shapes = rows.slice(0, MOST_SHAPES).map((row) => [database.names[row], database.ids[row], ...columns.map((field) => cell(field, row))]);
+  const shapes = rows
+    .slice(0, MOST_SHAPES)
+    .map((row) => [database.names[row], database.ids[row], ...columns.map((field) => cell(field, row))]);
   return {
     title: `${grouped(sieve.size)} of ${count(database.count, "shape")}`,
     tables: [
       table(title, ["Name", "Id", ...columns.map((field) => field.title)], shapes),
-      ...fields.filters.filter(({ names, edges }) => names !== null || edges !== null).map((field) => table(field.title, [field.title, "Shapes"], counted(field, sieve))),
+      ...fields.filters
+        .filter(({ names, edges }) => names !== null || edges !== null)
+        .map((field) => table(field.title, [field.title, "Shapes"], counted(field, sieve))),
     ],
   };
 }
@@ -29,7 +33,10 @@ function cell(field, row) {
 function counted(field, sieve) {
   if (field.edges !== null) {
     const counts = sieve.countsOfIntervals(field);
-    return [...counts].map((number, place) => [`${numberText(field.edges[place], field)} to ${numberText(field.edges[place + 1], field)}`, grouped(number)]);
+    return [...counts].map((number, place) => [
+      `${numberText(field.edges[place], field)} to ${numberText(field.edges[place + 1], field)}`,
+      grouped(number),
+    ]);
   }
   const counts = sieve.counts(field);
   const values = [...field.names.keys()].filter((value) => counts[value] > 0).slice(0, MOST_VALUES);

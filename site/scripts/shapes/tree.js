@@ -47,7 +47,8 @@ export class Tree {
     const before = this.filter;
     this.filter = filter;
     // What one filters by is in sight, however one came to it.
-    if (filter !== before) for (const node of filter ?? []) for (const above of this.#above(node)) this.#open.add(above);
+    if (filter !== before)
+      for (const node of filter ?? []) for (const above of this.#above(node)) this.#open.add(above);
     this.counts = this.sieve.countsOfTree(this.field);
     this.#draw();
   }
@@ -80,10 +81,20 @@ export class Tree {
         { class: number === 0 && !this.filter?.has(node) ? "node none" : "node" },
         element("span", { class: "chevron", "aria-hidden": "true" }),
         element("span", { class: "box", "aria-hidden": "true" }),
-        element("bdi", { class: node === NONE ? "value quiet" : "value" }, node === NONE ? this.#without() : this.field.tree.nodes[node].name),
+        element(
+          "bdi",
+          { class: node === NONE ? "value quiet" : "value" },
+          node === NONE ? this.#without() : this.field.tree.nodes[node].name,
+        ),
         element("span", { class: "size" }, grouped(number)),
       ),
-      open && children.length > 0 && element("ul", { role: "group" }, children.map((child) => this.#item(child, level + 1))),
+      open &&
+        children.length > 0 &&
+        element(
+          "ul",
+          { role: "group" },
+          children.map((child) => this.#item(child, level + 1)),
+        ),
     );
     this.#items.set(node, item);
     return item;
@@ -104,7 +115,8 @@ export class Tree {
     const filter = new Set(this.filter);
     if (!filter.delete(node)) {
       const above = this.#above(node);
-      for (const other of [...filter]) if (above.includes(other) || this.#above(other).includes(node)) filter.delete(other);
+      for (const other of [...filter])
+        if (above.includes(other) || this.#above(other).includes(node)) filter.delete(other);
       filter.add(node);
     }
     this.active = node;
@@ -139,7 +151,8 @@ export class Tree {
     else if (event.key === "Home") this.#go(order[0]);
     else if (event.key === "End") this.#go(order.at(-1));
     else if (event.key === "ArrowRight" && parts.length > 0) open ? this.#go(parts[0]) : this.#fold(node, true);
-    else if (event.key === "ArrowLeft") open && parts.length > 0 ? this.#fold(node, false) : this.#go(this.#above(node)[0]);
+    else if (event.key === "ArrowLeft")
+      open && parts.length > 0 ? this.#fold(node, false) : this.#go(this.#above(node)[0]);
     else if (event.key === "Enter" || event.key === " ") this.#toggle(node);
     else return;
     event.preventDefault();

@@ -1,7 +1,7 @@
 // The selection goes along: whichever link to a page of the site a reader follows, the shapes stay selected there.
 
 import { element } from "../base/dom.js";
-import { linkedPage, pageAddress } from "../base/place.js";
+import { linkedPage, pageAddress, readHash } from "../base/place.js";
 import { isSelection, writeSelection } from "../database/selection.js";
 
 /** Let all links of a page carry the selection in its state. */

@@ -17,8 +17,13 @@ export class Tray {
    * said while nothing is selected; without one the tray is then not there. `cover` is told how many pixels of what is
    * above it the tray covers.
    */
-  constructor(database, state, { open, point = () => {}, hint = null, cover = () => {} }) {
-    Object.assign(this, { database, state, open, point, hint, cover });
+  constructor(database, state, { open, point = (_) => {}, hint = null, cover = (_) => {} }) {
+    this.database = database;
+    this.state = state;
+    this.open = open;
+    this.point = point;
+    this.hint = hint;
+    this.cover = cover;
     this.node = document.getElementById("tray");
     this.here = document.body.className;
     state.listen((changed) => {
@@ -64,24 +69,49 @@ export class Tray {
   #head(selection) {
     const { database } = this;
     const census = database.census(selection);
-    const save = (name, to) => element("button", { type: "button", class: "plain", title: `Save the selection as a ${name} file`, onclick: () => to(database, this.#sorted(selection)) }, name);
+    const save = (name, to) =>
+      element(
+        "button",
+        {
+          type: "button",
+          class: "plain",
+          title: `Save the selection as a ${name} file`,
+          onclick: () => to(database, this.#sorted(selection)),
+        },
+        name,
+      );
     return element(
       "div",
       { class: "tray-head" },
       element("h2", {}, `${count(selection.size, "shape")} selected`),
-      database.labelled && element(
-        "p",
-        { class: "census" },
-        census.slice(0, MOST_CLASSES).map(([group, number]) => element("span", {}, swatch(database.symbol(group), database.color(group)), `${shortened(database.className(group), 20)} `, element("b", {}, String(number)))),
-        census.length > MOST_CLASSES && element("span", {}, `and ${census.length - MOST_CLASSES} more`),
-      ),
+      database.labelled &&
+        element(
+          "p",
+          { class: "census" },
+          census
+            .slice(0, MOST_CLASSES)
+            .map(([group, number]) =>
+              element(
+                "span",
+                {},
+                swatch(database.symbol(group), database.color(group)),
+                `${shortened(database.className(group), 20)} `,
+                element("b", {}, String(number)),
+              ),
+            ),
+          census.length > MOST_CLASSES && element("span", {}, `and ${census.length - MOST_CLASSES} more`),
+        ),
       element(
         "div",
         { class: "tray-ways" },
         this.#links(selection).map(([words, address]) => element("a", { href: address }, words)),
         save("CSV", saveCsv),
         save("JSON", saveJson),
-        element("button", { type: "button", class: "plain", onclick: () => this.state.set({ selection: new Set() }) }, "Clear"),
+        element(
+          "button",
+          { type: "button", class: "plain", onclick: () => this.state.set({ selection: new Set() }) },
+          "Clear",
+        ),
       ),
     );
   }
@@ -95,12 +125,21 @@ export class Tray {
     return [
       here !== "page-shapes" && ["Open in Shapes", galleryOf(database, selection)],
       here !== "page-overview" && ["Show on the map", pageAddress("index.html", query)],
-      here !== "page-compare" && rest && ["Compare with the rest", compareAddress(database, { kind: "shapes", shapes: selection }, { kind: "rest" })],
+      here !== "page-compare" &&
+        rest && [
+          "Compare with the rest",
+          compareAddress(database, { kind: "shapes", shapes: selection }, { kind: "rest" }),
+        ],
     ].filter(Boolean);
   }
 
   #strip(chosen) {
-    const strip = element("div", { class: "strip", role: "group", "aria-label": "Selected shapes; arrow keys go through them", onkeydown: (event) => this.#key(event) });
+    const strip = element("div", {
+      class: "strip",
+      role: "group",
+      "aria-label": "Selected shapes; arrow keys go through them",
+      onkeydown: (event) => this.#key(event),
+    });
     const more = element("button", { type: "button", class: "plain more" });
     let shown = 0;
     const extend = () => {
@@ -119,7 +158,9 @@ export class Tray {
 
   #item(index) {
     const { database } = this;
-    const name = database.labelled ? `${database.names[index]}, ${database.className(database.groups[index])}` : database.names[index];
+    const name = database.labelled
+      ? `${database.names[index]}, ${database.className(database.groups[index])}`
+      : database.names[index];
     return element(
       "button",
       {
@@ -151,13 +192,15 @@ export class Tray {
 
   #markOpened() {
     const opened = String(this.state.get("opened"));
-    for (const item of this.node.querySelectorAll(".shape")) item.classList.toggle("opened", item.dataset.index === opened);
+    for (const item of this.node.querySelectorAll(".shape"))
+      item.classList.toggle("opened", item.dataset.index === opened);
   }
 }
 
 /** Escape drops the selection, unless it closes something first. */
 export function clearOnEscape(state) {
   document.addEventListener("keydown", (event) => {
-    if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]")) state.set({ selection: new Set() });
+    if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]"))
+      state.set({ selection: new Set() });
   });
 }

@@ -3,7 +3,9 @@
 export class Paint {
   /** `ramp` has a colour a bin, "#rrggbb"; `clay` and `marked` are colours in linear light: the chunk "selection". */
   constructor({ ramp, clay, marked }) {
-    Object.assign(this, { ramp: ramp.map(linear), clay, marked });
+    this.ramp = ramp.map(linear);
+    this.clay = clay;
+    this.marked = marked;
   }
 
   plain(solid) {

@@ -35,7 +35,8 @@ export function cornersOf({ positions, faces, vertexCount }) {
     const sum = [0, 0, 0];
     for (let i = starts[faces[corner]]; i < starts[faces[corner] + 1]; i += 1) {
       const other = 3 * Math.floor(around[i] / 3);
-      const cosine = planes[own] * planes[other] + planes[own + 1] * planes[other + 1] + planes[own + 2] * planes[other + 2];
+      const cosine =
+        planes[own] * planes[other] + planes[own + 1] * planes[other + 1] + planes[own + 2] * planes[other + 2];
       if (cosine < CREASE_COSINE) continue;
       for (let axis = 0; axis < 3; axis += 1) sum[axis] += angles[around[i]] * planes[other + axis];
     }

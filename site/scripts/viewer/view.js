@@ -98,7 +98,8 @@ export class View {
     const { source } = this.corners;
     const spread = new Float32Array(3 * source.length);
     for (let corner = 0; corner < source.length; corner += 1) {
-      for (let channel = 0; channel < 3; channel += 1) spread[3 * corner + channel] = colors[3 * source[corner] + channel];
+      for (let channel = 0; channel < 3; channel += 1)
+        spread[3 * corner + channel] = colors[3 * source[corner] + channel];
     }
     this.#fill("color", spread);
     this.draw();
@@ -148,7 +149,10 @@ export class View {
     const gl = this.canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
     this.gl = gl;
     this.program = gl.createProgram();
-    for (const [kind, source] of [[gl.VERTEX_SHADER, VERTICES], [gl.FRAGMENT_SHADER, FRAGMENTS]]) {
+    for (const [kind, source] of [
+      [gl.VERTEX_SHADER, VERTICES],
+      [gl.FRAGMENT_SHADER, FRAGMENTS],
+    ]) {
       const shader = gl.createShader(kind);
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
@@ -175,7 +179,10 @@ export class View {
   /** The ball around the shape: turning about its middle keeps the shape in sight. */
   #measure() {
     const { positions } = this.model;
-    const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+    const [low, high] = [
+      [Infinity, Infinity, Infinity],
+      [-Infinity, -Infinity, -Infinity],
+    ];
     for (let i = 0; i < positions.length; i += 1) {
       low[i % 3] = Math.min(low[i % 3], positions[i]);
       high[i % 3] = Math.max(high[i % 3], positions[i]);
@@ -183,14 +190,19 @@ export class View {
     this.middle = low.map((value, axis) => (value + high[axis]) / 2);
     let squared = 1e-12;
     for (let i = 0; i < positions.length; i += 3) {
-      squared = Math.max(squared, this.middle.reduce((sum, value, axis) => sum + (positions[i + axis] - value) ** 2, 0));
+      squared = Math.max(
+        squared,
+        this.middle.reduce((sum, value, axis) => sum + (positions[i + axis] - value) ** 2, 0),
+      );
     }
     this.radius = Math.sqrt(squared);
   }
 
   #drawNow() {
     const { canvas, gl, program } = this;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * window.devicePixelRatio));
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) =>
+      Math.round(size * window.devicePixelRatio),
+    );
     if (width === 0 || height === 0 || gl.isContextLost()) return;
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     const side = Math.min(width, height);
@@ -232,12 +244,16 @@ export class View {
       canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
     }
     canvas.addEventListener("dblclick", () => this.reset());
-    canvas.addEventListener("wheel", (event) => {
-      // A page that scrolls past must not stop at a picture: only one that the reader took hold of scales.
-      if (document.activeElement !== canvas || !this.model) return;
-      event.preventDefault();
-      this.scale(Math.exp(-event.deltaY / 400));
-    }, { passive: false });
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        // A page that scrolls past must not stop at a picture: only one that the reader took hold of scales.
+        if (document.activeElement !== canvas || !this.model) return;
+        event.preventDefault();
+        this.scale(Math.exp(-event.deltaY / 400));
+      },
+      { passive: false },
+    );
     canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || !this.model) return;
       const step = Math.PI / 18;

@@ -62,19 +62,25 @@ export class Answers {
     const { database, data } = this;
     if (hidden.size > 0 || sample) return false;
     if (which === "refined") return isSame(bins, data.bins);
-    return (features.size === data.features.length && data.bins === null) || database.data.subsets?.method === projection;
+    return (
+      (features.size === data.features.length && data.bins === null) || database.data.subsets?.method === projection
+    );
   }
 
   /** The columns of the features in use. */
   columns(features) {
-    return Int32Array.from({ length: this.bins.count }, (_, column) => column).filter((column) => features.has(this.bins.featureOf(column)));
+    return Int32Array.from({ length: this.bins.count }, (_, column) => column).filter((column) =>
+      features.has(this.bins.featureOf(column)),
+    );
   }
 
   /** The map of the classes in use under the features in use. */
   original(projection, step, report, partial) {
     const asked = { method: projection, rows: this.rows(step), columns: this.columns(step.features), by: "features" };
     return this.#chain(async (run) => {
-      const offline = this.hasMap("original", projection, step) ? await this.#offlineMap(projection, step.features) : null;
+      const offline = this.hasMap("original", projection, step)
+        ? await this.#offlineMap(projection, step.features)
+        : null;
       return offline ?? this.#layout(run, asked, report, partial);
     });
   }
@@ -170,10 +176,16 @@ export class Answers {
   #offlineScores(scorer, separation, hidden, features) {
     const { data, database, bins } = this;
     const groups = database.classes.map((_, group) => group);
-    const single = contests(separation, groups).every(({ positive, negative }) => positive.length === 1 && negative.length === groups.length - 1);
-    if (!data.scored || !single || groups.some((group) => hidden.has(group)) || features.size < bins.features.length) return null;
+    const single = contests(separation, groups).every(
+      ({ positive, negative }) => positive.length === 1 && negative.length === groups.length - 1,
+    );
+    if (!data.scored || !single || groups.some((group) => hidden.has(group)) || features.size < bins.features.length)
+      return null;
     const asked = contests(separation, groups).map(({ positive: [group] }) => group);
-    return this.#meanOfClasses(data.scorers.findIndex(({ key }) => key === scorer), asked);
+    return this.#meanOfClasses(
+      data.scorers.findIndex(({ key }) => key === scorer),
+      asked,
+    );
   }
 
   async #meanOfClasses(method, groups) {
@@ -182,7 +194,8 @@ export class Answers {
     const scores = new Float64Array(count);
     for (const group of groups) {
       const start = (method * this.database.classes.length + group) * count;
-      for (let column = 0; column < count; column += 1) scores[column] += steps[start + column] / SCORE_STEPS / groups.length;
+      for (let column = 0; column < count; column += 1)
+        scores[column] += steps[start + column] / SCORE_STEPS / groups.length;
     }
     return scores;
   }
@@ -193,7 +206,10 @@ export class Answers {
     // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
     // and yet the same address gives the same map on any way there.
     const base = this.#siteMap(method) ?? database.data.methods[0];
-    const start = Float32Array.from({ length: 2 * rows.length }, (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]]);
+    const start = Float32Array.from(
+      { length: 2 * rows.length },
+      (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]],
+    );
     const spread = (xy, place) => {
       const all = new Array(database.count).fill(NaN);
       rows.forEach((row, index) => (all[row] = xy[2 * index + place]));

@@ -20,7 +20,13 @@ export class BinChart {
    * where it stands in the window, for the card; `onPoint(null)` that none is.
    */
   constructor(node, bins, { onToggle, onRange, onRemove, onPoint, announce }) {
-    Object.assign(this, { node, bins, onToggle, onRange, onRemove, onPoint, announce });
+    this.node = node;
+    this.bins = bins;
+    this.onToggle = onToggle;
+    this.onRange = onRange;
+    this.onRemove = onRemove;
+    this.onPoint = onPoint;
+    this.announce = announce;
     this.plot = new BinPlot(bins);
     this.scores = null;
     this.chosen = new Set();
@@ -41,7 +47,8 @@ export class BinChart {
 
   #build() {
     const { plot } = this;
-    const button = (words, title, onclick) => element("button", { type: "button", class: "plain", title, onclick }, words);
+    const button = (words, title, onclick) =>
+      element("button", { type: "button", class: "plain", title, onclick }, words);
     this.closer = button("", "Show the first bars with their names", () => plot.lookClose());
     this.reading = element("p", { class: "reading" });
     this.key = element("p", { class: "key" });
@@ -91,13 +98,27 @@ export class BinChart {
       onblur: () => this.point(null),
     });
     this.finding = element("span", { class: "finding" });
-    this.take = element("button", { type: "button", class: "plain", id: "bin-take", hidden: true, onclick: () => this.apply(this.#matches()) });
+    this.take = element("button", {
+      type: "button",
+      class: "plain",
+      id: "bin-take",
+      hidden: true,
+      onclick: () => this.apply(this.#matches()),
+    });
     return element("div", { class: "search", role: "search" }, this.field, this.finding, this.take);
   }
 
   #choiceTools() {
     const action = (id, onclick) => element("button", { type: "button", class: "plain", id, onclick });
-    this.number = element("input", { type: "number", id: "bin-number", min: 1, max: this.bins.count, value: 10, "aria-label": "How many bins", oninput: () => this.#offer() });
+    this.number = element("input", {
+      type: "number",
+      id: "bin-number",
+      min: 1,
+      max: this.bins.count,
+      value: 10,
+      "aria-label": "How many bins",
+      oninput: () => this.#offer(),
+    });
     const quick = QUICK.map((number) =>
       element(
         "button",
@@ -118,7 +139,14 @@ export class BinChart {
     this.add = action("bin-add", () => this.#add(this.#best()));
     this.remove = action("bin-remove", () => this.giveUp(this.#weakest()));
     this.clear = action("bin-clear", () => this.giveUp([...this.chosen]));
-    return element("div", { class: "bin-best", role: "group", "aria-label": "Choose bins by score" }, this.numbers, this.add, this.remove, this.clear);
+    return element(
+      "div",
+      { class: "bin-best", role: "group", "aria-label": "Choose bins by score" },
+      this.numbers,
+      this.add,
+      this.remove,
+      this.clear,
+    );
   }
 
   /**
@@ -132,7 +160,10 @@ export class BinChart {
       this.rankOf.fill(0);
       this.ranking.forEach((column, place) => (this.rankOf[column] = place + 1));
     }
-    Object.assign(this, { scores, chosen, emphasised: matched, separation });
+    this.scores = scores;
+    this.chosen = chosen;
+    this.emphasised = matched;
+    this.separation = separation;
     this.plot.surface.setAttribute("aria-busy", String(busy));
     this.node.classList.toggle("busy", busy);
     if (arranged) this.#arrange();
@@ -154,7 +185,10 @@ export class BinChart {
   #arrange() {
     const { chosen, ranking } = this;
     const groups = Array.from({ length: 2 * this.bins.features.length }, () => []);
-    for (const column of ranking) groups[(this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(column);
+    for (const column of ranking)
+      groups[(this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(
+        column,
+      );
     const places = Int32Array.from(groups.flat());
     this.mark(null);
     this.plot.show({ scores: this.scores, chosen, places });
@@ -189,11 +223,19 @@ export class BinChart {
   /** Remove those of some columns that are chosen. */
   giveUp(columns) {
     const kept = columns.filter((column) => this.chosen.has(column));
-    this.#change(this.onRemove, kept, `${count(kept.length, "bin")} removed, ${count(this.chosen.size - kept.length, "bin")} chosen`);
+    this.#change(
+      this.onRemove,
+      kept,
+      `${count(kept.length, "bin")} removed, ${count(this.chosen.size - kept.length, "bin")} chosen`,
+    );
   }
 
   #add(columns) {
-    this.#change(this.onRange, columns, `${count(columns.length, "bin")} added, ${count(this.chosen.size + columns.length, "bin")} chosen`);
+    this.#change(
+      this.onRange,
+      columns,
+      `${count(columns.length, "bin")} added, ${count(this.chosen.size + columns.length, "bin")} chosen`,
+    );
   }
 
   #change(ask, columns, words) {
@@ -232,10 +274,12 @@ export class BinChart {
     const wanted = this.#wanted;
     const best = this.#best().length;
     const weakest = this.#weakest().length;
-    for (const node of this.numbers.querySelectorAll("[data-number]")) node.setAttribute("aria-pressed", String(Number(node.dataset.number) === wanted));
+    for (const node of this.numbers.querySelectorAll("[data-number]"))
+      node.setAttribute("aria-pressed", String(Number(node.dataset.number) === wanted));
     this.closer.textContent = `First ${this.plot.close}`;
     this.closer.hidden = this.plot.close >= this.ranking.length;
-    this.add.textContent = this.chosen.size > 0 ? `Add the next ${best || wanted}` : `Choose the best ${best || wanted}`;
+    this.add.textContent =
+      this.chosen.size > 0 ? `Add the next ${best || wanted}` : `Choose the best ${best || wanted}`;
     this.add.disabled = best === 0;
     this.remove.textContent = `Remove the weakest ${weakest || wanted}`;
     this.remove.disabled = weakest === 0;
@@ -305,14 +349,21 @@ export class BinChart {
     this.pointed = column;
     this.#beside = null;
     this.#show();
-    this.onPoint(column, column === null ? null : { ...this.plot.box(this.plot.placeOf[column]), free: this.node.getBoundingClientRect().top });
+    this.onPoint(
+      column,
+      column === null
+        ? null
+        : { ...this.plot.box(this.plot.placeOf[column]), free: this.node.getBoundingClientRect().top },
+    );
   }
 
   /** Point at a column wherever it stands, and say which it is. */
   visit(column) {
     this.plot.reveal(this.plot.placeOf[column]);
     this.point(column);
-    this.announce(`${this.bins.names[column]}, rank ${this.rankOf[column]} of ${this.ranking.length}, score ${figure(this.scores[column])}${this.chosen.has(column) ? ", chosen" : ""}`);
+    this.announce(
+      `${this.bins.names[column]}, rank ${this.rankOf[column]} of ${this.ranking.length}, score ${figure(this.scores[column])}${this.chosen.has(column) ? ", chosen" : ""}`,
+    );
   }
 
   /** Point at the bar some places further; beside the old place of one that has just been chosen. */
@@ -347,7 +398,11 @@ export class BinChart {
     if (this.range !== null) {
       const columns = this.marked;
       const kept = columns.every((column) => this.chosen.has(column));
-      parts = [element("b", {}, count(columns.length, "bin")), `${bins.names[columns[0]]} to ${bins.names[columns.at(-1)]}`, kept ? "all chosen: to be removed" : "to be added"];
+      parts = [
+        element("b", {}, count(columns.length, "bin")),
+        `${bins.names[columns[0]]} to ${bins.names[columns.at(-1)]}`,
+        kept ? "all chosen: to be removed" : "to be added",
+      ];
     } else if (pointed !== null) {
       parts = [
         element("b", {}, this.#hued(bins.featureOf(pointed)), element("bdi", {}, bins.names[pointed])),
@@ -356,7 +411,10 @@ export class BinChart {
         this.chosen.has(pointed) ? "chosen" : null,
       ];
     } else {
-      parts = [[element("b", {}, grouped(this.chosen.size)), ` of ${count(this.ranking.length, "bin")} chosen`], ...this.#census()];
+      parts = [
+        [element("b", {}, grouped(this.chosen.size)), ` of ${count(this.ranking.length, "bin")} chosen`],
+        ...this.#census(),
+      ];
     }
     this.reading.replaceChildren(...parts.filter(Boolean).map((part) => element("span", {}, part)));
   }
@@ -370,14 +428,23 @@ export class BinChart {
   /** How many of the chosen bins each feature has. */
   #census() {
     const counts = new Map();
-    for (const column of this.chosen) counts.set(this.bins.featureOf(column), (counts.get(this.bins.featureOf(column)) ?? 0) + 1);
+    for (const column of this.chosen)
+      counts.set(this.bins.featureOf(column), (counts.get(this.bins.featureOf(column)) ?? 0) + 1);
     return [...counts]
       .sort(([a, some], [b, others]) => others - some || a - b)
-      .map(([feature, number]) => [this.#hued(feature), element("bdi", {}, this.bins.features[feature].name), ` ${number}`]);
+      .map(([feature, number]) => [
+        this.#hued(feature),
+        element("bdi", {}, this.bins.features[feature].name),
+        ` ${number}`,
+      ]);
   }
 
   #explain() {
-    const separates = ["The higher the bar, the better this share alone separates ", element("b", {}, this.separation ?? ""), ". "];
+    const separates = [
+      "The higher the bar, the better this share alone separates ",
+      element("b", {}, this.separation ?? ""),
+      ". ",
+    ];
     const touched = window.matchMedia("(pointer: coarse)").matches;
     const sentences = [
       "Each bar is one of ",
@@ -396,7 +463,12 @@ function radios(label, name, options, checked, changed) {
     "div",
     { class: "choice", role: "radiogroup", "aria-label": label, id: name },
     Object.entries(options).map(([value, [words, title]]) =>
-      element("label", { title }, element("input", { type: "radio", name, value, checked: value === checked, onchange: () => changed(value) }), element("span", {}, words)),
+      element(
+        "label",
+        { title },
+        element("input", { type: "radio", name, value, checked: value === checked, onchange: () => changed(value) }),
+        element("span", {}, words),
+      ),
     ),
   );
 }

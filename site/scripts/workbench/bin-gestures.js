@@ -40,7 +40,7 @@ export class BinGestures {
     }
     // One choice on the page says what dragging does, on the maps and here.
     const moves = this.plot.surface.closest("[data-drag='move']") !== null || event.button === 1;
-    this.#drag = { kind: "press", then: moves ? "move" : "select", start: x, last: x, place: this.plot.at(x, true) };
+    this.#drag = { kind: "press", becomes: moves ? "move" : "select", start: x, last: x, place: this.plot.at(x, true) };
   }
 
   #move(event) {
@@ -54,7 +54,7 @@ export class BinGestures {
     }
     if (drag.kind === "pinch") this.#stretch(drag);
     if (drag.kind === "press" && Math.abs(x - drag.start) > CLICK) {
-      drag.kind = drag.then;
+      drag.kind = drag.becomes;
       chart.point(null);
     }
     if (drag.kind === "move") plot.pan(drag.last - x);
@@ -115,7 +115,14 @@ export class BinGestures {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { plot, chart } = this;
     const leap = Math.max(LEAP, Math.floor(plot.span / 10));
-    const steps = { ArrowLeft: -1, ArrowRight: 1, PageUp: -leap, PageDown: leap, Home: -plot.places.length, End: plot.places.length };
+    const steps = {
+      ArrowLeft: -1,
+      ArrowRight: 1,
+      PageUp: -leap,
+      PageDown: leap,
+      Home: -plot.places.length,
+      End: plot.places.length,
+    };
     if (event.key in steps) this.#walk(steps[event.key], event.shiftKey);
     else if (event.key === "Enter" || event.key === " ") {
       if (chart.range) chart.apply(chart.marked);

@@ -44,7 +44,13 @@ export class BinPlot {
     this.message = element("p", { class: "message" }, "No bins to show yet.");
     this.surface = element(
       "div",
-      { class: "surface", tabindex: "0", role: "application", "aria-label": "Bins and their scores", "aria-describedby": "bin-keys" },
+      {
+        class: "surface",
+        tabindex: "0",
+        role: "application",
+        "aria-label": "Bins and their scores",
+        "aria-describedby": "bin-keys",
+      },
       this.canvas,
       svg("svg", { class: "overlay", "aria-hidden": "true" }, this.pointer, this.brush),
       this.message,
@@ -112,9 +118,14 @@ export class BinPlot {
       this.placeOf[column] = place;
       features.add(this.feature[column]);
     });
-    Object.assign(this, { scores, chosen, places, features: [...features].sort((a, b) => a - b) });
+    this.scores = scores;
+    this.chosen = chosen;
+    this.places = places;
+    this.features = [...features].sort((a, b) => a - b);
     this.top = axisEnd(places.reduce((most, column) => Math.max(most, scores[column]), 0));
-    this.levels.replaceChildren(...[this.top, this.top / 2, 0].map((level) => element("span", {}, String(Number(level.toPrecision(3))))));
+    this.levels.replaceChildren(
+      ...[this.top, this.top / 2, 0].map((level) => element("span", {}, String(Number(level.toPrecision(3))))),
+    );
     if (first) this.resize();
     else {
       this.#listRows();
@@ -148,7 +159,8 @@ export class BinPlot {
 
   /** Mark one column, and the places of a range. */
   mark(pointed, range) {
-    Object.assign(this, { pointed, range });
+    this.pointed = pointed;
+    this.range = range;
     this.#placeMarks();
   }
 
@@ -209,7 +221,8 @@ export class BinPlot {
   }
 
   reveal(place) {
-    if (this.scale.xOf(place) < -0.5 || this.scale.xOf(place + 1) > this.width + 0.5) this.hold(place + 0.5, this.width / 2);
+    if (this.scale.xOf(place) < -0.5 || this.scale.xOf(place + 1) > this.width + 0.5)
+      this.hold(place + 0.5, this.width / 2);
   }
 
   /** The place under a point of the surface, or null; `nearest` takes the bar beside it where there is none. */
@@ -281,7 +294,8 @@ export class BinPlot {
   #paintLevels(context, { width, base, room }) {
     context.fillStyle = this.ink;
     context.globalAlpha = 0.1;
-    for (const level of [0.25, 0.5, 0.75, 1]) context.fillRect(0, base - Math.round(level * room), width, this.#line(1));
+    for (const level of [0.25, 0.5, 0.75, 1])
+      context.fillRect(0, base - Math.round(level * room), width, this.#line(1));
     context.globalAlpha = 1;
   }
 
@@ -299,7 +313,8 @@ export class BinPlot {
     for (const { start, width } of runs) context.fillRect(start, base, width, this.#line(3));
     const framed = this.scale.chosenWidth < BORDERED;
     const line = (context.lineWidth = this.#line(this.scale.chosenWidth < 10 ? 1 : 2));
-    const frame = (start, width, height) => context.strokeRect(start + line / 2, base - height + line / 2, width - line, height);
+    const frame = (start, width, height) =>
+      context.strokeRect(start + line / 2, base - height + line / 2, width - line, height);
     if (framed) {
       for (const { start, width } of runs) if (width >= this.#pixels(FRAMED)) frame(start, width, room);
       return;
@@ -370,7 +385,11 @@ export class BinPlot {
   #listRows() {
     this.node.style.setProperty("--row", `${this.#rowHeight}px`);
     const named = this.#rowHeight >= 10 ? this.features : [];
-    this.rows.replaceChildren(...named.map((feature) => element("li", { dir: "auto", title: this.bins.features[feature].title }, this.bins.features[feature].name)));
+    this.rows.replaceChildren(
+      ...named.map((feature) =>
+        element("li", { dir: "auto", title: this.bins.features[feature].title }, this.bins.features[feature].name),
+      ),
+    );
   }
 
   #placeMarks() {

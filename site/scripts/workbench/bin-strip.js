@@ -12,8 +12,15 @@ export class BinStrip {
   /** `look(from, to, last)` is asked to show what lies between two shares of the whole; `last` says that the end must stay. */
   constructor(look) {
     this.look = look;
+    this.from = 0;
+    this.to = 1;
     this.canvas = element("canvas");
-    this.window = element("div", { class: "window" }, element("i", { class: "grip from" }), element("i", { class: "grip to" }));
+    this.window = element(
+      "div",
+      { class: "window" },
+      element("i", { class: "grip from" }),
+      element("i", { class: "grip to" }),
+    );
     this.node = element("div", { class: "strip-of-bins", "aria-hidden": "true" }, this.canvas, this.window);
     this.node.addEventListener("pointerdown", (event) => this.#down(event));
     this.node.addEventListener("pointermove", (event) => this.#move(event));
@@ -29,14 +36,20 @@ export class BinStrip {
     const line = Math.round(2 * density);
     const step = width / count;
     const from = bars.position.map((position) => position * step);
-    paintBars(context, { ...bars, from, to: from.map((start) => start + step) }, { width, base: height - line, room: height - 2 * line, colors });
+    paintBars(
+      context,
+      { ...bars, from, to: from.map((start) => start + step) },
+      { width, base: height - line, room: height - 2 * line, colors },
+    );
     context.fillStyle = accent;
-    for (const [first, last] of runs) context.fillRect(first * step, height - line, Math.max((last + 1 - first) * step, line), line);
+    for (const [first, last] of runs)
+      context.fillRect(first * step, height - line, Math.max((last + 1 - first) * step, line), line);
   }
 
   /** Mark what is shown, as shares of the whole. */
   show(from, to) {
-    [this.from, this.to] = [from, to];
+    this.from = from;
+    this.to = to;
     this.node.classList.toggle("whole", to - from > 0.9999);
     this.window.style.left = `${100 * from}%`;
     this.window.style.width = `${100 * (to - from)}%`;

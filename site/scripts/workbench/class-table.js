@@ -1,6 +1,6 @@
 // The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
 
-import { element, swatch } from "../base/dom.js";
+import { element, focused, swatch } from "../base/dom.js";
 import { difference } from "../base/figures.js";
 import { figure } from "../base/words.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
@@ -19,7 +19,9 @@ export class ClassTable {
     document.getElementById("classes-none").addEventListener("click", () => change(new Set(this.groups)));
     for (const part of ["from", "against"]) {
       const all = document.getElementById(part === "from" ? "separate-all" : "against-all");
-      all.addEventListener("click", () => separate(part, this.#ticked(part).size < database.classes.length ? [...database.classes.keys()] : []));
+      all.addEventListener("click", () =>
+        separate(part, this.#ticked(part).size < database.classes.length ? [...database.classes.keys()] : []),
+      );
     }
     this.body.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
     state.listen((changed) => {
@@ -30,11 +32,11 @@ export class ClassTable {
   }
 
   render() {
-    const focused = document.activeElement?.dataset?.key;
+    const kept = focused()?.dataset.key;
     this.rows = new Map(this.groups.map((group) => [group, this.#row(group)]));
     this.body.replaceChildren(...[...this.rows.values()].map(({ node }) => node));
     this.#mark();
-    if (focused !== undefined) this.body.querySelector(`[data-key="${focused}"]`)?.focus({ preventScroll: true });
+    if (kept !== undefined) this.body.querySelector(`[data-key="${kept}"]`)?.focus({ preventScroll: true });
   }
 
   #row(group) {
@@ -56,16 +58,41 @@ export class ClassTable {
       swatch(database.symbol(group), database.color(group)),
       element("span", { class: "name", dir: "auto" }, name),
     );
-    const only = element("button", { type: "button", class: "only", "data-key": `only ${group}`, "aria-label": `Only ${name}`, title: "Only this class", onclick: () => this.#only(group) }, "only");
+    const only = element(
+      "button",
+      {
+        type: "button",
+        class: "only",
+        "data-key": `only ${group}`,
+        "aria-label": `Only ${name}`,
+        title: "Only this class",
+        onclick: () => this.#only(group),
+      },
+      "only",
+    );
     const ticks = new Map(["from", "against"].map((part) => [part, group >= 0 && this.#tick(part, group, name)]));
     const point = (value) => () => state.set({ pointedGroup: value });
     const node = element(
       "tr",
       { onpointerenter: point(group), onpointerleave: point(null) },
-      element("th", { scope: "row" }, element("div", { class: "of-class" }, use, only, element("span", { class: "size" }, String(database.sizes.get(group) ?? 0)))),
+      element(
+        "th",
+        { scope: "row" },
+        element(
+          "div",
+          { class: "of-class" },
+          use,
+          only,
+          element("span", { class: "size" }, String(database.sizes.get(group) ?? 0)),
+        ),
+      ),
       element("td", { class: "tick" }, ticks.get("from")),
       element("td", { class: "tick against" }, ticks.get("against")),
-      element("td", { class: "number", title: most === "" ? null : `NH ${figure(hit)}${most}, as many as the class has others` }, group < 0 ? "" : figure(hit)),
+      element(
+        "td",
+        { class: "number", title: most === "" ? null : `NH ${figure(hit)}${most}, as many as the class has others` },
+        group < 0 ? "" : figure(hit),
+      ),
       element("td", { class: "number change" }, hit !== null && refined !== null && change(refined - hit)),
     );
     return { node, use, only, ticks };
@@ -73,7 +100,12 @@ export class ClassTable {
 
   #tick(part, group, name) {
     const label = part === "from" ? `Separate ${name}` : `Separate from ${name}`;
-    const input = element("input", { type: "checkbox", "data-key": `${part} ${group}`, "aria-label": label, title: `${label}\nClick with Alt: only this` });
+    const input = element("input", {
+      type: "checkbox",
+      "data-key": `${part} ${group}`,
+      "aria-label": label,
+      title: `${label}\nClick with Alt: only this`,
+    });
     input.addEventListener("click", (event) => {
       const ticked = event.altKey ? new Set([group]) : this.#ticked(part);
       if (!event.altKey && !ticked.delete(group)) ticked.add(group);

@@ -16,7 +16,7 @@ export function watchControls(database, data, state, desk) {
     state.listen((now) => now.has(name) && check());
     check();
   };
-  radios("projections", "projection", (projection) => desk.ask({ projection }));
+  radios("projections", "projection", (projection) => desk.change({ projection }));
   radios("colors", "color");
   radios("drag", "drag", (drag) => {
     state.set({ drag });
@@ -45,12 +45,14 @@ function watchRamp(database, state) {
 function watchScorer(data, state, desk) {
   const select = document.getElementById("scorer");
   const words = document.getElementById("scorer-words");
-  select.replaceChildren(...data.scorers.map(({ key, title, explanation }) => element("option", { value: key, title: explanation }, title)));
+  select.replaceChildren(
+    ...data.scorers.map(({ key, title, explanation }) => element("option", { value: key, title: explanation }, title)),
+  );
   const show = () => {
     select.value = state.get("scorer");
     words.textContent = data.scorers.find(({ key }) => key === select.value).explanation;
   };
-  select.addEventListener("change", () => desk.ask({ scorer: select.value }));
+  select.addEventListener("change", () => desk.change({ scorer: select.value }));
   state.listen((changed) => changed.has("scorer") && show());
   show();
 }
@@ -64,14 +66,19 @@ function watchSeparation(database, state, desk) {
     const asked = contests(separation, groups);
     words.textContent = asked.length > 0 ? separationWords(separation, groups, database) : missing(separation, groups);
     words.parentElement.classList.toggle("missing", asked.length === 0);
-    for (const input of against.querySelectorAll("input")) input.checked = (input.value === "rest") === (separation.against === null);
+    for (const input of against.querySelectorAll("input"))
+      input.checked = (input.value === "rest") === (separation.against === null);
     for (const input of each.querySelectorAll("input")) input.checked = (input.value === "each") === separation.each;
   };
   against.addEventListener("change", (event) => {
     const separation = state.get("separation");
-    desk.ask({ separation: { ...separation, against: event.target.value === "rest" ? null : new Set(database.classes.keys()) } });
+    desk.change({
+      separation: { ...separation, against: event.target.value === "rest" ? null : new Set(database.classes.keys()) },
+    });
   });
-  each.addEventListener("change", (event) => desk.ask({ separation: { ...state.get("separation"), each: event.target.value === "each" } }));
+  each.addEventListener("change", (event) =>
+    desk.change({ separation: { ...state.get("separation"), each: event.target.value === "each" } }),
+  );
   state.listen((changed) => (changed.has("separation") || changed.has("hidden")) && show());
   show();
 }
@@ -93,7 +100,11 @@ function watchPicked(state, desk) {
     else {
       node.replaceChildren(
         element("span", {}, `A sample of ${grouped(MOST_SHAPES)} shapes at most`),
-        element("button", { type: "button", class: "plain", onclick: () => desk.ask({ sample: false }) }, "All shapes"),
+        element(
+          "button",
+          { type: "button", class: "plain", onclick: () => desk.change({ sample: false }) },
+          "All shapes",
+        ),
       );
     }
   };

@@ -14,12 +14,20 @@ export const FEWEST_SHAPES = 3;
 
 export class Desk {
   constructor(database, data, bins, state, answers, scenes, announce) {
-    Object.assign(this, { database, data, bins, state, answers, scenes, announce });
+    this.database = database;
+    this.data = data;
+    this.bins = bins;
+    this.state = state;
+    this.answers = answers;
+    this.scenes = scenes;
+    this.announce = announce;
     this.history = new History();
     this.history.push(this.#step());
     this.arriving = false;
     const tell = (name) => (status) => state.set({ [`${name}Status`]: status });
-    this.inquiries = Object.fromEntries(["original", "refined", "scores"].map((name) => [name, new Inquiry(tell(name))]));
+    this.inquiries = Object.fromEntries(
+      ["original", "refined", "scores"].map((name) => [name, new Inquiry(tell(name))]),
+    );
   }
 
   // Steps
@@ -87,7 +95,13 @@ export class Desk {
 
   #step() {
     const { state } = this;
-    return { hidden: state.get("hidden"), features: state.get("features"), bins: state.get("bins"), originalMap: null, refinedMap: null };
+    return {
+      hidden: state.get("hidden"),
+      features: state.get("features"),
+      bins: state.get("bins"),
+      originalMap: null,
+      refinedMap: null,
+    };
   }
 
   #show({ hidden, features, bins }) {
@@ -97,19 +111,24 @@ export class Desk {
 
   // Questions
 
-  /** Ask by another scorer, for another separation, or with another projection. */
+  /** Ask by another scorer, for another separation, with another projection, or of a sample. */
+  change(values) {
+    this.state.set(values);
+    this.ask();
+  }
+
+  /** Ask for what is not known yet. */
   ask(what = ["original", "refined", "scores"]) {
-    if (!Array.isArray(what)) {
-      this.state.set(what);
-      this.ask();
-      return;
-    }
-    const ways = { original: () => this.#askMap("original"), refined: () => this.#askMap("refined"), scores: () => this.#askScores() };
+    const ways = {
+      original: () => this.#askMap("original"),
+      refined: () => this.#askMap("refined"),
+      scores: () => this.#askScores(),
+    };
     for (const name of what) ways[name]();
   }
 
   separate(part, groups) {
-    this.ask({ separation: { ...this.state.get("separation"), [part]: new Set(groups) } });
+    this.change({ separation: { ...this.state.get("separation"), [part]: new Set(groups) } });
   }
 
   /** Whether anything is being worked on. */
@@ -125,7 +144,9 @@ export class Desk {
 
   /** Stop all work in progress; true if there was any. */
   stopAll() {
-    return Object.keys(this.inquiries).map((name) => this.stop(name)).some(Boolean);
+    return Object.keys(this.inquiries)
+      .map((name) => this.stop(name))
+      .some(Boolean);
   }
 
   #askMap(which) {
@@ -144,7 +165,13 @@ export class Desk {
     const members = which === "original" ? step.features : step.bins;
     const key = [projection, asked.sample, sorted(step.hidden), sorted(members)].join("|");
     const scene = this.scenes[which];
-    const start = (report) => answers[which](projection, asked, report, (x, y) => state.get(`${which}Status`).kind === "working" && scene.stream(x, y));
+    const start = (report) =>
+      answers[which](
+        projection,
+        asked,
+        report,
+        (x, y) => state.get(`${which}Status`).kind === "working" && scene.stream(x, y),
+      );
     inquiry.ask(key, start, (map) => {
       step[`${which}Map`] = map;
       const shown = state.get(`${which}Map`) === map;
@@ -160,7 +187,8 @@ export class Desk {
       return;
     }
     const before = this.state.get("originalMap")?.hitOfAll ?? null;
-    const change = which === "refined" && before !== null ? `, ${changeWords(map.hitOfAll - before)} against the original` : "";
+    const change =
+      which === "refined" && before !== null ? `, ${changeWords(map.hitOfAll - before)} against the original` : "";
     this.announce(`NH of the ${which} map ${figure(map.hitOfAll)}${change}`);
   }
 
@@ -182,7 +210,11 @@ export class Desk {
     const scorer = state.get("scorer");
     const sample = state.get("sample");
     const key = JSON.stringify([scorer, sample, asked, sorted(step.features)]);
-    this.inquiries.scores.ask(key, (report) => answers.scores(scorer, separation, { ...step, sample }, report), (scores) => state.set({ scores }));
+    this.inquiries.scores.ask(
+      key,
+      (report) => answers.scores(scorer, separation, { ...step, sample }, report),
+      (scores) => state.set({ scores }),
+    );
   }
 
   /** All there is at this moment, for export. */
@@ -191,8 +223,10 @@ export class Desk {
     const groups = answers.groups(state.get("hidden"));
     const words = [
       `map: ${state.get("projection")}, seed ${data.seed}`,
-      database.labelled && `classes: ${groups.length === database.classes.length ? "all" : groups.map((group) => database.className(group)).join(", ")}`,
-      database.separable && `scorer: ${state.get("scorer")}, separating ${separationWords(state.get("separation"), groups, database)}`,
+      database.labelled &&
+        `classes: ${groups.length === database.classes.length ? "all" : groups.map((group) => database.className(group)).join(", ")}`,
+      database.separable &&
+        `scorer: ${state.get("scorer")}, separating ${separationWords(state.get("separation"), groups, database)}`,
     ].filter(Boolean);
     return {
       chosen: state.get("bins"),

@@ -2,6 +2,7 @@
 
 import { element } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
+import { ranked } from "../bins-kit/bin-list.js";
 import { highestOf, rangeOf } from "../database/hit-range.js";
 import { csvText, saveText } from "../tray/export.js";
 
@@ -12,7 +13,12 @@ export function watchDownloads(database, bins, work) {
   const dialog = document.getElementById("export");
   document.getElementById("open-export").addEventListener("click", () => {
     dialog.replaceChildren(
-      element("div", { class: "detail-head" }, element("h2", {}, "Export"), element("button", { type: "button", class: "plain", onclick: () => dialog.close() }, "Close")),
+      element(
+        "div",
+        { class: "detail-head" },
+        element("h2", {}, "Export"),
+        element("button", { type: "button", class: "plain", onclick: () => dialog.close() }, "Close"),
+      ),
       ...content(database, bins, work()),
     );
     dialog.showModal();
@@ -24,15 +30,29 @@ export function watchDownloads(database, bins, work) {
 
 function content(database, bins, work) {
   const { chosen, originalMap, refinedMap, scores } = work;
-  const save = (words, name, type, text) => element("button", { type: "button", class: "plain strong", "data-file": name, onclick: () => saveText(name, type, text()) }, words);
+  const save = (words, name, type, text) =>
+    element(
+      "button",
+      { type: "button", class: "plain strong", "data-file": name, onclick: () => saveText(name, type, text()) },
+      words,
+    );
   const command = `shapeviz-report build DATABASE -o OUT --bins ${FILE}`;
   return [
     element("h3", {}, "Chosen bins"),
     chosen.size === 0
       ? element("p", {}, "None is chosen yet.")
-      : element("p", {}, `${count(chosen.size, "bin")}, one name a line. The command below builds a site whose maps compare shapes by these bins alone.`),
+      : element(
+          "p",
+          {},
+          `${count(chosen.size, "bin")}, one name a line. The command below builds a site whose maps compare shapes by these bins alone.`,
+        ),
     chosen.size > 0 && element("pre", {}, command),
-    chosen.size > 0 && element("p", { class: "row" }, save("Save the bins", FILE, "text/plain", () => binsText(bins, work))),
+    chosen.size > 0 &&
+      element(
+        "p",
+        { class: "row" },
+        save("Save the bins", FILE, "text/plain", () => binsText(bins, work)),
+      ),
     element("h3", {}, "Maps and scores"),
     element(
       "p",
@@ -46,7 +66,8 @@ function content(database, bins, work) {
 
 /** One name a line, best first, under a header that says where they come from. */
 function binsText(bins, { chosen, scores, words, refinedMap, address }) {
-  const order = scores === null ? [...chosen].sort((a, b) => a - b) : [...ranked(scores)].filter((column) => chosen.has(column));
+  const order =
+    scores === null ? [...chosen].sort((a, b) => a - b) : [...ranked(scores)].filter((column) => chosen.has(column));
   const header = [
     `${count(chosen.size, "bin").replaceAll("\u2009", "")} chosen on the Workbench of ${document.title.split(" · ").at(-1)}`,
     ...words,
@@ -57,31 +78,55 @@ function binsText(bins, { chosen, scores, words, refinedMap, address }) {
 }
 
 function mapsCsv(database, original, refined) {
-  const maps = [["original", original], ["refined", refined]].filter(([, map]) => map !== null);
-  const header = ["id", "class", ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`, `${name}:nh_max`])];
+  const maps = [
+    ["original", original],
+    ["refined", refined],
+  ].filter(([, map]) => map !== null);
+  const header = [
+    "id",
+    "class",
+    ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`, `${name}:nh_max`]),
+  ];
   const number = (value) => (value === null || Number.isNaN(value) ? "" : value);
   const rows = database.ids.map((id, index) => [
     id,
     database.groups[index] < 0 ? "" : database.className(database.groups[index]),
-    ...maps.flatMap(([, map]) => [number(map.x[index]), number(map.y[index]), number(map.hit[index]), number(map.hit[index] === null ? null : highestOf(database, map, index))]),
+    ...maps.flatMap(([, map]) => [
+      number(map.x[index]),
+      number(map.y[index]),
+      number(map.hit[index]),
+      number(map.hit[index] === null ? null : highestOf(database, map, index)),
+    ]),
   ]);
   return csvText([header, ...rows]);
 }
 
 function scoresCsv(bins, scores, chosen) {
-  const rows = [...ranked(scores)].map((column, place) => [bins.names[column], place + 1, scores[column], chosen.has(column) ? 1 : 0]);
+  const rows = [...ranked(scores)].map((column, place) => [
+    bins.names[column],
+    place + 1,
+    scores[column],
+    chosen.has(column) ? 1 : 0,
+  ]);
   return csvText([["bin", "rank", "score", "chosen"], ...rows]);
 }
 
 function allJson(database, bins, { chosen, scores, words, originalMap, refinedMap }) {
   const number = (value) => (value === null || Number.isNaN(value) ? null : value);
-  const map = (one) => one && {
-    nh_s: one.hitOfAll,
-    nh_max: rangeOf(database, one).highest,
-    nh_c: Object.fromEntries(database.classes.map((name, group) => [name, one.hitOfClass[group]]).filter(([, hit]) => hit !== null)),
-    nh_c_max: Object.fromEntries([...rangeOf(database, one).highestOfClass].map(([group, highest]) => [database.classes[group], highest])),
-    shapes: database.ids.map((id, index) => ({ id, x: number(one.x[index]), y: number(one.y[index]), nh: number(one.hit[index]) })).filter(({ x }) => x !== null),
-  };
+  const map = (one) =>
+    one && {
+      nh_s: one.hitOfAll,
+      nh_max: rangeOf(database, one).highest,
+      nh_c: Object.fromEntries(
+        database.classes.map((name, group) => [name, one.hitOfClass[group]]).filter(([, hit]) => hit !== null),
+      ),
+      nh_c_max: Object.fromEntries(
+        [...rangeOf(database, one).highestOfClass].map(([group, highest]) => [database.classes[group], highest]),
+      ),
+      shapes: database.ids
+        .map((id, index) => ({ id, x: number(one.x[index]), y: number(one.y[index]), nh: number(one.hit[index]) }))
+        .filter(({ x }) => x !== null),
+    };
   const names = [...chosen].sort((a, b) => a - b).map((column) => bins.names[column]);
   const scored = scores && [...ranked(scores)].map((column) => ({ bin: bins.names[column], score: scores[column] }));
   return `${JSON.stringify({ about: words, bins: names, original: map(originalMap), refined: map(refinedMap), scores: scored }, null, 1)}\n`;

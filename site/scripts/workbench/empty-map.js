@@ -11,19 +11,40 @@ const BEST = 10;
 export function emptyMap(which, state, answers, desk) {
   const rows = answers.rows({ hidden: state.get("hidden"), sample: state.get("sample") }).length;
   if (rows < FEWEST_SHAPES) {
-    const words = answers.database.count < FEWEST_SHAPES ? `This database has ${count(answers.database.count, "shape")}; a map needs ${FEWEST_SHAPES}.` : "A map needs three shapes: take more classes into use.";
+    const words =
+      answers.database.count < FEWEST_SHAPES
+        ? `This database has ${count(answers.database.count, "shape")}; a map needs ${FEWEST_SHAPES}.`
+        : "A map needs three shapes: take more classes into use.";
     return [element("p", {}, words)];
   }
   if (rows > MOST_SHAPES && (which === "original" || state.get("bins").size > 0)) {
     return [
-      element("p", {}, `A map of ${count(rows, "shape")} takes a browser long. A sample of ${grouped(MOST_SHAPES)}, each class in proportion, takes seconds; both maps are then of the sample, so that their NH can be compared.`),
-      element("button", { type: "button", class: "plain strong", id: "use-sample", onclick: () => desk.ask({ sample: true }) }, "Use a sample"),
+      element(
+        "p",
+        {},
+        `A map of ${count(rows, "shape")} takes a browser long. A sample of ${grouped(MOST_SHAPES)}, each class in proportion, takes seconds; both maps are then of the sample, so that their NH can be compared.`,
+      ),
+      element(
+        "button",
+        { type: "button", class: "plain strong", id: "use-sample", onclick: () => desk.change({ sample: true }) },
+        "Use a sample",
+      ),
     ];
   }
   if (which === "original") return [];
   const scored = state.get("scores") !== null;
   return [
     element("p", {}, "No bins are chosen yet. The refined map shows the same shapes, compared by chosen bins alone."),
-    element("button", { type: "button", class: "plain strong", id: "first-best", disabled: !scored, onclick: () => desk.takeBest(BEST) }, answers.database.separable ? `Take the best ${BEST}` : `Take the ${BEST} that vary most`),
+    element(
+      "button",
+      {
+        type: "button",
+        class: "plain strong",
+        id: "first-best",
+        disabled: !scored,
+        onclick: () => desk.takeBest(BEST),
+      },
+      answers.database.separable ? `Take the best ${BEST}` : `Take the ${BEST} that vary most`,
+    ),
   ];
 }

@@ -1,6 +1,6 @@
 // The feature types in use, in their colours.
 
-import { element } from "../base/dom.js";
+import { element, focused } from "../base/dom.js";
 
 export class FeatureList {
   /** `change(features)` takes others into use. */
@@ -19,9 +19,13 @@ export class FeatureList {
   }
 
   render() {
-    const focused = document.activeElement?.dataset?.key;
-    this.list.replaceChildren(...this.bins.features.map((feature, index) => element("li", {}, this.#button(feature, index), this.#only(feature, index))));
-    if (focused !== undefined) this.list.querySelector(`[data-key="${focused}"]`)?.focus({ preventScroll: true });
+    const kept = focused()?.dataset.key;
+    this.list.replaceChildren(
+      ...this.bins.features.map((feature, index) =>
+        element("li", {}, this.#button(feature, index), this.#only(feature, index)),
+      ),
+    );
+    if (kept !== undefined) this.list.querySelector(`[data-key="${kept}"]`)?.focus({ preventScroll: true });
   }
 
   #button({ name, title, start, dimensions, bins, hue }, index) {
@@ -44,14 +48,29 @@ export class FeatureList {
       },
       mark,
       element("span", { class: "name", dir: "auto" }, name),
-      element("span", { class: "size" }, chosen > 0 ? element("b", { title: "bins chosen" }, String(chosen)) : "", chosen > 0 && " of ", String(width)),
+      element(
+        "span",
+        { class: "size" },
+        chosen > 0 ? element("b", { title: "bins chosen" }, String(chosen)) : "",
+        chosen > 0 && " of ",
+        String(width),
+      ),
     );
   }
 
   #only({ name }, index) {
     const used = this.state.get("features");
-    const attributes = { "data-key": `only feature ${index}`, "aria-label": `Only ${name}`, title: "Only this feature", disabled: used.size === 1 && used.has(index) };
-    return element("button", { type: "button", class: "only", ...attributes, onclick: () => this.change(new Set([index])) }, "only");
+    const attributes = {
+      "data-key": `only feature ${index}`,
+      "aria-label": `Only ${name}`,
+      title: "Only this feature",
+      disabled: used.size === 1 && used.has(index),
+    };
+    return element(
+      "button",
+      { type: "button", class: "only", ...attributes, onclick: () => this.change(new Set([index])) },
+      "only",
+    );
   }
 
   #toggle(index, last) {

@@ -3,6 +3,7 @@
 import { DEFAULT_SCORER, EVERY_CLASS } from "../addresses/workbench.js";
 import { element, swatch } from "../base/dom.js";
 import { difference } from "../base/figures.js";
+import { readHash } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 
@@ -16,14 +17,31 @@ const LEAST = 0.0005;
 export class Guide {
   /** `act` are the same actions that the controls of the page do. */
   constructor(database, data, bins, state, act) {
-    Object.assign(this, { database, data, bins, state, act });
+    this.database = database;
+    this.data = data;
+    this.bins = bins;
+    this.state = state;
+    this.act = act;
     this.node = document.getElementById("guide");
     this.opener = document.getElementById("open-guide");
     this.example = data.example;
     if (this.example === null) return;
     this.opener.addEventListener("click", () => this.#open(0));
     state.listen((changed) => {
-      if (["originalMap", "refinedMap", "refinedStatus", "originalStatus", "scores", "scoresStatus", "bins", "hidden", "theme"].some((name) => changed.has(name))) this.render();
+      if (
+        [
+          "originalMap",
+          "refinedMap",
+          "refinedStatus",
+          "originalStatus",
+          "scores",
+          "scoresStatus",
+          "bins",
+          "hidden",
+          "theme",
+        ].some((name) => changed.has(name))
+      )
+        this.render();
     });
     // Who comes with a link has come for something else.
     if ([...readHash()].length > 0 || dismissed()) this.#close();
@@ -56,10 +74,29 @@ export class Guide {
     const { words, action, todo } = steps[this.step]();
     const last = steps.length - 1;
     this.node.replaceChildren(
-      element("b", { class: "which" }, this.step < last ? `Example, step ${this.step + 1} of ${last}` : "Example, the end"),
+      element(
+        "b",
+        { class: "which" },
+        this.step < last ? `Example, step ${this.step + 1} of ${last}` : "Example, the end",
+      ),
       element("p", { "aria-live": "polite" }, words),
-      element("button", { type: "button", class: "plain strong", id: "do-it", disabled: todo === null, onclick: () => this.#do(todo) }, action),
-      element("button", { type: "button", class: "plain", id: "close-guide", "aria-label": "Close the example", title: "Close the example", onclick: () => this.#dismiss() }, "×"),
+      element(
+        "button",
+        { type: "button", class: "plain strong", id: "do-it", disabled: todo === null, onclick: () => this.#do(todo) },
+        action,
+      ),
+      element(
+        "button",
+        {
+          type: "button",
+          class: "plain",
+          id: "close-guide",
+          "aria-label": "Close the example",
+          title: "Close the example",
+          onclick: () => this.#dismiss(),
+        },
+        "×",
+      ),
     );
     if (focused) this.node.querySelector("#do-it:not(:disabled)")?.focus();
   }
@@ -82,17 +119,29 @@ export class Guide {
     const others = [...this.database.sizes.keys()].filter((group) => group !== one && group !== other);
     const kind = (name) => state.get(`${name}Status`).kind;
     const settled = (...names) => names.every((name) => kind(name) === "answered");
-    const waiting = (name, words) => (kind(name) === "working" ? words : "This was stopped or did not work; start it again where it says so.");
+    const waiting = (name, words) =>
+      kind(name) === "working" ? words : "This was stopped or did not work; start it again where it says so.";
     return [
       () => ({
-        words: [...pair, ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(this.example.mixed * 100)} % are of the other of the two.`],
+        words: [
+          ...pair,
+          ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(this.example.mixed * 100)} % are of the other of the two.`,
+        ],
         action: "Show only these two",
         todo: () => act.use({ hidden: new Set(others) }),
       }),
       () => ({
-        words: ["Each bar below is one bin: the share of a surface within a small range of a feature. Its height can say how well this share alone tells ", ...pair, " apart."],
+        words: [
+          "Each bar below is one bin: the share of a surface within a small range of a feature. Its height can say how well this share alone tells ",
+          ...pair,
+          " apart.",
+        ],
         action: "Score the bins for that",
-        todo: () => act.ask({ scorer: DEFAULT_SCORER, separation: { from: new Set([one]), against: new Set([other]), each: true } }),
+        todo: () =>
+          act.change({
+            scorer: DEFAULT_SCORER,
+            separation: { from: new Set([one]), against: new Set([other]), each: true },
+          }),
       }),
       () => ({
         words: settled("scores") ? this.#bestBin() : waiting("scores", "Scoring …"),
@@ -100,17 +149,27 @@ export class Guide {
         todo: settled("scores") ? () => act.takeBest(FEW) : null,
       }),
       () => ({
-        words: settled("refined", "original") ? this.#resultOfTwo(pair) : waiting("refined", "Making the map of these bins …"),
+        words: settled("refined", "original")
+          ? this.#resultOfTwo(pair)
+          : waiting("refined", "Making the map of these bins …"),
         action: "Bring all classes back",
         todo: kind("refined") === "working" ? null : () => act.use({ hidden: new Set() }, { separation: EVERY_CLASS }),
       }),
       () => ({
-        words: settled("refined", "original") ? this.#resultOfAll(" Other classes need other bins: those with the best scores for each class against the rest.") : waiting("refined", "Making the map of all classes …"),
+        words: settled("refined", "original")
+          ? this.#resultOfAll(
+              " Other classes need other bins: those with the best scores for each class against the rest.",
+            )
+          : waiting("refined", "Making the map of all classes …"),
         action: `Add the best ${MANY} for all classes`,
         todo: settled("scores") ? () => act.addBest(MANY) : null,
       }),
       () => ({
-        words: settled("refined", "original") ? this.#resultOfAll(" Every step stands at the bottom: click one to go back. Undo, try other bins, or export these.") : waiting("refined", "Making the map of these bins …"),
+        words: settled("refined", "original")
+          ? this.#resultOfAll(
+              " Every step stands at the bottom: click one to go back. Undo, try other bins, or export these.",
+            )
+          : waiting("refined", "Making the map of these bins …"),
         action: "Done",
         todo: () => {},
       }),
@@ -119,38 +178,57 @@ export class Guide {
 
   #bestBin() {
     const column = ranked(this.state.get("scores"))[0];
-    return ["The best bin is ", element("b", {}, element("bdi", {}, this.bins.names[column])), ". ", this.bins.sentence(column)];
+    return [
+      "The best bin is ",
+      element("b", {}, element("bdi", {}, this.bins.names[column])),
+      ". ",
+      this.bins.sentence(column),
+    ];
   }
 
   /** What the data says, whichever way it went. */
   #resultOfTwo(pair) {
     const result = this.#result();
     if (result === null) return "No bins are chosen: take the best to see their map.";
-    const [hits, moved] = result;
-    const verdict = moved >= LEAST
-      ? "these bins keep them apart better than all features do"
-      : moved > -LEAST
-        ? "these bins keep them apart as well as all features do"
-        : "these bins alone keep them apart less well than all features do: try more of them, or another scorer";
-    return ["On the refined map of ", ...pair, ...hits, `: ${verdict}. But what does it do to the other classes?`];
+    const { words, moved } = result;
+    const verdict =
+      moved >= LEAST
+        ? "these bins keep them apart better than all features do"
+        : moved > -LEAST
+          ? "these bins keep them apart as well as all features do"
+          : "these bins alone keep them apart less well than all features do: try more of them, or another scorer";
+    return ["On the refined map of ", ...pair, ...words, `: ${verdict}. But what does it do to the other classes?`];
   }
 
   #resultOfAll(next) {
     const result = this.#result();
     if (result === null) return ["No bins are chosen.", next];
-    return [`The map of all classes by these ${count(this.state.get("bins").size, "bin")}: `, ...result[0], ".", next];
+    return [
+      `The map of all classes by these ${count(this.state.get("bins").size, "bin")}: `,
+      ...result.words,
+      ".",
+      next,
+    ];
   }
 
   /** NH of the refined map in words, and its change against the original; null without a refined map. */
   #result() {
     const [before, after] = [this.state.get("originalMap").hitOfAll, this.state.get("refinedMap")?.hitOfAll ?? null];
     if (after === null) return null;
-    return [[" NH is ", element("b", {}, figure(after)), `, ${difference(after - before)} against the original`], after - before];
+    return {
+      words: [" NH is ", element("b", {}, figure(after)), `, ${difference(after - before)} against the original`],
+      moved: after - before,
+    };
   }
 
   #name(group) {
     const { database } = this;
-    return element("span", { class: "of-class" }, swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group)));
+    return element(
+      "span",
+      { class: "of-class" },
+      swatch(database.symbol(group), database.color(group)),
+      element("bdi", {}, database.className(group)),
+    );
   }
 }
 

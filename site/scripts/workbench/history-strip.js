@@ -1,6 +1,6 @@
 // The steps as small maps, each with its NH and what it added or removed (paper, Fig. 7). Click one to go back to it.
 
-import { element } from "../base/dom.js";
+import { element, focused } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { bounds } from "../database/database.js";
 import { changes } from "./history.js";
@@ -30,13 +30,14 @@ export class HistoryStrip {
 
   render() {
     const { history } = this;
-    const focused = document.activeElement?.dataset?.step;
+    const kept = focused()?.dataset.step;
     this.list.replaceChildren(...history.steps.map((_, place) => element("li", {}, this.#step(place))));
     this.undo.disabled = !history.canUndo;
     this.redo.disabled = !history.canRedo;
     const current = this.list.children[history.at].firstElementChild;
     this.#reveal(current);
-    if (focused !== undefined) (this.list.querySelector(`[data-step="${focused}"]`) ?? current).focus({ preventScroll: true });
+    if (kept !== undefined)
+      (this.list.querySelector(`[data-step="${kept}"]`) ?? current).focus({ preventScroll: true });
   }
 
   /** Scroll the strip to a step, and nothing but the strip: on a phone it lies far below what one looks at. */
@@ -54,9 +55,16 @@ export class HistoryStrip {
     const mixed = new Set(history.steps.map((one) => mapOf(one)?.title).filter(Boolean)).size > 1;
     const changed = place === 0 ? [] : changes(history.steps[place - 1], step);
     const words = place === 0 ? "start" : changed.map(([number, word]) => changeOf(number, word)).join(", ");
-    const parts = place === 0
-      ? [element("span", {}, "start")]
-      : changed.map(([number, word]) => element("span", { class: number < 0 ? "removed" : "added" }, `${number < 0 ? "−" : "+"}${count(Math.abs(number), word, many(word))}`));
+    const parts =
+      place === 0
+        ? [element("span", {}, "start")]
+        : changed.map(([number, word]) =>
+            element(
+              "span",
+              { class: number < 0 ? "removed" : "added" },
+              `${number < 0 ? "−" : "+"}${count(Math.abs(number), word, many(word))}`,
+            ),
+          );
     return element(
       "button",
       {
@@ -70,12 +78,19 @@ export class HistoryStrip {
         onclick: () => this.go(place),
       },
       map ? this.#pictureOf(step, map) : element("span", { class: "no-map" }),
-      element("span", { class: "told" }, map?.hitOfAll !== null && element("b", {}, map ? figure(map.hitOfAll) : "…", mixed && map && element("i", {}, map.title)), element("span", { class: "changed" }, parts)),
+      element(
+        "span",
+        { class: "told" },
+        map?.hitOfAll !== null &&
+          element("b", {}, map ? figure(map.hitOfAll) : "…", mixed && map && element("i", {}, map.title)),
+        element("span", { class: "changed" }, parts),
+      ),
     );
   }
 
   #pictureOf(step, map) {
-    if (this.#pictures.get(step)?.map !== map) this.#pictures.set(step, { map, canvas: this.#picture(map, step.hidden) });
+    if (this.#pictures.get(step)?.map !== map)
+      this.#pictures.set(step, { map, canvas: this.#picture(map, step.hidden) });
     return this.#pictures.get(step).canvas;
   }
 
@@ -102,7 +117,7 @@ export class HistoryStrip {
     const steps = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity };
     if (!(event.key in steps)) return;
     event.preventDefault();
-    const place = Number(document.activeElement.dataset.step ?? this.history.at) + steps[event.key];
+    const place = Number(focused().dataset.step ?? this.history.at) + steps[event.key];
     const last = this.list.children.length - 1;
     this.list.children[Math.min(Math.max(place, 0), last)].firstElementChild.focus();
   }

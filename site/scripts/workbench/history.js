@@ -46,10 +46,16 @@ function sameMembers(one, other) {
   return one.size === other.size && [...one].every((member) => other.has(member));
 }
 
+const CHANGES = [
+  { name: "bins", word: "bin", sign: 1 },
+  { name: "hidden", word: "class", sign: -1 },
+  { name: "features", word: "feature", sign: 1 },
+];
+
 /** What a step added and removed, as [how many, of what]: [[10, "bin"], [-1, "feature"]]. */
 export function changes(before, after) {
   const found = [];
-  for (const [name, word, sign] of [["bins", "bin", 1], ["hidden", "class", -1], ["features", "feature", 1]]) {
+  for (const { name, word, sign } of CHANGES) {
     const more = [...after[name]].filter((member) => !before[name].has(member)).length;
     const less = [...before[name]].filter((member) => !after[name].has(member)).length;
     if (more > 0) found.push([more * sign, word]);

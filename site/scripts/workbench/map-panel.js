@@ -23,7 +23,15 @@ export class MapPanel {
     this.nh = this.figure.querySelector(".nh");
     this.blank = this.figure.querySelector(".empty");
     this.status = new StatusLine(this.figure.querySelector(".status"), { again, stop });
-    const names = [`${which}Map`, `${which}Status`, other, "bins", "features", "hidden", ...(which === "refined" ? ["scores"] : [])].filter(Boolean);
+    const names = [
+      `${which}Map`,
+      `${which}Status`,
+      other,
+      "bins",
+      "features",
+      "hidden",
+      ...(which === "refined" ? ["scores"] : []),
+    ].filter(Boolean);
     state.listen((changed) => {
       if (names.some((name) => changed.has(name))) this.render();
     });
@@ -35,17 +43,52 @@ export class MapPanel {
     const before = this.other && this.state.get(this.other);
     const most = map && rangeOf(this.database, map).highest;
     this.status.show(status);
-    this.madeFrom.textContent = this.which === "original" ? featureWords(this.state.get("features"), this.bins.features) : chosenWords(this.state.get("bins"));
+    this.madeFrom.textContent =
+      this.which === "original"
+        ? featureWords(this.state.get("features"), this.bins.features)
+        : chosenWords(this.state.get("bins"));
     this.#showEmpty(map);
     this.figure.classList.toggle("stale", status.kind !== "answered" && map !== null);
     this.figure.classList.toggle("without", map === null);
-    this.nh.replaceChildren(...(map?.hitOfAll === null || map === null ? [] : [
-      symbol(),
-      element("output", { class: "value" }, figure(map.hitOfAll)),
-      ...(before && before.hitOfAll !== null ? [element("span", { class: `change ${map.hitOfAll < before.hitOfAll ? "worse" : "better"}` }, difference(map.hitOfAll - before.hitOfAll))] : []),
-      ...(map.chance !== null ? [element("span", { class: "chance", title: "What labels dealt at random reach on average" }, `random ${figure(map.chance)}`)] : []),
-      ...(isBelowOne(most) ? [element("span", { class: "chance", title: "A map whose classes never mix: some of the classes are too small to fill all places around a shape" }, `at most ${figure(most)}`)] : []),
-    ]));
+    this.nh.replaceChildren(
+      ...(map?.hitOfAll === null || map === null
+        ? []
+        : [
+            symbol(),
+            element("output", { class: "value" }, figure(map.hitOfAll)),
+            ...(before && before.hitOfAll !== null
+              ? [
+                  element(
+                    "span",
+                    { class: `change ${map.hitOfAll < before.hitOfAll ? "worse" : "better"}` },
+                    difference(map.hitOfAll - before.hitOfAll),
+                  ),
+                ]
+              : []),
+            ...(map.chance !== null
+              ? [
+                  element(
+                    "span",
+                    { class: "chance", title: "What labels dealt at random reach on average" },
+                    `random ${figure(map.chance)}`,
+                  ),
+                ]
+              : []),
+            ...(isBelowOne(most)
+              ? [
+                  element(
+                    "span",
+                    {
+                      class: "chance",
+                      title:
+                        "A map whose classes never mix: some of the classes are too small to fill all places around a shape",
+                    },
+                    `at most ${figure(most)}`,
+                  ),
+                ]
+              : []),
+          ]),
+    );
   }
 
   #showEmpty(map) {
@@ -61,6 +104,10 @@ function chosenWords({ size }) {
 /** "all 8 features", "Agd, Sc". */
 function featureWords(features, all) {
   if (features.size === all.length) return all.length === 1 ? all[0].name : `all ${all.length} features`;
-  if (features.size <= 3) return [...features].sort((a, b) => a - b).map((feature) => all[feature].name).join(", ");
+  if (features.size <= 3)
+    return [...features]
+      .sort((a, b) => a - b)
+      .map((feature) => all[feature].name)
+      .join(", ");
   return count(features.size, "feature");
 }

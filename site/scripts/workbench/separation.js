@@ -47,7 +47,12 @@ export function separationWords(separation, groups, database) {
     return list(chosen.map((group) => shortened(database.className(group), 24)));
   };
   if (contests(separation, groups).length === 1 && separation.each) {
-    const [{ positive: [one], negative: others }] = contests(separation, groups);
+    const [
+      {
+        positive: [one],
+        negative: others,
+      },
+    ] = contests(separation, groups);
     return `${names([one])} from ${others.length === 1 ? names(others) : "the rest"}`;
   }
   const manner = positive.length < 2 ? "" : separation.each ? ", each" : ", together,";

@@ -11,7 +11,10 @@ export class StatusLine {
   constructor(node, { again, stop }) {
     this.node = node;
     this.bar = element("progress", { max: 1, "aria-label": "Progress" });
-    this.working = [this.bar, element("button", { type: "button", class: "plain", title: "Stop (Escape)", onclick: stop }, "Stop")];
+    this.working = [
+      this.bar,
+      element("button", { type: "button", class: "plain", title: "Stop (Escape)", onclick: stop }, "Stop"),
+    ];
     this.again = (words) => element("button", { type: "button", class: "plain", onclick: again }, words);
   }
 
@@ -24,7 +27,8 @@ export class StatusLine {
     clearTimeout(this.#waiting);
     this.#waiting = null;
     if (kind === "stopped") this.#put("Stopped.", this.again("Continue"));
-    else if (kind === "failed") this.#put(element("span", { role: "alert" }, `That did not work: ${message}`), this.again("Try again"));
+    else if (kind === "failed")
+      this.#put(element("span", { role: "alert" }, `That did not work: ${message}`), this.again("Try again"));
     else this.#put();
   }
 

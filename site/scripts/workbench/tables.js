@@ -13,24 +13,34 @@ export function workTables(database, bins, state) {
   const groups = [...database.classes.keys()].filter((group) => !hidden.has(group));
   const change = (before, after) => (before === null || after === null ? "–" : difference(after - before));
   const row = (name, before, after) => [name, figure(before), figure(after), change(before, after)];
-  const hits = (group) => row(database.className(group), original?.hitOfClass[group] ?? null, refined?.hitOfClass[group] ?? null);
+  const hits = (group) =>
+    row(database.className(group), original?.hitOfClass[group] ?? null, refined?.hitOfClass[group] ?? null);
   const scores = state.get("scores");
-  const shapes = database.ids.map((_, index) => index).filter((index) => !hidden.has(database.groups[index])).slice(0, MOST_ROWS);
+  const shapes = database.ids
+    .map((_, index) => index)
+    .filter((index) => !hidden.has(database.groups[index]))
+    .slice(0, MOST_ROWS);
   const place = (map, index) => (map === null ? ["–", "–"] : [figure(map.x[index]), figure(map.y[index])]);
   return {
     title: "The Workbench in figures",
     tables: [
-      database.labelled && table("Neighbourhood hit", ["Class", "Original map", "Refined map", "Change"], [
-        row("All classes in use", original?.hitOfAll ?? null, refined?.hitOfAll ?? null),
-        ...groups.map(hits),
-      ]),
+      database.labelled &&
+        table(
+          "Neighbourhood hit",
+          ["Class", "Original map", "Refined map", "Change"],
+          [row("All classes in use", original?.hitOfAll ?? null, refined?.hitOfAll ?? null), ...groups.map(hits)],
+        ),
       ...(scores === null ? [] : binTables(bins, scores, state.get("bins"))),
-      table("Shapes", ["Shape", "Class", "original x", "y", "refined x", "y"], shapes.map((index) => [
-        database.ids[index],
-        database.className(database.groups[index]),
-        ...place(original, index),
-        ...place(refined, index),
-      ])),
+      table(
+        "Shapes",
+        ["Shape", "Class", "original x", "y", "refined x", "y"],
+        shapes.map((index) => [
+          database.ids[index],
+          database.className(database.groups[index]),
+          ...place(original, index),
+          ...place(refined, index),
+        ]),
+      ),
     ].filter(Boolean),
   };
 }

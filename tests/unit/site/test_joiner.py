@@ -32,6 +32,14 @@ def test_a_module_runs_once_before_those_that_import_it(modules):
     assert script.index("function two()") < script.index("const one") < script.index("console.log")
 
 
+def test_an_import_may_take_several_lines(modules):
+    entry = modules(
+        main='import {\n  one,\n  two,\n} from "./a.js";\nconsole.log(one, two);',
+        a="export const one = 1;\nexport const two = 2;",
+    )
+    assert "const { one, two } = module0;" in join(entry)
+
+
 def test_names_of_modules_do_not_meet(modules):
     entry = modules(
         main='import { a } from "./a.js";\nconst secret = 1;\nconsole.log(a, secret);',
