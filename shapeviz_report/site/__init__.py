@@ -266,14 +266,8 @@ def _style(report: Report) -> str:
 
 
 def _accent_style(accent: Accent) -> str:
-    """The rules of ``tokens.css`` for the accent colour again, and after them."""
-    return (
-        f":root {{ --accent: {accent.light}; }}\n"
-        "@media (prefers-color-scheme: dark) {\n"
-        f'  :root:not([data-theme="light"]) {{ --accent: {accent.dark}; }}\n'
-        "}\n"
-        f':root[data-theme="dark"] {{ --accent: {accent.dark}; }}\n'
-    )
+    """The rule of ``tokens.css`` for the accent colour again, and after it."""
+    return f":root {{ --accent: light-dark({accent.light}, {accent.dark}); }}\n"
 
 
 def _scripts() -> dict[str, str]:

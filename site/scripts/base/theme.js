@@ -24,9 +24,23 @@ export function currentTheme() {
   return document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light");
 }
 
+const colors = new Map();
+
 /** A colour of the style sheet, for marks that are drawn and not styled. */
 export function styleColor(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  const key = `${name} ${currentTheme()}`;
+  if (!colors.has(key)) colors.set(key, computedColor(`var(--${name})`));
+  return colors.get(key);
+}
+
+/** What a colour comes to in the theme in use; asked of an element, which knows the theme. */
+function computedColor(color) {
+  const node = document.createElement("i");
+  node.style.color = color;
+  document.body.append(node);
+  const { color: computed } = getComputedStyle(node);
+  node.remove();
+  return computed;
 }
 
 export function applyStoredTheme() {

@@ -3,6 +3,7 @@
 import { modelBytes } from "../base/chunks.js";
 import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
+import { styleColor } from "../base/theme.js";
 import { dimensionOf, pictured, shapeLine } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { findShapes } from "../database/shape-finder.js";
@@ -143,12 +144,12 @@ export class Turntable {
   }
 
   #ring() {
-    const { pen, node } = this.pick;
+    const { pen } = this.pick;
     const dense = window.devicePixelRatio || 1;
     const [x, y] = this.pick.screen(this.shape);
     pen.globalAlpha = 1;
     pen.lineWidth = 2.5 * dense;
-    pen.strokeStyle = getComputedStyle(node).getPropertyValue("--accent");
+    pen.strokeStyle = styleColor("accent");
     pen.beginPath();
     pen.arc(x * dense, y * dense, 9 * dense, 0, 7);
     pen.stroke();

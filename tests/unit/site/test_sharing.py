@@ -137,7 +137,7 @@ def test_shapes_at_one_place_have_a_preview(places):
 
 def test_the_accent_has_the_last_word_in_the_style(site):
     rules = (site / "assets" / "style.css").read_text(encoding="utf-8")
-    assert re.findall(r"--accent: (#\w+)", rules)[-3:] == ["#112233", "#ddeeff", "#ddeeff"]
+    assert re.findall(r"--accent: (.+);", rules)[-1] == "light-dark(#112233, #ddeeff)"
 
 
 def test_the_logo_is_a_file_of_the_site(site):
