@@ -12,7 +12,7 @@ import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numba
 from numba import config, njit
@@ -74,7 +74,7 @@ def _root() -> Path:
     return folder / "__pycache__" / "kernels" if os.access(folder, os.W_OK) else default_root() / "kernels"
 
 
-class _Place(UserProvidedCacheLocator):  # type: ignore[misc]
+class _Place(UserProvidedCacheLocator):
     """The folder that is named, and no other where that cannot be written: numba's own would have no such key."""
 
     @classmethod
@@ -82,11 +82,11 @@ class _Place(UserProvidedCacheLocator):  # type: ignore[misc]
         return cls(py_func, py_file)
 
 
-class _Content(CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes: ClassVar[list[type[object]]] = [_Place]
+class _Content(CompileResultCacheImpl):
+    _locator_classes = [_Place]  # noqa: RUF012 - as its base has it
 
 
-class _Files(IndexDataCacheFile):  # type: ignore[misc]
+class _Files(IndexDataCacheFile):
     """Numba's index of the code of a function, and the code, as entries of a :class:`~shapeviz_report.cache.Cache`."""
 
     def __init__(self, cache_path: str, filename_base: str, source_stamp: object) -> None:
@@ -111,7 +111,7 @@ class _Files(IndexDataCacheFile):  # type: ignore[misc]
         self._cache.store("code", self._key(name), dumps(data))
 
 
-class _KeptCode(FunctionCache):  # type: ignore[misc]
+class _KeptCode(FunctionCache):
     """The kept code of a function: what was damaged is compiled anew, and what cannot be kept again next time."""
 
     _impl_class = _Content

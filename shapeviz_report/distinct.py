@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.quality import hit_range, score
 from shapeviz_report.retrieval import query_classes, rate
@@ -66,10 +67,10 @@ def rate_without_copies(
             scores = rate(squared[np.ix_(queried, queried)], codes).scores
             retrieval[name] = np.average(scores, axis=0, weights=weights)
 
-    def hit(xy: FloatArray, shown: IntArray, k: int) -> float | None:
+    def hit(xy: npt.NDArray[np.floating], shown: npt.NDArray[np.signedinteger], k: int) -> float | None:
         """NH_s of a map of some rows."""
         own = representatives(groups[shown], labelled[shown])
-        return score(xy[own], [labels[row] for row in shown[own]], k=k).nh_s
+        return score(xy[own].astype(np.float64), [labels[row] for row in shown[own]], k=k).nh_s
 
     best = None
     if search is not None and not np.isnan(search.subsets.nh_s).any():

@@ -258,8 +258,8 @@ def _judge(table: Path, outside: bool) -> Verdict:
     classes = any(
         _plain(column) in (LABEL_COLUMN, *CLASS_COLUMNS) for row in content.rows for column in row.cells
     )
-    told = content.plain or classes
-    return Verdict(False, content.plain, "No mesh that its rows name is there." if told else "")
+    tells = content.plain or classes
+    return Verdict(False, content.plain, "No mesh that its rows name is there." if tells else "")
 
 
 def _candidates(folder: Path) -> list[Path]:

@@ -4,10 +4,11 @@ import numpy as np
 
 from shapeviz_report.compilation import kernel
 from shapeviz_report.descriptors.kernels.rays import DEPTH
+from shapeviz_report.types import FloatArray, Int64Array
 
 
 @kernel(error_model="numpy")
-def _outside(boxes, node, x, y, z):  # pragma: no cover - compiled
+def _outside(boxes: FloatArray, node: int, x: float, y: float, z: float) -> float:
     """The squared distance of a point from a box; infinite for one that nothing meets."""
     dx = max(boxes[node, 0] - x, 0.0, x - boxes[node, 3])
     dy = max(boxes[node, 1] - y, 0.0, y - boxes[node, 4])
@@ -16,12 +17,12 @@ def _outside(boxes, node, x, y, z):  # pragma: no cover - compiled
 
 
 @kernel(error_model="numpy")
-def _dot(a, b):  # pragma: no cover - compiled
+def _dot(a: tuple[float, float, float], b: tuple[float, float, float]) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @kernel(error_model="numpy")
-def _weigh(triangle, x, y, z):  # pragma: no cover - compiled
+def _weigh(triangle: FloatArray, x: float, y: float, z: float) -> tuple[float, float]:
     """Weights of the second and the third corner in the point of a triangle that is closest to another (Ericson,
     Real-Time Collision Detection, 2005, 5.1.5)."""
     a, b, c = triangle[0], triangle[1], triangle[2]
@@ -54,7 +55,9 @@ def _weigh(triangle, x, y, z):  # pragma: no cover - compiled
 
 
 @kernel(error_model="numpy")
-def find_closest(points, corners, boxes, leaf):  # pragma: no cover - compiled
+def find_closest(
+    points: FloatArray, corners: FloatArray, boxes: FloatArray, leaf: int
+) -> tuple[FloatArray, Int64Array]:
     """The closest point of a surface to each of some points.
 
     Parameters
