@@ -35,7 +35,7 @@ PAGE_MARK_WITHIN = 8192
 _PAGE = r"(index|shapes|shape|compare|features|workbench|bins|about)\.html"
 _NAME = re.compile(
     rf"{_PAGE}|preview\.png"
-    r"|assets/(first|vega|index|shapes|shape|compare|features|workbench|bins|about|overview|chunk-[\w-]+)\.js"
+    r"|assets/(first|shared|vega|index|shapes|shape|compare|features|workbench|bins|about|overview|chunk-[\w-]+)\.js"
     r"|assets/(style\.css|icon\.svg|vega-licenses\.txt|logo\.(svg|png|webp))"
     r"|data/(summary\.json|files\.json|catalogue\.jsonld|features\.npz|scores\.npz)"
     r"|data/(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|projection-\w+)\.csv"
