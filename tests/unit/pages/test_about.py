@@ -1,11 +1,12 @@
 """The About page says what was built, from what, and what failed."""
 
+import json
 from dataclasses import replace
 
 import pytest
 from reports import make_report
 
-from shapeviz_report.pages.about import AboutPage
+from shapeviz_report.pages.about import MOST_FAILURES, AboutPage
 from shapeviz_report.site import write_site
 from shapeviz_report.types import Failure
 
@@ -22,6 +23,16 @@ def text(tmp_path):
 def test_it_names_every_failed_file_with_its_reason(text):
     assert "cup/9.off" in text
     assert "the file ends in the middle of its faces" in text
+
+
+def test_of_many_failed_files_the_first_are_listed_and_the_rest_is_counted(tmp_path):
+    failures = [Failure(f"{number:04}.off", "read", "it is empty") for number in range(MOST_FAILURES + 20)]
+    write_site(make_report(["ant"], 2, failures=failures), tmp_path)
+    text = (tmp_path / "about.html").read_text(encoding="utf-8")
+    assert text.count("it is empty") == MOST_FAILURES
+    assert f"These are the first {MOST_FAILURES} of {MOST_FAILURES + 20} files" in text
+    summary = json.loads((tmp_path / "data" / "summary.json").read_text(encoding="utf-8"))
+    assert len(summary["failures"]) == MOST_FAILURES + 20
 
 
 def test_it_shows_seeds_parameters_versions_and_hashes(text):
