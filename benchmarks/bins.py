@@ -1,4 +1,4 @@
-"""The search for bins on a database of one's own: what docs/bins-search.md states.
+"""The search for bins on a database of one's own: what docs/method/bins-search.md states.
 
     python -m benchmarks.bins automatic SITE/data/features.npz       the selection, its path, ten seeds of its map
     python -m benchmarks.bins minimal SITE/data/features.npz         the fewest bins of every class, beside chance

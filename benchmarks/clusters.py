@@ -1,6 +1,6 @@
 """Clusters beside the labels of built sites, and how far they depend on seeds and on which shapes there are.
 
-``python -m benchmarks.clusters FEATURES.npz... [--preset default]``; see docs/clusters.md.
+``python -m benchmarks.clusters FEATURES.npz... [--preset default]``; see docs/method/clusters.md.
 """
 
 from __future__ import annotations

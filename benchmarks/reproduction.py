@@ -1,4 +1,4 @@
-"""The paper's figures of the feature search beside ours: what docs/reproduction.md states.
+"""The paper's figures of the feature search beside ours: what docs/notes/reproduction.md states.
 
     python -m benchmarks.reproduction default=SITE/data/features.npz paper=OTHER_SITE/data/features.npz
 

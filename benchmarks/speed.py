@@ -1,7 +1,7 @@
 """CPU seconds a mesh, side by side: PCL and Open3D for PFH and FPFH, scipy for Agd, and ours.
 
-``python -m benchmarks.speed MESHES...`` prints the table of docs/validation.md. All run in one thread, in turn on the
-same prepared mesh; everyone gets points, normals and edges, and builds their own trees and graphs.
+``python -m benchmarks.speed MESHES...`` prints the table of docs/notes/validation.md. All run in one thread, in turn on
+the same prepared mesh; everyone gets points, normals and edges, and builds their own trees and graphs.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Every descriptor against another library, an exact method or an analytic surface.
 
-``python -m benchmarks.validation MESHES...`` prints the tables of docs/validation.md. Every file is prepared as in a
-build. The exact methods take minutes of CPU time a mesh.
+``python -m benchmarks.validation MESHES...`` prints the tables of docs/notes/validation.md. Every file is prepared
+as in a build. The exact methods take minutes of CPU time a mesh.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Bins: single columns of the feature table, their meaning in words, and how a choice of them is compared.
 
-``docs/bins.md`` says what a bin is and why a choice of bins is scaled as it is.
+``docs/method/bins.md`` says what a bin is and why a choice of bins is scaled as it is.
 """
 
 from __future__ import annotations

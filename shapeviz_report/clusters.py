@@ -1,6 +1,6 @@
 """Groups of shapes that the features alone make: for databases without labels, and beside the labels of others.
 
-``docs/clusters.md`` says why they are found as they are, and how well they meet labels where there are some.
+``docs/method/clusters.md`` says why they are found as they are, and how well they meet labels where there are some.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ there are few shapes, at most a quarter of them."""
 
 STEADY = 0.7
 """Steadiness that is enough, so that groups are not made larger than they must be. Cuts through an even cloud stay
-below (docs/clusters.md)."""
+below (docs/method/clusters.md)."""
 
 RUNS = 5
 """Times that groups are sought; the best are kept."""

@@ -2,8 +2,8 @@
 
 A copy may be the same file, or the same surface moved, turned, mirrored, scaled evenly, renumbered, remeshed, decimated
 or triangulated otherwise. Each shape is outlined by numbers that none of this changes; only shapes whose outlines
-nearly agree are laid on each other, and only surfaces that then lie on each other are copies. ``docs/method.md`` has
-the limits.
+nearly agree are laid on each other, and only surfaces that then lie on each other are copies. ``docs/method/method.md``
+has the limits.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Which shapes are each other's nearest, and how well each fits its class.
 
-``docs/compare.md`` says how the measure of fit was chosen.
+``docs/using/compare.md`` says how the measure of fit was chosen.
 """
 
 from __future__ import annotations

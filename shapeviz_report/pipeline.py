@@ -184,7 +184,7 @@ def build_report(
     Parameters
     ----------
     database_path : Path
-        Folder or table; see ``docs/databases.md``.
+        Folder or table; see ``docs/using/databases.md``.
     destination : Path
         Folder of the site: absent, empty, or a site of ours, which is replaced at once when all is done.
     config : Config

@@ -1,7 +1,7 @@
 """A new shape as a query: the shapes of a built site that are most similar to a mesh.
 
 The mesh goes through the same stages as those of the database, with the parameters that the site states, and is
-compared with the features that the site holds for download. ``docs/retrieval.md`` says what similar means.
+compared with the features that the site holds for download. ``docs/method/retrieval.md`` says what similar means.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Every labelled shape is a query. All others are ranked by their distance from it; those of its class are relevant. A
 shape without a label is relevant to no query. Shapes that are equally far have no order: every measure is what a random
-order of them gives on average. ``docs/retrieval.md`` has the definitions, and what was measured.
+order of them gives on average. ``docs/method/retrieval.md`` has the definitions, and what was measured.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from shapeviz_report.types import FloatArray, Projection
 
 PAIRWISE_LIMIT = 4000
 """Up to this many rows a method works on all pairwise distances. Beyond, exact t-SNE no longer pays
-(docs/search.md has the measurements)."""
+(docs/method/search.md has the measurements)."""
 
 
 @dataclass(frozen=True)

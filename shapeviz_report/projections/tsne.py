@@ -16,7 +16,7 @@ ALL_PAIRS = 300
 
 EXAGGERATION, EXAGGERATION_NEAREST = 4.0, 8.0
 """Factor on the affinities at first: the original paper's for all pairs, and one between that and today's custom of
-12 for the nearest. docs/search.md compares them."""
+12 for the nearest. docs/method/search.md compares them."""
 
 JITTER = 0.01
 """Size of the seeded noise on the start, relative to its extent: what differs between two seeds."""

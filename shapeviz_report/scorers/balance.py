@@ -16,7 +16,7 @@ def balanced_weights(positive: BoolArray) -> FloatArray:
 def standardise(values: FloatArray, weights: FloatArray) -> FloatArray:
     """Columns of weighted mean 0 and weighted variance 1, so that their coefficients can be compared.
 
-    Weighted, so that the spread within a small group counts as much as that within a large one (docs/scorers.md
+    Weighted, so that the spread within a small group counts as much as that within a large one (docs/method/scorers.md
     says what else would be lost).
 
     Parameters

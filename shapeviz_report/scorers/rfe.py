@@ -10,8 +10,8 @@ from shapeviz_report.scorers.base import Scorer
 from shapeviz_report.types import BoolArray, FloatArray
 
 PENALTY = 10.0
-"""On squared coefficients, in units of the mean eigenvalue of the rows' matrix of scalar products. docs/scorers.md
-compares it with weaker and stronger ones, and with support vector machines."""
+"""On squared coefficients, in units of the mean eigenvalue of the rows' matrix of scalar products.
+docs/method/scorers.md compares it with weaker and stronger ones, and with support vector machines."""
 
 SHARE = 0.1
 """Part of the columns left that leaves in a round."""

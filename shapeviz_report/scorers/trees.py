@@ -11,7 +11,7 @@ from shapeviz_report.types import BoolArray, FloatArray
 
 COUNT = 1000
 """A second in a browser, for a class of 280 shapes against the rest; another seed shares three quarters of the best 30
-columns (docs/scorers.md). The error falls with the root of the number."""
+columns (docs/method/scorers.md). The error falls with the root of the number."""
 
 
 def measure(values: FloatArray, positive: BoolArray, seed: int) -> FloatArray:

@@ -1,4 +1,4 @@
-"""The site's ``data/`` folder: what a build found, for machines. ``docs/site-data.md`` describes it.
+"""The site's ``data/`` folder: what a build found, for machines. ``docs/using/site-data.md`` describes it.
 
 Everything here but the times in ``summary.json`` depends on the input alone, so two builds of the same database
 write the same bytes.

@@ -1,4 +1,4 @@
-"""What is known of retrieval, for ``summary.json`` and for tables. ``docs/site-data.md`` describes it."""
+"""What is known of retrieval, for ``summary.json`` and for tables. ``docs/using/site-data.md`` describes it."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ class Case:
     Attributes
     ----------
     name : str
-        The feature: the first cell of its row in ``docs/formats.md``.
+        The feature: the first cell of its row in ``docs/using/formats.md``.
     file_name : str
         Of the mesh file; its suffix says the format.
     files : mapping of str to bytes

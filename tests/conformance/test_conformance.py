@@ -16,7 +16,7 @@ from shapeviz_report.mesh.clean import clean, count_components
 from shapeviz_report.mesh.read import read_mesh
 
 HERE = Path(__file__).parent
-DOCUMENT = HERE.parents[1] / "docs" / "formats.md"
+DOCUMENT = HERE.parents[1] / "docs" / "using" / "formats.md"
 _NO_CASES = ("cases", "test_conformance")
 
 

@@ -1,4 +1,4 @@
-"""What the modules of the features and of NH bind to a name in capitals stands under it in docs/method.md.
+"""What the modules of the features and of NH bind to a name in capitals stands under it in docs/method/method.md.
 
 What a number does without a name, in an expression, is not looked for.
 """
@@ -17,7 +17,7 @@ import pytest
 import shapeviz_report
 from shapeviz_report import descriptors
 
-METHOD = Path(__file__).parents[2] / "docs" / "method.md"
+METHOD = Path(__file__).parents[2] / "docs" / "method" / "method.md"
 
 ROW = re.compile(r"^\| `([\w.]+)` \| `(\w+)` \| ([^|`]+) \|", re.MULTILINE)
 

@@ -17,8 +17,8 @@ from shapeviz_report.features import PRESETS
 from shapeviz_report.projections import PROJECTIONS
 
 ROOT = Path(__file__).parents[2]
-METHOD = (ROOT / "docs" / "method.md").read_text(encoding="utf-8")
-DATABASES = (ROOT / "docs" / "databases.md").read_text(encoding="utf-8")
+METHOD = (ROOT / "docs" / "method" / "method.md").read_text(encoding="utf-8")
+DATABASES = (ROOT / "docs" / "using" / "databases.md").read_text(encoding="utf-8")
 
 
 def modules_of(package) -> set[str]:

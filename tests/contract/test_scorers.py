@@ -15,7 +15,7 @@ from .test_registries import modules_of
 
 ROOT = Path(__file__).parents[2]
 ENGINE = ROOT / "site" / "scripts" / "engine"
-DOCS = (ROOT / "docs" / "scorers.md").read_text(encoding="utf-8")
+DOCS = (ROOT / "docs" / "method" / "scorers.md").read_text(encoding="utf-8")
 
 every_scorer = pytest.mark.parametrize("scorer", SCORERS, ids=lambda s: s.name)
 

@@ -11,7 +11,7 @@ import yaml
 from shapeviz_report.cli import _parser
 from shapeviz_report.config import load_config
 
-DOCS = Path(__file__).resolve().parents[2] / "docs"
+DOCS = Path(__file__).resolve().parents[2] / "docs" / "using"
 GUIDE = (DOCS / "publishing.md").read_text(encoding="utf-8")
 RECIPE = (DOCS / "publish.yml").read_text(encoding="utf-8")
 COMMANDS = sorted(

@@ -24,7 +24,8 @@ LIMIT = 51
 """Most bins of a selection: as many as the paper's expert took (4.4 B)."""
 
 CLIMB_MAPS = 300
-"""Maps that the climb may make: 15 CPU seconds for 280 shapes. docs/bins-search.md says what more would bring."""
+"""Maps that the climb may make: 15 CPU seconds for 280 shapes. docs/method/bins-search.md says what more
+would bring."""
 
 SPREAD_SEEDS = 5
 """Maps of the result with other seeds than the climb's."""

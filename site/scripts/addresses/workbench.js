@@ -7,7 +7,7 @@ import { joinNames, splitNames } from "./names.js";
 
 const PROJECTIONS = ["tsne", "umap"];
 
-/** Its best bins make the best maps, on shapes that had no say too (docs/scorers.md). */
+/** Its best bins make the best maps, on shapes that had no say too (docs/method/scorers.md). */
 export const DEFAULT_SCORER = "rfe";
 
 /** All classes in use, each from the rest: what a reader who asks nothing in particular wants to know. */

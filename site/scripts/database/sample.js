@@ -1,6 +1,6 @@
 // A sample of a large database: each class in proportion, always the same shapes.
 
-/** More shapes than this are too many for a map or a score while one waits; docs/workbench.md has the measurements. */
+/** More shapes than this are too many for a map or a score while one waits; docs/using/workbench.md has the measurements. */
 export const MOST_SHAPES = 3000;
 
 /** As many of `rows` as a browser can take, each class in proportion and none left out; rising. */

@@ -15,7 +15,7 @@ const EXAGGERATION = { all: 4, nearest: 8 };
 
 /**
  * Steps with and without exaggeration, and the size of the start: small from components, from an earlier map that of a
- * finished one, which moves its points least. Python takes 250 and 500 steps; fewer do as well (docs/workbench.md). Of many
+ * finished one, which moves its points least. Python takes 250 and 500 steps; fewer do as well (docs/using/workbench.md). Of many
  * rows the tree's maps were worse from a finished size than anew, so these start small from anywhere.
  */
 const PLANS = {

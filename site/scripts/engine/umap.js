@@ -14,7 +14,7 @@ const B = 0.8950608781227859;
 
 /**
  * Rounds over the edges, and how far a point goes at first, from the components and from an earlier map. The package takes
- * 500 rounds at a rate of 1; fewer do as well, and a gentle rate leaves an earlier map where it was (docs/workbench.md).
+ * 500 rounds at a rate of 1; fewer do as well, and a gentle rate leaves an earlier map where it was (docs/using/workbench.md).
  */
 const PLANS = { anew: { epochs: 200, rate: 1 }, onwards: { epochs: 150, rate: 0.25 } };
 
