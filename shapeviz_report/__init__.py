@@ -33,7 +33,7 @@ from typing import TYPE_CHECKING, Any
 from shapeviz_report.errors import ShapevizError
 
 if TYPE_CHECKING:
-    from shapeviz_report.pipeline import CheckResult
+    from shapeviz_report.build.check import CheckResult
     from shapeviz_report.querying import QueryResult
     from shapeviz_report.types import Report
 
@@ -64,24 +64,24 @@ def build(database: str | os.PathLike[str], destination: str | os.PathLike[str],
         Nothing could be built.
     """
     # Worker processes import this package too, and need little of what the pipeline does.
+    from shapeviz_report.build.pipeline import build_report
     from shapeviz_report.config import load_config
-    from shapeviz_report.pipeline import build_report
 
     return build_report(Path(database), Path(destination), load_config(Path(database), options))
 
 
 def demo_site(destination: str | os.PathLike[str], **options: Any) -> Report:
     """Generate the demo database and build its site; see :func:`build`."""
+    from shapeviz_report.build.demo import build_demo
     from shapeviz_report.config import load_config
-    from shapeviz_report.pipeline import build_demo
 
     return build_demo(Path(destination), load_config(None, options))
 
 
 def check(database: str | os.PathLike[str], **options: Any) -> CheckResult:
     """Read a database and all its meshes without building anything; see :func:`build`."""
+    from shapeviz_report.build.check import check_database
     from shapeviz_report.config import load_config
-    from shapeviz_report.pipeline import check_database
 
     return check_database(Path(database), load_config(Path(database), options))
 

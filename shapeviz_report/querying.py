@@ -23,6 +23,8 @@ import numpy as np
 
 from shapeviz_report import __version__, stages
 from shapeviz_report.bins import read_bins
+from shapeviz_report.build.guard import check_cache
+from shapeviz_report.build.progress import Progress, QuietProgress
 from shapeviz_report.cache import Cache
 from shapeviz_report.cells import read_cell
 from shapeviz_report.config import Config
@@ -31,7 +33,6 @@ from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.features import BLOCKS, PRESETS, Preset
 from shapeviz_report.files import read_regular
 from shapeviz_report.mesh import collect_files
-from shapeviz_report.pipeline import Progress, QuietProgress, check_cache
 from shapeviz_report.similarity import rank_similar, typical_distance
 from shapeviz_report.site.data_files import GENERATOR
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, ShapeFacts

@@ -1,0 +1,68 @@
+"""What a build would read, without building anything."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from shapeviz_report import stages
+from shapeviz_report.bins import read_bins
+from shapeviz_report.build.guard import check_cache
+from shapeviz_report.build.progress import Clock, Progress, QuietProgress
+from shapeviz_report.build.questions import find_copies
+from shapeviz_report.build.reading import load_all_external, plan_examining, read_published
+from shapeviz_report.build.runner import Runner
+from shapeviz_report.build.workers import open_workers
+from shapeviz_report.cache import Cache, default_root
+from shapeviz_report.config import Config
+from shapeviz_report.features import BLOCKS
+from shapeviz_report.publication import read_publication
+from shapeviz_report.types import Copy, Database, Failure
+
+
+@dataclass(frozen=True)
+class CheckResult:
+    """What a build would read.
+
+    Attributes
+    ----------
+    database : Database
+        As it is laid out.
+    repairs : mapping of str to dict
+        Shape id -> what would be mended, for shapes that can be used.
+    failures : tuple of Failure
+        Files that cannot be used.
+    copies : tuple of Copy
+        Shapes that are the same shape again.
+    """
+
+    database: Database
+    repairs: dict[str, dict[str, int]]
+    failures: tuple[Failure, ...]
+    copies: tuple[Copy, ...] = ()
+
+
+def check_database(database_path: Path, config: Config, progress: Progress | None = None) -> CheckResult:
+    """Read a database and every mesh of it, without building anything; what is found is kept in the cache."""
+    root = (config.cache or default_root()).absolute()
+    check_cache(root, database_path)
+    clock = Clock(progress or QuietProgress())
+    with clock.stage("read"):
+        database = read_published(database_path, config, read_publication(config))
+        external = load_all_external(config.external, len(database.shapes))
+        if config.bins is not None:
+            read_bins(config.bins, (*BLOCKS, *(block for block, _ in external)))
+    failures = list(database.failures)
+    cache = Cache(root)
+    with open_workers(config, config.worker_count) as executor:
+        run = Runner(executor, clock, cache, database, failures, config)
+        paths = {s.id: s.path.absolute() for s in database.shapes}
+        within = None if config.outside else database.root
+
+        examined = run.each(
+            "check", stages.EXAMINE, paths, plan_examining(paths, within), stages.read_examined
+        )
+        copies = find_copies(run, paths, within, examined)
+    cache.tell()
+    repairs = {shape: result.value[0] for shape, result in examined.items()}
+    return CheckResult(database, repairs, tuple(failures), copies)

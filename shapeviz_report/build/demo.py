@@ -1,0 +1,56 @@
+"""The demo database: made by the package itself, and built like any other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from shapeviz_report import demo, stages
+from shapeviz_report.build.guard import check_places
+from shapeviz_report.build.pipeline import build_report
+from shapeviz_report.build.progress import Progress, QuietProgress
+from shapeviz_report.build.workers import open_executor
+from shapeviz_report.cache import Cache, default_root, discard
+from shapeviz_report.config import Config
+from shapeviz_report.errors import CacheError, DatabaseError
+from shapeviz_report.render import check_renderer
+from shapeviz_report.types import Report
+from shapeviz_report.writing import write_atomically
+
+
+def build_demo(destination: Path, config: Config, progress: Progress | None = None) -> Report:
+    """Generate the demo database below the cache and build its site; see
+    :func:`~shapeviz_report.build.pipeline.build_report`."""
+    check_places(destination, config, (config.cache or default_root()).absolute(), None)
+    check_renderer()
+    progress = progress or QuietProgress()
+    cache = Cache((config.cache or default_root()).absolute())
+    root = cache.root / "demo" / f"{stages.GENERATE.version}-{config.seed}"
+    shapes = [(c.name, i, config.seed) for c in demo.CLASSES for i in range(demo.PER_CLASS)]
+    kept = {task: cache.load("generated", stages.GENERATE.key(*task)) for task in shapes}
+    made = {task: content for task, content in kept.items() if content is not None}
+    tasks = [task for task in shapes if task not in made]
+    if tasks:
+        with open_executor(config) as executor, progress.stage("generate", len(tasks)) as advance:
+            for outcome in executor.run(stages.generate_shape, tasks):
+                task = tasks[outcome.index]
+                if outcome.reason is not None:
+                    raise DatabaseError(f"The demo shape {task} cannot be made: {outcome.reason}.")
+                cache.store("generated", stages.GENERATE.key(*task), outcome.value)
+                made[task] = outcome.value
+                advance()
+    cache.tell()
+    # The files that are read are written from what is kept, unless they are still the same.
+    try:
+        for (name, index, _), content in made.items():
+            path = demo.shape_path(root, name, index)
+            if not path.is_file() or path.is_symlink() or path.read_bytes() != content:
+                discard(path)
+                write_atomically(path, content)
+    except OSError as error:
+        raise CacheError(
+            f"The demo shapes cannot be written to {root}: {error.strerror} ({error.filename}). Make room there, or "
+            "name another folder with --cache."
+        ) from error
+    config = replace(config, title=config.title or "Demo shapes", licence=config.licence or "CC0-1.0", up="z")
+    return build_report(root, destination, config, progress)

@@ -1,0 +1,252 @@
+"""The stages of a build, in their order."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Iterator, Sequence
+from functools import partial
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from shapeviz_report import stages
+from shapeviz_report.bins import read_bins, scale_bins
+from shapeviz_report.build.guard import check_meshes, check_places
+from shapeviz_report.build.progress import Clock, Progress, QuietProgress
+from shapeviz_report.build.questions import (
+    find_clusters,
+    find_copies,
+    paint_all,
+    project_all,
+    rate_all,
+    score_all,
+    search_all_bins,
+    search_subsets,
+)
+from shapeviz_report.build.reading import load_all_external, plan_examining, read_published
+from shapeviz_report.build.runner import Runner, Task
+from shapeviz_report.build.workers import open_executor
+from shapeviz_report.cache import Cache, default_root
+from shapeviz_report.config import Config
+from shapeviz_report.contrasts import choose_contrasts
+from shapeviz_report.distinct import rate_without_copies
+from shapeviz_report.errors import DatabaseError
+from shapeviz_report.features import BLOCKS, PRESETS, compared_values, fixed_edges, quantile_edges, scale
+from shapeviz_report.mesh import collect_files
+from shapeviz_report.projections import squared_distances
+from shapeviz_report.publication import read_publication
+from shapeviz_report.quality import score
+from shapeviz_report.render import check_renderer
+from shapeviz_report.search import make_space
+from shapeviz_report.site import write_site
+from shapeviz_report.types import Failure, FeatureTable, Painting, Projection, Quality, Report, group_copies
+
+SAMPLED_VERTICES = 400_000
+"""Vertices behind data-driven histogram ranges, over all shapes."""
+
+SAMPLED_OF_A_SHAPE = (16, 1000)
+"""The least and most of these of one shape."""
+
+CLUSTERS = "clusters"
+"""What the labeling is called that stands in for labels."""
+
+PAINTING_SIZE = 320
+"""Width and height of a picture of a bin, in pixels."""
+
+LIBRARIES = (
+    "numpy", "scipy", "numba", "scikit-learn", "umap-learn", "mmgpy", "trimesh", "pyrender-maintained", "altair",
+)  # fmt: skip
+"""The libraries whose versions the site states."""
+
+
+def build_report(
+    database_path: Path, destination: Path, config: Config, progress: Progress | None = None
+) -> Report:
+    """Build the site of a shape database.
+
+    Parameters
+    ----------
+    database_path : Path
+        Folder or table; see ``docs/using/databases.md``.
+    destination : Path
+        Folder of the site: absent, empty, or a site of ours, which is replaced at once when all is done.
+    config : Config
+    progress : Progress, optional
+
+    Returns
+    -------
+    Report
+        What the site shows.
+
+    Raises
+    ------
+    ShapevizError
+        Nothing could be built; an existing site is left as it is.
+    """
+    root = (config.cache or default_root()).absolute()
+    check_places(destination, config, root, database_path)
+    check_renderer()
+    clock = Clock(progress or QuietProgress())
+    with clock.stage("read"):
+        publication = read_publication(config)
+        database = read_published(database_path, config, publication)
+        check_meshes(destination, database)
+        external = load_all_external(config.external, len(database.shapes))
+        blocks = (*BLOCKS, *(block for block, _ in external))
+        bins = None if config.bins is None else read_bins(config.bins, blocks)
+    cache = Cache(root)
+    failures = list(database.failures)
+    preset = PRESETS[config.preset]
+
+    with open_executor(config) as executor:
+        run = Runner(executor, clock, cache, database, failures, config)
+        paths = {s.id: s.path.absolute() for s in database.shapes}
+        within = None if config.outside else database.root
+
+        def plan_preparing(shape: str) -> Task:
+            files = collect_files(paths[shape], within)
+            key = stages.PREPARE.key(stages.identify(paths[shape], files), config.edge_length)
+            return Task(key, lambda: (files, config.edge_length))
+
+        prepared = run.each("prepare", stages.PREPARE, paths, plan_preparing, stages.read_facts)
+
+        def plan(stage: stages.Stage, shape: str, *options: Any) -> Task:
+            """A task that starts from the prepared mesh."""
+            source = prepared[shape].key
+            key = stage.key(source, *(o.tobytes() if isinstance(o, np.ndarray) else o for o in options))
+            return Task(
+                key, lambda: (run.recall(stages.PREPARE, source, lambda: plan_preparing(shape)), *options)
+            )
+
+        if preset.fixed_ranges:
+            edges = fixed_edges()
+        else:
+            share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), *SAMPLED_OF_A_SHAPE))
+            samples = run.each(
+                "sample", stages.SAMPLE, prepared, lambda s: plan(stages.SAMPLE, s, share), stages.read_array
+            )
+            edges = quantile_edges([s.value for s in samples.values()]) if samples else fixed_edges()
+        pictures = run.each(
+            "render",
+            stages.RENDER,
+            prepared,
+            lambda s: plan(stages.RENDER, s, config.thumbnail_size, config.up),
+            stages.read_picture,
+        )
+        views = {shape: result.value[1] for shape, result in pictures.items()}
+
+        def plan_describing(shape: str) -> Task:
+            return plan(stages.DESCRIBE, shape, views[shape], edges, preset.by_area)
+
+        described = run.each("describe", stages.DESCRIBE, pictures, plan_describing, stages.read_features)
+        shapes = tuple(s for s in database.shapes if s.id in described)
+        if not shapes:
+            raise DatabaseError(*_nothing_usable(database_path, failures))
+        examined = run.each(
+            "examine", stages.EXAMINE, described, plan_examining(paths, within), stages.read_examined
+        )
+        copies = find_copies(run, paths, within, examined)
+        groups = group_copies(copies, [s.id for s in shapes])
+        rows = [i for i, s in enumerate(database.shapes) if s.id in described]
+        features = FeatureTable(
+            tuple(s.id for s in shapes),
+            blocks,
+            np.column_stack(
+                [[described[s.id].value for s in shapes], *(values[rows] for _, values in external)]
+            ),
+        )
+        scaled = scale(features, preset)
+        labeling = database.labelings[0] if database.labelings else None
+        labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)
+        stand_in = not any(label is not None for label in labels)
+        clusters = find_clusters(run, shapes, features, scaled, edges, config, stand_in=stand_in)
+        if stand_in and clusters is not None:
+            labeling = CLUSTERS
+            labels = tuple(clusters.clusters[code].name for code in clusters.of)
+        space = make_space(features, scaled, labels, seed=config.seed)
+        mapped = scaled if bins is None else scale_bins(features, preset, bins)
+        projections = project_all(run, space, features, bins, mapped, config.seed)
+        search = search_subsets(run, space, labels, groups, config)
+        scores = score_all(run, compared_values(features, preset), labels, config.seed)
+        found = search_all_bins(run, features, scaled, labels, groups, config)
+        chosen = bins if bins is not None else found.automatic.bins if found is not None else None
+        by_bins = scale_bins(features, preset, chosen) if chosen else None
+        retrieval = rate_all(run, space, labels, search, chosen or None, by_bins)
+        paintings: tuple[Painting, ...] = ()
+        if found is not None:
+            contrasts = choose_contrasts(
+                found, features, labels, scaled, next(iter(projections.values())).xy, config.neighbours
+            )
+
+            def plan_painting(shape: int, bins: tuple[tuple[int, int], ...]) -> Task:
+                name = shapes[shape].id
+                return plan(stages.PAINT, name, views[name], edges, bins, PAINTING_SIZE)
+
+            paintings = paint_all(run, features, contrasts, plan_painting)
+    models = None
+    if config.meshes:
+        models = tuple(
+            stages.read_model(
+                run.recall(stages.DESCRIBE, described[s.id].key, partial(plan_describing, s.id))
+            )
+            for s in shapes
+        )
+    cache.tell()
+    with clock.stage("score"):
+        maps: dict[str, tuple[Projection, Quality]] = {
+            name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
+            for name, projection in projections.items()
+        }
+        distances = {"everything": space.squared.sum(axis=0, dtype=np.float64)}
+        if by_bins is not None:
+            distances["bins"] = squared_distances(by_bins[space.rows])
+        without_copies = rate_without_copies(
+            groups,
+            labels,
+            {name: projection.xy for name, projection in projections.items()},
+            config.neighbours,
+            space.rows,
+            distances,
+            search,
+            found.automatic if found is not None else None,
+        )
+    report = Report(
+        database=database,
+        shapes=shapes,
+        facts=tuple(prepared[s.id].value for s in shapes),
+        thumbnails=tuple(pictures[s.id].value[0] for s in shapes),
+        labeling=labeling,
+        labels=labels,
+        features=features,
+        edges=edges,
+        projections=maps,
+        failures=tuple(failures),
+        parameters=config.as_parameters(),
+        versions={name: version(name) for name in ("shapeviz-report", *LIBRARIES)}
+        | {"python": platform.python_version()},
+        seconds=clock.seconds,
+        cpu_seconds=clock.cpu_seconds,
+        search=search,
+        scores=scores,
+        bins=found,
+        retrieval=retrieval,
+        paintings=paintings,
+        models=models,
+        clusters=clusters,
+        publication=publication,
+        copies=copies,
+        without_copies=without_copies,
+    )
+    with clock.stage("write"):
+        write_site(report, destination, single_file=config.single_file)
+    return report
+
+
+def _nothing_usable(path: Path, failures: Sequence[Failure]) -> Iterator[str]:
+    """The lines of a message."""
+    yield f"None of the files in {path} can be used:"
+    yield from (f"  {failure.path}: {failure.reason}" for failure in failures[:5])
+    if len(failures) > 5:
+        yield f"  and {len(failures) - 5} more"

@@ -1,0 +1,378 @@
+"""The questions that are asked of a whole database, each a stage of a build."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shapeviz_report import stages
+from shapeviz_report.bins import features_of
+from shapeviz_report.build.runner import Result, Runner, Task
+from shapeviz_report.clusters import describe_clusters
+from shapeviz_report.config import SEARCHES, Config
+from shapeviz_report.copies import Outline, join_copies, pair_outlines
+from shapeviz_report.features import BINS, PRESETS
+from shapeviz_report.mesh import collect_files
+from shapeviz_report.order import classes_of
+from shapeviz_report.projections import PROJECTIONS, align, squared_distances
+from shapeviz_report.retrieval import query_classes, rate_chance
+from shapeviz_report.scorers import SCORERS
+from shapeviz_report.search import SearchSpace, SubsetMaps, planned_runs, search_features
+from shapeviz_report.search.bins import affordable_deals, encode, make_bin_space, shuffle_labels
+from shapeviz_report.search.certainty import deal_folds
+from shapeviz_report.types import (
+    BinScores,
+    BinSearch,
+    Clusters,
+    Copy,
+    FeatureSearch,
+    FeatureTable,
+    FloatArray,
+    IntArray,
+    Match,
+    Painting,
+    Projection,
+    Retrieval,
+    ShapeEntry,
+    distinct_rows,
+)
+
+logger = logging.getLogger(__name__)
+
+SUBSETS_A_TASK = 16
+"""Maps that a worker makes before it reports back: few enough to lose little, many enough to send distances seldom."""
+
+RATINGS_A_TASK = 64
+"""Subsets whose retrieval a worker rates before it reports back: each takes 2 to 150 milliseconds, by the number of
+shapes, against up to 32 MB of distances that are sent along."""
+
+SHUFFLES = 2
+"""Folds that also meet labels dealt out at random. With labels without meaning the search takes twice the time, and two
+folds of 56 shapes tell NH_s to 0.01."""
+
+
+def find_copies(
+    run: Runner, paths: Mapping[str, Path], within: Path | None, examined: Mapping[str, Result]
+) -> tuple[Copy, ...]:
+    """The shapes that are the same shape again; those whose comparison fails are taken for different."""
+    outlines: dict[str, Outline] = {shape: result.value[1] for shape, result in examined.items()}
+    certain, possible = pair_outlines(outlines)
+    found: dict[tuple[str, str], Match | None] = {}
+    with run.clock.stage("compare", len(possible)) as step:
+
+        def plan(pair: tuple[str, str]) -> Task:
+            first, second = (collect_files(paths[shape], within) for shape in pair)
+            names = [stages.identify(paths[shape], files) for shape, files in zip(pair, (first, second))]
+            return Task(stages.COMPARE.key(*names), lambda: (first, second))
+
+        def take(pair: tuple[str, str], _: str, content: bytes, cpu_seconds: float) -> None:
+            found[pair] = stages.read_match(content)
+            step(cpu_seconds)
+
+        def drop(pair: tuple[str, str], reason: str, cpu_seconds: float) -> None:
+            logger.warning("Whether %s and %s are copies is not known: %s", *pair, reason)
+            step(cpu_seconds)
+
+        run.find(stages.COMPARE, possible, plan, take, drop)
+    return join_copies(certain, found, list(outlines))
+
+
+def find_clusters(
+    run: Runner,
+    shapes: Sequence[ShapeEntry],
+    features: FeatureTable,
+    scaled: FloatArray,
+    edges: FloatArray,
+    config: Config,
+    *,
+    stand_in: bool,
+) -> Clusters | None:
+    """Groups of the shapes by their features alone, with names."""
+    key = stages.CLUSTER.key(scaled.shape, sha256(scaled.tobytes()).hexdigest(), config.seed)
+    task = Task.of(key, scaled, config.seed)
+    found = run.all(
+        "cluster", stages.CLUSTER, {"all": task}, lambda _, reason: f"Clustering the shapes failed: {reason}."
+    )
+    partition = stages.read_partition(found["all"])
+    if partition is None:
+        return None
+    preset = PRESETS[config.preset]
+    return describe_clusters(partition, shapes, features, scaled, edges, preset, stand_in=stand_in)
+
+
+def project_all(
+    run: Runner,
+    space: SearchSpace,
+    features: FeatureTable,
+    bins: tuple[str, ...] | None,
+    values: FloatArray,
+    seed: int,
+) -> dict[str, Projection]:
+    """The map of every method from the scaled values of all columns or of some bins, turned to agree with the first."""
+    names = features_of(features, features.columns if bins is None else bins)
+    found: dict[str, FloatArray] = {}
+    # Where the search takes all shapes, its map of all features is the map: t-SNE and UMAP make another one of sums
+    # that differ in their last digits.
+    whole = bins is None and len(space.rows) == len(values)
+    methods = [method.name for method in PROJECTIONS]
+    shared = {name for name in methods if name in SEARCHES and whole}
+    everything = (space.everything,)
+    content = sha256(values.tobytes()).hexdigest()
+    own = {
+        method.name: Task.of(
+            stages.PROJECT.key(method.name, values.shape, content, seed), method.name, values, seed
+        )
+        for method in PROJECTIONS
+        if method.name not in shared
+    }
+    of_search = {
+        name: Task.of(
+            stages.SEARCH.key(space.key, name, seed, everything), space.squared, name, seed, everything
+        )
+        for name in methods
+        if name in shared
+    }
+
+    def failing(method: str, reason: str) -> str:
+        return f"The projection {method} failed: {reason}."
+
+    with run.clock.stage("project", len(methods)) as step:
+
+        def done(_: str, cpu_seconds: float) -> None:
+            step(cpu_seconds)
+
+        for method, answer in run.answer(stages.PROJECT, own, failing, done).items():
+            found[method] = stages.read_array(answer)
+        for method, answer in run.answer(stages.SEARCH, of_search, failing, done).items():
+            found[method] = np.empty((len(values), 2))
+            found[method][space.rows] = stages.read_maps(answer).xy[0]
+    maps = {method: Projection(method, names, seed, found[method], bins) for method in methods}
+    return {method: align(maps[method], maps[methods[0]]) for method in methods}
+
+
+def search_subsets(
+    run: Runner, space: SearchSpace, labels: Sequence[str | None], groups: IntArray, config: Config
+) -> FeatureSearch | None:
+    """The search for the best subset of features, its maps made by the executor and kept."""
+    if config.search == "none":
+        return None
+    with run.clock.stage("search", planned_runs(len(space.features), config.search) or 0) as step:
+
+        def done(chunk: tuple[int, ...], cpu_seconds: float) -> None:
+            step(cpu_seconds)
+            for _ in chunk[1:]:
+                step(0.0)
+
+        def failing(_: tuple[int, ...], reason: str) -> str:
+            return f"The search for the best features failed: {reason}; --search none leaves it out."
+
+        def evaluate(seed: int, subsets: Sequence[int]) -> SubsetMaps:
+            chunks = [tuple(subsets[i : i + SUBSETS_A_TASK]) for i in range(0, len(subsets), SUBSETS_A_TASK)]
+            tasks = {
+                chunk: Task.of(
+                    stages.SEARCH.key(space.key, config.search, seed, chunk),
+                    space.squared,
+                    config.search,
+                    seed,
+                    chunk,
+                )
+                for chunk in chunks
+            }
+            answers = run.answer(stages.SEARCH, tasks, failing, done)
+            made = [stages.read_maps(answer) for answer in answers.values()]
+            return SubsetMaps(
+                np.concatenate([maps.xy for maps in made]),
+                np.concatenate([maps.cpu_seconds for maps in made]),
+            )
+
+        return search_features(
+            space,
+            labels,
+            config.search,
+            evaluate=evaluate,
+            seed=config.seed,
+            k=config.neighbours,
+            groups=groups,
+        )
+
+
+def score_all(run: Runner, compared: FloatArray, labels: Sequence[str | None], seed: int) -> BinScores | None:
+    """How well every bin separates each class from the rest, by every scorer; a task a class."""
+    classes = classes_of(labels)
+    if len(classes) < 2:
+        return None
+    content = sha256(compared.tobytes()).hexdigest()
+    tasks = {}
+    for name in classes:
+        members = [row for row, label in enumerate(labels) if label == name]
+        others = [row for row, label in enumerate(labels) if label not in (name, None)]
+        key = stages.SCORE.key(compared.shape, content, members, others, seed)
+        tasks[name] = Task.of(key, compared, members, others, seed)
+    found = run.all(
+        "bins",
+        stages.SCORE,
+        tasks,
+        lambda name, reason: (
+            f"Scoring the bins for the class {name!r} failed: {reason}. A larger time_limit may help."
+        ),
+    )
+    values = np.stack([stages.read_array(found[name]) for name in classes], axis=1)
+    return BinScores(tuple(scorer.name for scorer in SCORERS), tuple(classes), values)
+
+
+def search_all_bins(
+    run: Runner,
+    features: FeatureTable,
+    scaled: FloatArray,
+    labels: Sequence[str | None],
+    groups: IntArray,
+    config: Config,
+) -> BinSearch | None:
+    """The bins that separate each class, those that separate all, and what these are worth."""
+    if config.search == "none":
+        return None
+    space = make_bin_space(features, PRESETS[config.preset], labels, seed=config.seed)
+    classes, codes = encode(space, labels)
+    sizes = np.bincount(codes[codes >= 0], minlength=len(classes))
+    if (sizes > 1).sum() < 2:
+        return None
+    everything = squared_distances(scaled[space.rows])
+    shared = {"k": config.neighbours, "seed": config.seed}
+    questions: list[tuple[str, Sequence[str | None], dict[str, Any]]] = [("select", labels, shared)]
+    held: dict[str, Any] = {"k": config.neighbours, "everything": everything}
+    distinct = distinct_rows(groups[space.rows], codes >= 0)
+    if distinct is not None:
+        held["distinct"] = distinct.tolist()
+    for deal in range(affordable_deals(len(codes))):
+        seed = config.seed + deal
+        for fold in deal_folds(codes, seed, groups[space.rows]):
+            questions.append(("hold out", labels, held | {"seed": seed, "fold": fold, "deal": deal + 1}))
+    own = len(questions)
+    # Each fold meets labels of its own, which tells more of chance than one labeling for all.
+    for number in range(SHUFFLES):
+        shuffled = shuffle_labels(space, labels, config.seed + number)
+        folds = deal_folds(encode(space, shuffled)[1], config.seed, groups[space.rows])
+        fold = folds[number % len(folds)]
+        questions.append(("hold out", shuffled, shared | {"fold": fold, "everything": everything}))
+    honest = len(questions)
+    for label in (label for label, size in zip(classes, sizes) if size > 1):
+        questions.append(("separate", labels, shared | {"label": label}))
+    random = len(questions)
+    of_size = {int(size): label for label, size in zip(classes, sizes) if size > 1}
+    for label in of_size.values():
+        questions.append(("separate", shuffle_labels(space, labels, config.seed), shared | {"label": label}))
+
+    content = sha256(space.columns.tobytes() + everything.tobytes()).hexdigest()
+    tasks = {}
+    for number, (task, names, options) in enumerate(questions):
+        told = options | {"everything": None, "fold": list(options.get("fold", ()))}
+        key = stages.SELECT.key(content, space.names, space.rows.tolist(), task, tuple(names), told)
+        tasks[number] = Task.of(key, task, space, names, options)
+    answers = run.all(
+        "select",
+        stages.SELECT,
+        tasks,
+        lambda _, reason: f"The search for bins failed: {reason}; --search none leaves it out.",
+    )
+    held_out = [stages.read_held_out(answers[i]) for i in range(1, honest)]
+    return BinSearch(
+        automatic=stages.read_selection(answers[0]),
+        held_out=tuple(held_out[: own - 1]),
+        shuffled=tuple(held_out[own - 1 :]),
+        chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
+        minimal=tuple(stages.read_minimal(answers[i]) for i in range(honest, random)),
+        minimal_by_chance={
+            size: stages.read_minimal(answers[i]) for i, size in enumerate(of_size, start=random)
+        },
+        sizes=dict(zip(classes, sizes.tolist())),
+    )
+
+
+def rate_all(
+    run: Runner,
+    space: SearchSpace,
+    labels: Sequence[str | None],
+    search: FeatureSearch | None,
+    bins: tuple[str, ...] | None,
+    by_bins: FloatArray | None,
+) -> Retrieval | None:
+    """How well shapes of a class are found by each feature alone, all of them, the subsets of the search, and by some
+    bins, whose scaled values of all shapes are ``by_bins``."""
+    classes, codes = query_classes([labels[row] for row in space.rows])
+    if not classes:
+        return None
+    features = range(len(space.features))
+    searched = () if search is None else (search.subsets.members @ [1 << f for f in features]).tolist()
+    subsets = sorted({*searched, *(1 << f for f in features), space.everything})
+    distances: dict[str, tuple[str, npt.NDArray[np.floating]]] = {"subsets": (space.key, space.squared)}
+    questions = [
+        ("subsets", tuple(subsets[i : i + RATINGS_A_TASK])) for i in range(0, len(subsets), RATINGS_A_TASK)
+    ]
+    if by_bins is not None:
+        squared = squared_distances(by_bins[space.rows])[None]
+        distances["bins"] = (sha256(squared.tobytes()).hexdigest(), squared)
+        questions.append(("bins", (1,)))
+    tasks = {}
+    for question in questions:
+        key, compared = distances[question[0]]
+        tasks[question] = Task.of(
+            stages.RETRIEVE.key(key, codes.tolist(), question[1]), compared, codes, question[1]
+        )
+    answers = run.all(
+        "retrieve", stages.RETRIEVE, tasks, lambda _, reason: f"Rating the retrieval failed: {reason}."
+    )
+    found = {question: stages.read_ratings(answer) for question, answer in answers.items()}
+    return Retrieval(
+        features=space.features,
+        rows=space.rows,
+        shape_count=space.shape_count,
+        classes=classes,
+        queries=np.bincount(codes[codes >= 0]).astype(np.int32),
+        members=np.array([[bool(subset >> f & 1) for f in features] for subset in subsets]),
+        subsets=tuple(
+            rating for question in questions if question[0] == "subsets" for rating in found[question]
+        ),
+        bins=bins,
+        by_bins=None if by_bins is None else found["bins", (1,)][0],
+        chance=rate_chance(codes),
+    )
+
+
+def paint_all(
+    run: Runner,
+    features: FeatureTable,
+    contrasts: Mapping[str, Sequence[int]],
+    plan: Callable[[int, tuple[tuple[int, int], ...]], Task],
+) -> tuple[Painting, ...]:
+    """Bins painted on shapes, a task a shape.
+
+    Parameters
+    ----------
+    run : Runner
+    features : FeatureTable
+    contrasts : mapping of str to rows
+        Bin -> the shapes that are to show it.
+    plan : callable
+        The task of a shape, by its row, and some bins, each by its dimension and place, both from 0.
+    """
+    place = {column: divmod(number, BINS) for number, column in enumerate(features.columns)}
+    shapes = sorted({row for rows in contrasts.values() for row in rows})
+    columns = {row: [column for column, rows in contrasts.items() if row in rows] for row in shapes}
+    tasks = {row: plan(row, tuple(place[column] for column in columns[row])) for row in shapes}
+    answers = run.all(
+        "paint",
+        stages.PAINT,
+        tasks,
+        lambda row, reason: f"Painting bins on {features.shape_ids[row]} failed: {reason}.",
+    )
+    found: dict[tuple[str, int], Painting] = {}
+    for row, answer in answers.items():
+        for column, (value, inside) in zip(columns[row], stages.read_paintings(answer)):
+            found[column, row] = Painting(column, row, value, inside)
+    return tuple(found[column, row] for column, rows in contrasts.items() for row in rows)

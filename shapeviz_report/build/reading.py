@@ -1,0 +1,50 @@
+"""What a build reads: the database with what its owner says of it, and features of the owner's own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from shapeviz_report import stages
+from shapeviz_report.build.runner import Task
+from shapeviz_report.config import Config
+from shapeviz_report.database import read_database
+from shapeviz_report.errors import ConfigError
+from shapeviz_report.features import BLOCKS, load_external
+from shapeviz_report.mesh import collect_files
+from shapeviz_report.publication import licence_warning
+from shapeviz_report.types import Database, FeatureBlock, FloatArray, Publication
+
+
+def read_published(path: Path, config: Config, publication: Publication) -> Database:
+    """The database, with what its owner should know before it is published."""
+    database = read_database(
+        path, layout=config.layout, labeling=config.labeling, name=config.title, outside=config.outside
+    )
+    warning = licence_warning(publication, database.shapes)
+    return database if warning is None else replace(database, warnings=(*database.warnings, warning))
+
+
+def load_all_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:
+    """Features from files of the owner's own, each a block of its name. Raises ``ConfigError``."""
+    taken = {block.name for block in BLOCKS}
+    result = []
+    for path in paths:
+        name = path.stem
+        if name in taken:
+            raise ConfigError(f"there is already a feature named {name!r}; rename the file {path}")
+        taken.add(name)
+        values = load_external(path, shape_count)
+        result.append((FeatureBlock(name, values.shape[1], 1), values))
+    return result
+
+
+def plan_examining(paths: Mapping[str, Path], within: Path | None) -> Callable[[str], Task]:
+    """How the mesh file of a shape is examined."""
+
+    def plan(shape: str) -> Task:
+        files = collect_files(paths[shape], within)
+        return Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
+
+    return plan
