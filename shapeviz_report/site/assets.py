@@ -1,0 +1,91 @@
+"""What all pages share: scripts, style, pictures of the site itself, and the data in chunks."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+from collections.abc import Sequence
+
+from shapeviz_report.pages import PAGES, Page, PageContent
+from shapeviz_report.site.data_files import json_text
+from shapeviz_report.site.joiner import join, join_pages
+from shapeviz_report.site.resources import site_folder
+from shapeviz_report.types import Accent, Report
+
+#: The style sheets that make up the site's one, in their order.
+STYLES = (
+    "tokens.css",
+    "page.css",
+    "tray.css",
+    "overview.css",
+    "features.css",
+    "retrieval.css",
+    "workbench.css",
+    "bin-chart.css",
+    "bins.css",
+    "shapes.css",
+    "shape.css",
+    "compare.css",
+    "about.css",
+    "publication.css",
+)
+
+
+def join_scripts() -> dict[str, str]:
+    """The scripts by their file below ``assets/``; ``first.js`` is the one that runs before anything is painted, and
+    ``shared.js`` before the script of a page."""
+    source = site_folder()
+    entries = {f"{page.name}.js": source / "scripts" / "pages" / f"{page.name}.js" for page in PAGES}
+    return {
+        "first.js": join(source / "scripts" / "opening" / "first.js"),
+        # Unwrapped, Vega would leave thousands of names on the window.
+        "vega.js": f"(() => {{\n{(source / 'vendor' / 'vega.js').read_text(encoding='utf-8')}\n}})();\n",
+        **join_pages(entries, source / "scripts"),
+    }
+
+
+def join_styles(report: Report) -> str:
+    """The style sheet, with the accent of the owner."""
+    sheets = [(site_folder() / "styles" / name).read_text(encoding="utf-8") for name in STYLES]
+    accent = report.publication.accent
+    return "\n".join(sheets if accent is None else [*sheets, _accent_style(accent)])
+
+
+def _accent_style(accent: Accent) -> str:
+    """The rule of ``tokens.css`` for the accent colour again, and after it."""
+    return f":root {{ --accent: light-dark({accent.light}, {accent.dark}); }}\n"
+
+
+def collect_assets(report: Report) -> dict[str, bytes]:
+    """The files below ``assets/`` that are neither script nor style, by name."""
+    source = site_folder()
+    logo = report.publication.logo
+    return {
+        "icon.svg": (source / "icon.svg").read_bytes(),
+        "vega-licenses.txt": (source / "vendor" / "LICENSES.txt").read_bytes(),
+        **({} if logo is None else {f"logo{logo.suffix}": logo.content}),
+    }
+
+
+def pack_chunks(contents: Sequence[tuple[Page, PageContent]]) -> dict[str, tuple[str, bytes]]:
+    """The data of all pages by name: its kind, ``json`` or ``bytes``, and gzipped content."""
+    chunks: dict[str, object] = {}
+    for page, content in contents:
+        for name, value in content.chunks.items():
+            if name in chunks and chunks[name] != value:
+                raise ValueError(f"page {page.name!r} disagrees with an earlier page on chunk {name!r}")
+            chunks[name] = value
+    chunks["engine"] = join(site_folder() / "scripts" / "engine" / "worker.js")
+    return {name: _packed(value) for name, value in chunks.items()}
+
+
+def _packed(value: object) -> tuple[str, bytes]:
+    kind, content = ("bytes", value) if isinstance(value, bytes) else ("json", json_text(value).encode())
+    return kind, gzip.compress(content, compresslevel=9, mtime=0)
+
+
+def chunk_script(name: str, kind: str, packed: bytes) -> bytes:
+    """A script that hands gzipped data to the page: the one way to load any from ``file://``."""
+    text = base64.b64encode(packed).decode()
+    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {json.dumps(text)});\n".encode()

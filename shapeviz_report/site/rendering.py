@@ -1,0 +1,90 @@
+"""Pages in HTML. The only import of jinja2."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from importlib.metadata import version
+
+import jinja2
+from markupsafe import Markup
+
+from shapeviz_report.pages import PAGES, Page, PageContent
+from shapeviz_report.pages.base import class_names
+from shapeviz_report.site import preview
+from shapeviz_report.site.data_files import json_text
+from shapeviz_report.site.linked_data import dataset, describe
+from shapeviz_report.site.markdown import first_paragraph, render_markdown
+from shapeviz_report.site.resources import templates_folder
+from shapeviz_report.types import Report
+
+#: Nothing but the site's own files. ``file:`` stands beside ``'self'`` because a page opened by double-click has no
+#: origin that ``'self'`` could mean. Trusted Types, where a browser knows them, make it impossible that a script
+#: turns text from a database into markup; the one policy allowed is that of scripts/opening/trusted.js.
+CONTENT_SECURITY_POLICY = "; ".join(
+    (
+        "default-src 'none'",
+        "script-src 'self' file:",
+        "style-src 'self' file:",
+        "img-src 'self' file: data: blob:",
+        "worker-src blob:",
+        "base-uri 'none'",
+        "form-action 'none'",
+        "require-trusted-types-for 'script'",
+        "trusted-types default",
+    )
+)
+
+
+def make_environment(*, single_file: bool = False, left_out: Sequence[str] = ()) -> jinja2.Environment:
+    """What templates are rendered in. ``left_out`` are the paths of data that a site in one file does not hold."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates_folder()),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["markdown"] = render_markdown
+    environment.globals["single_file"] = single_file
+    environment.globals["left_out"] = left_out
+    return environment
+
+
+def compute_contents(report: Report) -> list[tuple[Page, PageContent]]:
+    """Every page with what it shows."""
+    return [(page, page.content(report)) for page in PAGES]
+
+
+def render_pages(
+    environment: jinja2.Environment, report: Report, contents: Sequence[tuple[Page, PageContent]]
+) -> Iterator[tuple[Page, str]]:
+    """Every page in HTML."""
+    site = describe_site(report)
+    for page, content in contents:
+        template = environment.get_template(f"{page.name}.html")
+        yield page, template.render(page=page, pages=PAGES, site=site, **content.context)
+
+
+def describe_site(report: Report) -> dict[str, object]:
+    """What every template may use, as ``site``."""
+    said = report.publication
+    description = describe(report)
+    return {
+        "publication": said,
+        "description": description,
+        "lead": said.description or first_paragraph(said.introduction or ""),
+        "dataset": Markup(json_text(dataset(report, description)).replace("<", "\\u003c")),
+        "preview_size": (preview.WIDTH, preview.HEIGHT),
+        "logo": None if said.logo is None else f"logo{said.logo.suffix}",
+        "title": report.database.name,
+        "shapes": len(report.shapes),
+        "classes": len(class_names(report)),
+        "version": version("shapeviz-report"),
+        "stand_in": report.clusters is not None and report.clusters.stand_in,
+    }
+
+
+def encode(text: str) -> bytes:
+    """A page as a file."""
+    # A file name that is no text may stand in one.
+    return text.encode("utf-8", "backslashreplace")

@@ -1,0 +1,172 @@
+"""Writes the site: pages, scripts, pictures and data, all of it at once."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+from hashlib import sha256
+from importlib.metadata import version
+from pathlib import Path
+
+from markupsafe import Markup
+
+from shapeviz_report.errors import SiteError
+from shapeviz_report.pages.bins import model_name, painting_name
+from shapeviz_report.pages.overview import thumbnail_name
+from shapeviz_report.places import explain
+from shapeviz_report.site import preview
+from shapeviz_report.site.assets import chunk_script, collect_assets, join_scripts, join_styles, pack_chunks
+from shapeviz_report.site.consistency import check_report
+from shapeviz_report.site.data_files import data_files
+from shapeviz_report.site.destination import check_destination
+from shapeviz_report.site.joiner import join
+from shapeviz_report.site.linked_data import catalogue, describe
+from shapeviz_report.site.record import RECORD, find_own, record_text, sealed
+from shapeviz_report.site.rendering import (
+    CONTENT_SECURITY_POLICY,
+    compute_contents,
+    describe_site,
+    encode,
+    make_environment,
+    render_pages,
+)
+from shapeviz_report.site.resources import site_folder
+from shapeviz_report.site.single_file import (
+    Inline,
+    base64_text,
+    data_address,
+    handed_over,
+    media_type,
+    split_large,
+)
+from shapeviz_report.site.swap import replaced_folder
+from shapeviz_report.types import Report
+from shapeviz_report.writing import write_atomically
+
+#: Data of more bytes than this is left out of a site in one file; the About page says so.
+MOST_EMBEDDED = 2_000_000
+
+
+def write_site(report: Report, destination: Path, *, single_file: bool = False) -> None:
+    """Write the site of ``report`` into the folder ``destination``, which changes in one step at the end.
+
+    Parameters
+    ----------
+    report : Report
+    destination : Path
+        A folder that is not there yet, or holds an earlier site, or nothing but what publishers keep beside one. Only
+        files that a site wrote are replaced; whatever else is in it stays.
+    single_file : bool
+        Write one HTML file instead, without 3D models; ``destination`` is its path.
+
+    Raises
+    ------
+    SiteError
+        If ``destination`` must not be replaced or cannot be written, or no shape is left to show.
+    ValueError
+        If the parts of the report do not fit together: an error of the caller.
+    """
+    destination = Path(destination)
+    check_destination(destination, single_file=single_file)
+    check_report(report)
+    try:
+        if single_file:
+            write_atomically(destination.resolve(), sealed(_whole(report)))
+            return
+        with replaced_folder(destination, find_own) as folder:
+            hashes = {}
+            for name, content in _files(report):
+                path = folder / name
+                path.parent.mkdir(exist_ok=True)
+                path.write_bytes(content)
+                hashes[name] = sha256(content).hexdigest()
+            (folder / RECORD).write_bytes(record_text(hashes))
+    except OSError as error:
+        raise SiteError(f"the site cannot be written to {destination}: {explain(error)}") from error
+
+
+def _files(report: Report) -> Iterator[tuple[str, bytes]]:
+    """Every file of the site: path below its folder, and content. Models come last and one by one: those of 10,000
+    shapes are nearly a gigabyte."""
+    contents = compute_contents(report)
+    assets = {
+        **{name: text.encode() for name, text in join_scripts().items()},
+        **collect_assets(report),
+        "style.css": join_styles(report).encode(),
+        **{f"chunk-{name}.js": chunk_script(name, *packed) for name, packed in pack_chunks(contents).items()},
+    }
+    # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
+    addresses = {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
+    environment = make_environment()
+    environment.globals["asset"] = addresses.__getitem__
+    environment.globals["content_security_policy"] = CONTENT_SECURITY_POLICY
+    environment.globals["chunk_addresses"] = json.dumps(
+        {
+            name.removeprefix("chunk-").removesuffix(".js"): address
+            for name, address in addresses.items()
+            if name.startswith("chunk-")
+        }
+    )
+    yield from {
+        **{page.file: encode(text) for page, text in render_pages(environment, report, contents)},
+        **{f"assets/{name}": content for name, content in assets.items()},
+        **_pictures(report),
+        "preview.png": preview.draw_preview(report),
+        **_data(report),
+    }.items()
+    for model in report.models or ():
+        name = model_name(model)
+        yield f"models/{name}.js", chunk_script(f"model-{name}", "bytes", model)
+
+
+def _whole(report: Report) -> bytes:
+    """The site as one HTML file. It holds no 3D models: these would be most of it."""
+    report = replace(report, models=None)
+    contents = compute_contents(report)
+    scripts = join_scripts()
+    inline = Inline(
+        join_styles(report),
+        (
+            scripts.pop("first.js"),
+            *(handed_over(f"assets/{name}", text) for name, text in scripts.items()),
+            join(site_folder() / "scripts" / "opening" / "single-file.js"),
+        ),
+    )
+    assets = {f"assets/{name}": content for name, content in collect_assets(report).items()}
+    data, left_out = split_large(_data(report), MOST_EMBEDDED)
+    environment = make_environment(single_file=True, left_out=left_out)
+    environment.globals["asset"] = "assets/".__add__
+    environment.globals["content_security_policy"] = inline.policy
+    *scripts_before, opening = map(Markup, inline.scripts)
+    text = environment.get_template("single-file.html").render(
+        site=describe_site(report),
+        icon=data_address("icon.svg", assets["assets/icon.svg"]),
+        style=Markup(inline.style),
+        scripts=scripts_before,
+        opening=opening,
+        pages=[Markup(text) for _, text in render_pages(environment, report, contents)],
+        chunks=[(name, kind, base64_text(packed)) for name, (kind, packed) in pack_chunks(contents).items()],
+        files=[
+            (path, media_type(path), base64_text(content))
+            for path, content in {**assets, **_pictures(report), **data}.items()
+        ],
+    )
+    return encode(text)
+
+
+def _pictures(report: Report) -> dict[str, bytes]:
+    return {
+        **{f"thumbnails/{thumbnail_name(thumbnail)}": thumbnail for thumbnail in report.thumbnails},
+        **{
+            f"paintings/{painting_name(picture)}": picture
+            for painting in report.paintings
+            for picture in (painting.value, painting.inside)
+        },
+    }
+
+
+def _data(report: Report) -> dict[str, bytes]:
+    files = data_files(report, version("shapeviz-report"))
+    files["catalogue.jsonld"] = catalogue(report, describe(report))
+    return {f"data/{name}": content for name, content in files.items()}
