@@ -15,7 +15,7 @@ from shapeviz_report import stages
 from shapeviz_report.bins import features_of
 from shapeviz_report.build.runner import Result, Runner, Task
 from shapeviz_report.clusters import describe_clusters
-from shapeviz_report.config import SEARCHES, Config
+from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline, join_copies, pair_outlines
 from shapeviz_report.features import BINS, PRESETS
 from shapeviz_report.mesh import collect_files
@@ -121,7 +121,7 @@ def project_all(
     # that differ in their last digits.
     whole = bins is None and len(space.rows) == len(values)
     methods = [method.name for method in PROJECTIONS]
-    shared = {name for name in methods if name in SEARCHES and whole}
+    shared = {method.name for method in PROJECTIONS if method.rounds and whole}
     everything = (space.everything,)
     content = sha256(values.tobytes()).hexdigest()
     own = {

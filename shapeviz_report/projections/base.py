@@ -36,6 +36,8 @@ class Method:
         ``(squared distances (n, n), seed) -> (n, 2)``, for up to ``PAIRWISE_LIMIT`` rows.
     embed : callable
         ``(values (n, w), seed) -> (n, 2)``, for more.
+    rounds : int
+        Seeds by which a search of the features repeats its maps (paper, Table 2); 0 where none is offered.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Method:
     smallest: int
     arrange: Callable[[FloatArray, int], FloatArray]
     embed: Callable[[FloatArray, int], FloatArray]
+    rounds: int = 0
 
 
 def principal_components(values: FloatArray) -> FloatArray:

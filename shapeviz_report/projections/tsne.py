@@ -75,4 +75,5 @@ TSNE_METHOD = Method(
     smallest=5,
     arrange=arrange,
     embed=embed,
+    rounds=3,
 )

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import csr_matrix, vstack
 
 from shapeviz_report.order import classes_of
-from shapeviz_report.projections import turn_towards
+from shapeviz_report.projections import PROJECTIONS, turn_towards
 from shapeviz_report.quality import (
     NEIGHBOURS,
     highest_hits,
@@ -47,9 +47,6 @@ NEIGHBOUR_LIMIT = 300
 """Most subsets that a greedy search may look at in one step; a larger s is left out."""
 
 GREEDY_SIZES = (1, 2, 3)
-ROUNDS = {"tsne": 3, "umap": 1}
-"""Rounds of Table 2, by method: a UMAP map costs ten times as much as one by t-SNE."""
-
 SPREAD_SEEDS = 10
 FINALISTS = 12
 """Best subsets whose spread over seeds is measured, besides all features."""
@@ -59,9 +56,13 @@ EvaluateSubsets = Callable[[int, Sequence[int]], SubsetMaps]
 as the caller likes."""
 
 
+def _rounds(method: str) -> int:
+    return next(known.rounds for known in PROJECTIONS if known.name == method)
+
+
 def planned_runs(feature_count: int, method: str = "tsne", rounds: int | None = None) -> int | None:
     """The most maps that :func:`search_features` asks for; None where that depends on what it finds."""
-    rounds = rounds or ROUNDS[method]
+    rounds = rounds or _rounds(method)
     if feature_count > EXHAUSTIVE_LIMIT:
         return None
     subsets = (1 << feature_count) - 1
@@ -98,13 +99,13 @@ def search_features(
     k : int
         Of the neighbourhood hit.
     rounds : int
-        Rounds of Table 2; by default ``ROUNDS`` of the method.
+        Rounds of Table 2; by default those of the method.
     groups : (n,) int array, optional
         Of all rows of the feature table; shapes of one group are held out together.
     """
     chosen = [labels[i] for i in space.rows]
     own = None if groups is None else groups[space.rows]
-    return _Search(space, chosen, method, evaluate, seed, k, own).run(rounds or ROUNDS[method])
+    return _Search(space, chosen, method, evaluate, seed, k, own).run(rounds or _rounds(method))
 
 
 class _Search:

@@ -10,6 +10,7 @@ import pytest
 from solids import lump
 
 from shapeviz_report import database, demo, descriptors, projections
+from shapeviz_report.config import SEARCHES
 from shapeviz_report.database import LAYOUTS
 from shapeviz_report.demo import CLASSES
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
@@ -52,6 +53,11 @@ def test_projection(method) -> None:
     assert method.name.isidentifier()
     assert method.explanation.endswith(".")
     assert method.title in METHOD
+
+
+def test_searches_are_by_the_methods_that_have_rounds() -> None:
+    searched = tuple(method.name for method in PROJECTIONS if method.rounds)
+    assert searched == SEARCHES[:-1]
 
 
 def test_one_file_a_projection() -> None:
