@@ -33,7 +33,7 @@ from typing import TYPE_CHECKING, Any
 from shapeviz_report.errors import ShapevizError
 
 if TYPE_CHECKING:
-    from shapeviz_report.build.check import CheckResult
+    from shapeviz_report.building.check import CheckResult
     from shapeviz_report.querying import QueryResult
     from shapeviz_report.types import Report
 
@@ -64,7 +64,7 @@ def build(database: str | os.PathLike[str], destination: str | os.PathLike[str],
         Nothing could be built.
     """
     # Worker processes import this package too, and need little of what the pipeline does.
-    from shapeviz_report.build.pipeline import build_report
+    from shapeviz_report.building.pipeline import build_report
     from shapeviz_report.config import load_config
 
     return build_report(Path(database), Path(destination), load_config(Path(database), options))
@@ -72,7 +72,7 @@ def build(database: str | os.PathLike[str], destination: str | os.PathLike[str],
 
 def demo_site(destination: str | os.PathLike[str], **options: Any) -> Report:
     """Generate the demo database and build its site; see :func:`build`."""
-    from shapeviz_report.build.demo import build_demo
+    from shapeviz_report.building.demo import build_demo
     from shapeviz_report.config import load_config
 
     return build_demo(Path(destination), load_config(None, options))
@@ -80,7 +80,7 @@ def demo_site(destination: str | os.PathLike[str], **options: Any) -> Report:
 
 def check(database: str | os.PathLike[str], **options: Any) -> CheckResult:
     """Read a database and all its meshes without building anything; see :func:`build`."""
-    from shapeviz_report.build.check import check_database
+    from shapeviz_report.building.check import check_database
     from shapeviz_report.config import load_config
 
     return check_database(Path(database), load_config(Path(database), options))

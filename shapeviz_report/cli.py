@@ -258,7 +258,7 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def _build(options: argparse.Namespace) -> int:
-    from shapeviz_report.build.pipeline import build_report
+    from shapeviz_report.building.pipeline import build_report
 
     listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
@@ -268,7 +268,7 @@ def _build(options: argparse.Namespace) -> int:
 
 
 def _demo(options: argparse.Namespace) -> int:
-    from shapeviz_report.build.demo import build_demo
+    from shapeviz_report.building.demo import build_demo
 
     listen(end_in_order)
     report = build_demo(
@@ -279,7 +279,7 @@ def _demo(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    from shapeviz_report.build.check import check_database
+    from shapeviz_report.building.check import check_database
     from shapeviz_report.database import read_database
 
     listen(end_in_order)
@@ -481,7 +481,7 @@ class TerminalProgress:
 
     @contextmanager
     def stage(self, name: str, total: int) -> Iterator[Callable[[], None]]:
-        """See :class:`shapeviz_report.build.progress.Progress`."""
+        """See :class:`shapeviz_report.building.progress.Progress`."""
         title = STAGES[name]
         if total == 0:
             _complain(title)

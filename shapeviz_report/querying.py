@@ -23,8 +23,8 @@ import numpy as np
 
 from shapeviz_report import __version__, stages
 from shapeviz_report.bins import read_bins
-from shapeviz_report.build.guard import check_cache
-from shapeviz_report.build.progress import Progress, QuietProgress
+from shapeviz_report.building.guard import check_cache
+from shapeviz_report.building.progress import Progress, QuietProgress
 from shapeviz_report.cache import Cache
 from shapeviz_report.cells import read_cell
 from shapeviz_report.config import Config

@@ -6,11 +6,11 @@ from contextlib import contextmanager
 
 import pytest
 from cluster import running_cluster
+from shapeviz_report.pipeline import build_report
 from small_database import WITH_SEARCH, read_site
 
 import shapeviz_report
 from shapeviz_report.config import Config
-from shapeviz_report.pipeline import build_report
 
 CLUSTER_OPTIONS = {name: value for name, value in WITH_SEARCH.items() if name != "jobs"}
 

@@ -17,9 +17,9 @@ def test_contrast_is_that_of_the_guidelines():
 
 def test_the_grounds_are_the_hardest_of_the_style_sheet():
     tokens = (site_folder() / "styles" / "tokens.css").read_text(encoding="utf-8")
-    grounds = re.findall(r"--(?:paper|ground|wash|picture): (#\w{6});", tokens)
-    assert len(grounds) == 12
-    light, dark = grounds[:4], grounds[8:]
+    grounds = re.findall(r"--(?:paper|ground|wash|picture): light-dark\((#\w{6}), (#\w{6})\);", tokens)
+    assert len(grounds) == 4
+    light, dark = zip(*grounds)
     assert contrast(LIGHT_GROUND, "#000000") == min(contrast(ground, "#000000") for ground in light)
     assert contrast(DARK_GROUND, "#ffffff") == min(contrast(ground, "#ffffff") for ground in dark)
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from shapeviz_report import stages
-from shapeviz_report.build.runner import Task
+from shapeviz_report.building.runner import Task
 from shapeviz_report.config import Config
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from shapeviz_report import stages
 from shapeviz_report.bins import features_of
-from shapeviz_report.build.runner import Result, Runner, Task
+from shapeviz_report.building.runner import Result, Runner, Task
 from shapeviz_report.clusters import describe_clusters
 from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline, join_copies, pair_outlines

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from shapeviz_report import stages
 from shapeviz_report.bins import read_bins
-from shapeviz_report.build.guard import check_cache
-from shapeviz_report.build.progress import Clock, Progress, QuietProgress
-from shapeviz_report.build.questions import find_copies
-from shapeviz_report.build.reading import load_all_external, plan_examining, read_published
-from shapeviz_report.build.runner import Runner
-from shapeviz_report.build.workers import open_workers
+from shapeviz_report.building.guard import check_cache
+from shapeviz_report.building.progress import Clock, Progress, QuietProgress
+from shapeviz_report.building.questions import find_copies
+from shapeviz_report.building.reading import load_all_external, plan_examining, read_published
+from shapeviz_report.building.runner import Runner
+from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
 from shapeviz_report.features import BLOCKS

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-from shapeviz_report.build.progress import Clock
-from shapeviz_report.build.workers import open_workers
+from shapeviz_report.building.progress import Clock
+from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache
 from shapeviz_report.config import Config
 from shapeviz_report.errors import DatabaseError, MeshError

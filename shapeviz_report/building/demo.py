@@ -6,10 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from shapeviz_report import demo, stages
-from shapeviz_report.build.guard import check_places
-from shapeviz_report.build.pipeline import build_report
-from shapeviz_report.build.progress import Progress, QuietProgress
-from shapeviz_report.build.workers import open_executor
+from shapeviz_report.building.guard import check_places
+from shapeviz_report.building.pipeline import build_report
+from shapeviz_report.building.progress import Progress, QuietProgress
+from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root, discard
 from shapeviz_report.config import Config
 from shapeviz_report.errors import CacheError, DatabaseError
@@ -20,7 +20,7 @@ from shapeviz_report.writing import write_atomically
 
 def build_demo(destination: Path, config: Config, progress: Progress | None = None) -> Report:
     """Generate the demo database below the cache and build its site; see
-    :func:`~shapeviz_report.build.pipeline.build_report`."""
+    :func:`~shapeviz_report.building.pipeline.build_report`."""
     check_places(destination, config, (config.cache or default_root()).absolute(), None)
     check_renderer()
     progress = progress or QuietProgress()

@@ -13,9 +13,9 @@ import numpy as np
 
 from shapeviz_report import stages
 from shapeviz_report.bins import read_bins, scale_bins
-from shapeviz_report.build.guard import check_meshes, check_places
-from shapeviz_report.build.progress import Clock, Progress, QuietProgress
-from shapeviz_report.build.questions import (
+from shapeviz_report.building.guard import check_meshes, check_places
+from shapeviz_report.building.progress import Clock, Progress, QuietProgress
+from shapeviz_report.building.questions import (
     find_clusters,
     find_copies,
     paint_all,
@@ -25,9 +25,9 @@ from shapeviz_report.build.questions import (
     search_all_bins,
     search_subsets,
 )
-from shapeviz_report.build.reading import load_all_external, plan_examining, read_published
-from shapeviz_report.build.runner import Runner, Task
-from shapeviz_report.build.workers import open_executor
+from shapeviz_report.building.reading import load_all_external, plan_examining, read_published
+from shapeviz_report.building.runner import Runner, Task
+from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
 from shapeviz_report.contrasts import choose_contrasts
