@@ -291,7 +291,8 @@ def _check(options: argparse.Namespace) -> int:
         _say(*(shape.id for shape in database.shapes))
         return 0
     result = check_database(options.database, config, TerminalProgress())
-    _print_database(result.database)
+    usable = tuple(shape for shape in result.database.shapes if shape.id in result.repairs)
+    _print_database(dataclasses.replace(result.database, shapes=usable))
     mended = Counter(what for repairs in result.repairs.values() for what in repairs)
     if mended:
         _say("", "Would be repaired, in so many files:")
@@ -370,7 +371,7 @@ def _print_database(database: Database) -> None:
         for label in classes_of(sizes):
             _say(f"  {sizes[label]:6,}  {label}")
     if not database.labelings:
-        _say("", "No labels: the map will be drawn in one colour, and there is no neighbourhood hit.")
+        _say("", "No labels: clusters of the features stand in for classes, if the shapes fall into any.")
     for warning in database.warnings:
         _say("", f"Note: {warning}")
 

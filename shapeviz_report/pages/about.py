@@ -11,8 +11,8 @@ from shapeviz_report.publication import has_licence, licence_warning
 from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
 from shapeviz_report.types import FeatureSearch, Report
 
-#: Failures that the page lists; a page of a hundred thousand rows opens slowly, and nobody reads them.
-MOST_FAILURES = 500
+#: Failures, and copies, that the page lists; a page of a hundred thousand rows opens slowly, and nobody reads them.
+MOST_LISTED = 500
 
 
 class AboutPage:
@@ -28,7 +28,7 @@ class AboutPage:
             context={
                 "database": _database(report),
                 "failures": report.failures,
-                "most_failures": MOST_FAILURES,
+                "most_listed": MOST_LISTED,
                 "warnings": [
                     # What is said of the licence is for the owner; readers find it below "Use".
                     warning

@@ -134,6 +134,8 @@ def test_check_names_what_is_wrong(tmp_path) -> None:
     bad = run("check", database)
     assert bad.returncode == 1
     assert "ring/bad.off: " in bad.stdout
+    assert "6 shapes" in bad.stdout, "what cannot be used was counted"
+    assert "2  ring" in bad.stdout
     assert not (tmp_path / "site").exists()
 
 

@@ -15,6 +15,7 @@ from shapeviz_report.database import read_database
     [
         (["cup/1.off"], ["1 shape, read as", "1 class\n"]),
         (["cup/1.off", "ant/1.off", "2.off"], ["3 shapes, read as", "2 classes, 1 shape without\n"]),
+        (["1.off", "2.off"], ["2 shapes, read as", "No labels: clusters of the features stand in"]),
     ],
 )
 def test_numbers_agree_with_their_words(

@@ -6,9 +6,9 @@ from dataclasses import replace
 import pytest
 from reports import make_report
 
-from shapeviz_report.pages.about import MOST_FAILURES, AboutPage
+from shapeviz_report.pages.about import MOST_LISTED, AboutPage
 from shapeviz_report.site import write_site
-from shapeviz_report.types import Failure
+from shapeviz_report.types import Copy, Failure, Match
 
 
 @pytest.fixture
@@ -26,13 +26,23 @@ def test_it_names_every_failed_file_with_its_reason(text):
 
 
 def test_of_many_failed_files_the_first_are_listed_and_the_rest_is_counted(tmp_path):
-    failures = [Failure(f"{number:04}.off", "read", "it is empty") for number in range(MOST_FAILURES + 20)]
+    failures = [Failure(f"{number:04}.off", "read", "it is empty") for number in range(MOST_LISTED + 20)]
     write_site(make_report(["ant"], 2, failures=failures), tmp_path)
     text = (tmp_path / "about.html").read_text(encoding="utf-8")
-    assert text.count("it is empty") == MOST_FAILURES
-    assert f"These are the first {MOST_FAILURES} of {MOST_FAILURES + 20} files" in text
+    assert text.count("it is empty") == MOST_LISTED
+    assert f"These are the first {MOST_LISTED} of {MOST_LISTED + 20} files" in text
     summary = json.loads((tmp_path / "data" / "summary.json").read_text(encoding="utf-8"))
-    assert len(summary["failures"]) == MOST_FAILURES + 20
+    assert len(summary["failures"]) == MOST_LISTED + 20
+
+
+def test_of_many_copies_the_first_are_listed_and_the_rest_is_counted(tmp_path):
+    report = make_report(["ant"], 2)
+    first, second = (shape.id for shape in report.shapes)
+    copies = (Copy(first, second, Match("identical file")),) * (MOST_LISTED + 20)
+    write_site(replace(report, copies=copies), tmp_path)
+    text = (tmp_path / "about.html").read_text(encoding="utf-8")
+    assert text.count("identical file") == MOST_LISTED
+    assert f"These are the first {MOST_LISTED} of {MOST_LISTED + 20} pairs" in text
 
 
 def test_it_shows_seeds_parameters_versions_and_hashes(text):
