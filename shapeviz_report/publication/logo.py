@@ -309,6 +309,11 @@ def _safe_drawing(content: bytes, path: Path) -> bytes:
     try:
         root = etree.fromstring(content, parser)
     except (etree.XMLSyntaxError, ValueError) as error:
+        if isinstance(error, etree.XMLSyntaxError) and error.code == etree.ErrorTypes.ERR_RESOURCE_LIMIT:
+            beyond = error.msg.partition(",")[0]
+            raise ConfigError(
+                f"the logo {path} goes beyond what is read of XML: {beyond}; simplify it"
+            ) from error
         raise ConfigError(f"the logo {path} is not well-formed XML: {error}") from error
     if root.tag != f"{{{_SVG}}}svg":
         raise ConfigError(f"the logo {path} is XML, but not an SVG drawing")

@@ -73,6 +73,10 @@ def _parse(data: bytes) -> Element:
     try:
         root = etree.fromstring(text, parser)
     except etree.XMLSyntaxError as error:
+        if (
+            error.code == etree.ErrorTypes.ERR_RESOURCE_LIMIT
+        ):  # whole, and deeper or longer than the parser goes
+            raise MeshError(f"its XML goes beyond what is read: {error.msg.partition(',')[0]}") from error
         raise MeshError(f"its XML is broken, or cut off ({error.msg})") from error
     for element in root.iter(etree.Element):
         element.tag = etree.QName(element).localname
@@ -291,10 +295,13 @@ class _Reader:
         for primitive in _primitives(mesh):
             # what has corners is read, whatever it announces, so that both can be compared
             total += any(run.text or len(run) for run in primitive.iterfind("*") if run.tag in ("p", "ph"))
+            # two numbers are parted by a blank: what is announced beyond that is not there, which reading it says
+            held = sum((len(p.text or "") + 1) // 2 for p in primitive.iterfind("p"))
             if primitive.tag == "polylist":
-                total += int(np.maximum(_integers(primitive.findtext("vcount")) - 2, 0).sum())
+                sizes = np.clip(_integers(primitive.findtext("vcount")) - 2, 0, held)
+                total += min(int(sizes.sum()), held)
             elif primitive.tag == "triangles":
-                total += _whole(primitive, "count", 0)
+                total += min(_whole(primitive, "count", 0), held // 3)
             else:
                 width = _width(primitive)
                 total += sum(max(len((p.text or "").split()) // width - 2, 0) for p in primitive.findall("p"))
@@ -471,7 +478,13 @@ def _faces_of(
         if primitive.tag == "polylist":
             sizes = _integers(primitive.findtext("vcount"))
             found = len(sizes)
-            if (sizes < 0).any() or sizes.sum() != len(together):
+            if (sizes < 0).any():
+                raise MeshError(f"<polylist> announces a polygon of {sizes.min():,} corners")
+            if (sizes > len(together)).any():  # apart from their sum, which could overflow
+                raise MeshError(
+                    f"<polylist> announces a polygon of {sizes.max():,} corners, and has {len(together):,}"
+                )
+            if sizes.sum() != len(together):
                 raise MeshError(f"<polylist> announces {sizes.sum():,} corners, and has {len(together):,}")
         faces = triangulate(PolygonMesh(points, together, sizes))
         if holed:

@@ -166,6 +166,8 @@ def _split_header(data: bytes) -> tuple[str, int]:
     end = re.compile(rb"[\r\n][ \t]*end_header[ \t]*(?:" + ends + rb"|\Z)", re.IGNORECASE).search(
         data, 0, _MOST_HEADER
     )
+    if first is not None and end is None and len(data) > _MOST_HEADER:
+        raise MeshError(f"its PLY header does not end within {_MOST_HEADER:,} bytes")
     if first is None or end is None:
         raise MeshError("it has no PLY header")
     return decode(data[: end.start()]), end.end()

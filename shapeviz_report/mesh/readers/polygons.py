@@ -114,9 +114,15 @@ def cut_with_holes(vertices: FloatArray, loops: list[Indices]) -> Indices:
 
 
 def whole_numbers(values: npt.NDArray[np.generic]) -> Indices:
-    """Indices that were read as numbers. Raises ``MeshError`` if one is not whole."""
-    indices = values.astype(np.int64)
-    if (indices != values).any():
+    """Indices that were read as numbers. Raises ``MeshError`` if one is not whole, or beyond all counting."""
+    with np.errstate(invalid="ignore"):
+        indices = values.astype(np.int64)
+    wrong = values[indices != values]
+    if len(wrong):
+        if np.isfinite(wrong[0]) and abs(float(wrong[0])) >= 2.0**53:
+            raise MeshError(
+                f"a face refers to a vertex by a number that no file can reach: {float(wrong[0]):.3g}"
+            )
         raise MeshError("a face refers to a vertex by a number that is not whole")
     return indices
 

@@ -107,7 +107,10 @@ def parse_numbers(text: str) -> FloatArray:
 def parse_indices(text: str) -> Indices:
     """All numbers of a text that has nothing but whole numbers. Raises ``MeshError``."""
     indices = _scan(text, np.int64)  # much faster than as float64
-    return whole_numbers(parse_numbers(text)) if indices is None else indices
+    limits = np.iinfo(np.int64)  # where numpy stops counting in silence
+    if indices is None or (len(indices) and (indices.max() == limits.max or indices.min() == limits.min)):
+        return whole_numbers(parse_numbers(text))
+    return indices
 
 
 def parse_columns(text: str, width: int) -> FloatArray:

@@ -312,6 +312,7 @@ def test_off_polygons(tmp_path):
             "vertex 4 .* there are 4 vertices",
         ),
         (off("OFF\n4 4 6", TETRAHEDRON, ["3 0 1 -1", *TETRAHEDRON_FACES[1:]]), "vertex -1 "),
+        (off("OFF\n4 4 6", TETRAHEDRON, [f"3 0 1 1{22 * '0'}", *TETRAHEDRON_FACES[1:]]), "can reach: 1e.22"),
         (off("OFF\n4 4 6", TETRAHEDRON, ["3 0 1 1.5", *TETRAHEDRON_FACES[1:]]), "not whole"),
         (
             off("OFF\n4 4 6", TETRAHEDRON, ["9 0 1 2", *TETRAHEDRON_FACES[1:]]),
@@ -715,3 +716,51 @@ def test_files_of_a_broken_or_missing_mesh(tmp_path):
             collect_files(write_text(tmp_path, "broken.gltf", broken))
     with pytest.raises(MeshError, match="cannot be opened"):
         collect_files(tmp_path / "missing.off")
+
+
+COLLADA = """<COLLADA><library_geometries><geometry id="g"><mesh><source id="s"><float_array id="a" count="9">0 0 0 1 0
+0 0 1 0</float_array><technique_common><accessor source="#a" count="3" stride="3"/></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#s"/></vertices>{primitive}</mesh></geometry></library_geometries>
+{rest}</COLLADA>"""
+
+
+@pytest.mark.parametrize(
+    ("primitive", "reason"),
+    [
+        (
+            '<triangles count="2000000000">{}0 1 2</p></triangles>',
+            "announces 2,000,000,000 elements, and has 1$",
+        ),
+        (
+            '<polylist count="1">{}0 1 2</p><vcount>2000000000</vcount></polylist>',
+            "2,000,000,000 corners, and has 3$",
+        ),
+        ('<polylist count="3">{}0 1 2</p><vcount>3 -3 3</vcount></polylist>', "a polygon of -3 corners"),
+        (
+            f'<polylist count="4">{{}}0 1 2</p><vcount>{2**62} {2**62} {2**62} {2**62 + 3}</vcount></polylist>',
+            "corners, and has 3$",
+        ),
+        (f'<triangles count="1">{{}}0 1 1{"0" * 30}</p></triangles>', "can reach: 1e.30"),
+    ],
+)
+def test_collada_that_announces_more_than_it_has_is_told_both_figures(tmp_path, primitive, reason):
+    primitive = primitive.format('<input semantic="VERTEX" source="#v" offset="0"/><p>')
+    with pytest.raises(MeshError, match=reason):
+        read_text(tmp_path, "mesh.dae", COLLADA.format(primitive=primitive, rest=""))
+
+
+def test_collada_that_is_nested_too_deeply_is_not_called_broken(tmp_path):
+    nested = COLLADA.format(primitive="", rest="<extra>" * 5000 + "</extra>" * 5000)
+    with pytest.raises(MeshError, match=r"goes beyond what is read: Excessive depth in document: \d+$"):
+        read_text(tmp_path, "mesh.dae", nested)
+
+
+@pytest.mark.parametrize("index", ["9" * 30, "-" + "9" * 30])
+def test_obj_index_beyond_all_counting(tmp_path, index):
+    with pytest.raises(MeshError, match=r"can reach: -?1e.30"):
+        read_text(tmp_path, "mesh.obj", f"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 {index}\n")
+
+
+def test_ply_header_without_an_end_in_sight(tmp_path):
+    with pytest.raises(MeshError, match="header does not end within 1,048,576 bytes"):
+        read_text(tmp_path, "mesh.ply", "ply\nformat ascii 1.0\n" + "comment x\n" * 200_000 + "end_header\n")

@@ -64,6 +64,11 @@ def test_entities_are_refused(tmp_path):
     ("name", "content", "reason"),
     [
         ("logo.svg", b"<svg", "not well-formed"),
+        (
+            "logo.svg",
+            b"<svg>" + 500 * b"<g>" + 500 * b"</g>" + b"</svg>",
+            "beyond what is read of XML: .* depth",
+        ),
         ("logo.svg", b"<html/>", "not an SVG"),
         ("logo.png", b"GIF89a", "not an SVG, PNG or WebP"),
         ("logo.png", picture("PNG")[:40], "not an SVG, PNG or WebP"),
@@ -71,7 +76,7 @@ def test_entities_are_refused(tmp_path):
         ("logo.png", picture("PNG", (5000, 2)), "5000 x 2 pixels"),
         ("logo.png", b"x" * 500_001, "at most 500,000"),
     ],
-    ids=["broken drawing", "page", "gif", "half a picture", "jpeg", "wide", "heavy"],
+    ids=["broken drawing", "deep drawing", "page", "gif", "half a picture", "jpeg", "wide", "heavy"],
 )
 def test_what_is_no_logo_is_refused(tmp_path, name, content, reason):
     (tmp_path / name).write_bytes(content)
