@@ -18,7 +18,7 @@ demo: drawing-library $(INSTALLED) ## build the demo site in demo-site/
 
 .PHONY: test
 test: style browser ## run every check and every test
-	$(BIN)/pytest --numprocesses 2 --dist loadfile
+	$(BIN)/pytest --numprocesses 2 --dist loadfile --durations 25
 
 .PHONY: check
 check: style ## the quick part of it: style, imports, types, scripts, and tests that need no site
