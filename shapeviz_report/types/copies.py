@@ -78,13 +78,13 @@ def copies_of(copies: Sequence[Copy], shape: str) -> list[tuple[str, Match | str
     Returns
     -------
     list of (str, Match or str)
-        The other's id and how it lies on the shape; where the two were not laid on each other, the id of the shape
-        through which one is a copy of the other.
+        The other's id and what the shape is of it, such as ten times as large; where the two were not laid on each
+        other, the id of the shape through which one is a copy of the other.
     """
     beside: dict[str, dict[str, Match]] = {}
     for copy in copies:
-        beside.setdefault(copy.first, {})[copy.second] = copy.match
-        beside.setdefault(copy.second, {})[copy.first] = replace(copy.match, scale=1 / copy.match.scale)
+        beside.setdefault(copy.first, {})[copy.second] = replace(copy.match, scale=1 / copy.match.scale)
+        beside.setdefault(copy.second, {})[copy.first] = copy.match
     found: dict[str, Match | str] = dict(beside.get(shape, {}))
     waiting = list(found)
     for other in waiting:

@@ -149,13 +149,13 @@ def test_groups_follow_chains_of_copies() -> None:
     assert group_copies([Copy("a", "gone", Match("identical file"))], ids).tolist() == [0, 1, 2, 3, 4]
 
 
-def test_each_of_a_pair_names_the_other_as_it_lies_on_it() -> None:
+def test_each_of_a_pair_says_what_it_is_of_the_other() -> None:
     found = [Copy("a", "b", Match("identical geometry", scale=4.0, mirrored=True))]
     assert [(other, match.words) for other, match in copies_of(found, "a")] == [
-        ("b", "identical geometry, mirrored, scaled by 4")
+        ("b", "identical geometry, mirrored, scaled by 0.25")
     ]
     assert [(other, match.words) for other, match in copies_of(found, "b")] == [
-        ("a", "identical geometry, mirrored, scaled by 0.25")
+        ("a", "identical geometry, mirrored, scaled by 4")
     ]
     assert copies_of(found, "c") == []
 

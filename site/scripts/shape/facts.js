@@ -54,10 +54,12 @@ export class Facts {
 function factGroups(database, shape, labelings, known, clusters) {
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
-  const others = known.metadata.filter((pair) => rank(pair) < 0);
   const labels = labelings
     .map((labeling, place) => [labeling, known.labels[place]])
     .filter(([, label]) => label !== null && label !== undefined);
+  // A column that is a labeling is told among the labels.
+  const told = new Set(labels.length > 1 ? labels.map(([labeling]) => labeling) : []);
+  const others = known.metadata.filter((pair) => rank(pair) < 0 && !told.has(pair[0]));
   // Where clusters stand in for labels, the cluster stands below the name already.
   if (clusters !== null && !clusters.standIn) labels.push(["cluster", clusters.clusters[clusters.of[shape]].name]);
   const [wide, high, deep] = known.extents.map(measured);
