@@ -309,8 +309,8 @@ def _safe_drawing(content: bytes, path: Path) -> bytes:
     try:
         root = etree.fromstring(content, parser)
     except (etree.XMLSyntaxError, ValueError) as error:
-        if isinstance(error, etree.XMLSyntaxError) and error.code == etree.ErrorTypes.ERR_RESOURCE_LIMIT:
-            beyond = error.msg.partition(",")[0]
+        if getattr(error, "code", None) == etree.ErrorTypes.ERR_RESOURCE_LIMIT:
+            beyond = str(error).partition(",")[0]
             raise ConfigError(
                 f"the logo {path} goes beyond what is read of XML: {beyond}; simplify it"
             ) from error

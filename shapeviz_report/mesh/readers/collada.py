@@ -73,9 +73,8 @@ def _parse(data: bytes) -> Element:
     try:
         root = etree.fromstring(text, parser)
     except etree.XMLSyntaxError as error:
-        if (
-            error.code == etree.ErrorTypes.ERR_RESOURCE_LIMIT
-        ):  # whole, and deeper or longer than the parser goes
+        # whole, and deeper or longer than the parser goes
+        if getattr(error, "code", None) == etree.ErrorTypes.ERR_RESOURCE_LIMIT:
             raise MeshError(f"its XML goes beyond what is read: {error.msg.partition(',')[0]}") from error
         raise MeshError(f"its XML is broken, or cut off ({error.msg})") from error
     for element in root.iter(etree.Element):
