@@ -6,10 +6,10 @@ from contextlib import contextmanager
 
 import pytest
 from cluster import running_cluster
-from shapeviz_report.pipeline import build_report
 from small_database import WITH_SEARCH, read_site
 
 import shapeviz_report
+from shapeviz_report.building.pipeline import build_report
 from shapeviz_report.config import Config
 
 CLUSTER_OPTIONS = {name: value for name, value in WITH_SEARCH.items() if name != "jobs"}
