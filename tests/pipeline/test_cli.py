@@ -169,7 +169,7 @@ def test_names_reach_the_terminal_as_one_line_of_printable_characters(tmp_path) 
     checked = run("check", folder, *options)
     assert checked.returncode == 1
     assert f"  {shown}/bad{shown}.off: " in checked.stdout
-    assert f"     2  {shown}\n" in checked.stdout
+    assert f"     1  {shown}\n" in checked.stdout
     (folder / "plain" / f"good{HOSTILE}.off").unlink()
     (folder / HOSTILE / f"good{HOSTILE}.off").unlink()
     stopped = run("build", folder, "-o", tmp_path / "site", *options)
