@@ -24,6 +24,11 @@ test: style browser ## run every check and every test
 check: style ## the quick part of it: style, imports, types, scripts, and tests that need no site
 	$(BIN)/pytest --numprocesses 2 --dist loadfile tests/unit tests/contract
 
+.PHONY: format
+format: $(INSTALLED) $(SCRIPT_TOOLS) ## put files in form
+	$(BIN)/ruff format .
+	PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent format
+
 .PHONY: style
 style: drawing-library $(INSTALLED) $(SCRIPT_TOOLS)
 	$(BIN)/ruff check .

@@ -36,7 +36,8 @@ class TestPage:
 
     def test_its_script_watches_the_theme(self, page):
         source = (site_folder() / "scripts" / "pages" / f"{page.name}.js").read_text(encoding="utf-8")
-        assert "openPage(" in source or "watchTheme(" in source
+        # A page that is opened as all are follows the theme from when it is ready.
+        assert ("openPage(" in source and " ready(" in source) or "watchTheme(" in source
 
     @pytest.mark.parametrize("classes", [("ant", "bird"), (None,), ("ant", None)])
     def test_its_chunks_are_json_or_bytes(self, page, classes):

@@ -68,7 +68,7 @@ function readFilters(query, fields) {
     }
     const values = query
       .getAll(IS + field.key)
-      .map((name) => valueOf(field, name))
+      .map((name) => namedValue(field, name))
       .filter((value) => value !== undefined && value !== NONE);
     if (query.has(LACKS + field.key)) values.push(NONE);
     if (values.length > 0 && (field.names !== null || field.tree !== null)) filters.set(field.key, new Set(values));
@@ -92,7 +92,7 @@ function nameInAddress(field, value) {
   return field.tree === null ? field.names[value] : field.tree.ways[value].map(encodeURIComponent).join("/");
 }
 
-function valueOf(field, name) {
+function namedValue(field, name) {
   field.numberOfName ??= new Map(
     (field.tree?.nodes ?? field.names ?? []).map((_, value) => [nameInAddress(field, value), value]),
   );
