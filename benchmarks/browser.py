@@ -29,9 +29,9 @@ from shapeviz_report.bins import scale_bins
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.projections import TSNE_METHOD, UMAP_METHOD, project
 from shapeviz_report.quality import NEIGHBOURS, neighbour_weights, neighbourhood_hits
-from shapeviz_report.site.joiner import join
-from shapeviz_report.site.resources import site_folder
 from shapeviz_report.types import FeatureTable, FloatArray
+from shapeviz_report.writing.joiner import join
+from shapeviz_report.writing.resources import site_folder
 
 METHODS = (TSNE_METHOD, UMAP_METHOD)
 SIZES, RUNS, SEEDS = (1000, 3000), 3, range(5)

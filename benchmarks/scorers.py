@@ -25,8 +25,8 @@ from shapeviz_report.features import PRESETS, compared_values
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.quality import NEIGHBOURS, neighbour_weights, neighbourhood_hits
 from shapeviz_report.scorers import SCORERS, Scorer, as_one_group, score_separation
-from shapeviz_report.site.joiner import join
 from shapeviz_report.types import FloatArray
+from shapeviz_report.writing.joiner import join
 
 BEST = (10, 30, 50)
 """How many of the best bins make a map."""

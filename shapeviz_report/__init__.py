@@ -34,7 +34,7 @@ from shapeviz_report.errors import ShapevizError
 
 if TYPE_CHECKING:
     from shapeviz_report.building.check import CheckResult
-    from shapeviz_report.querying import QueryResult
+    from shapeviz_report.building.query import QueryResult
     from shapeviz_report.types import Report
 
 __version__ = version("shapeviz-report")
@@ -117,9 +117,9 @@ def query(
     ShapevizError
         The folder is not a site of this version, the mesh cannot be used, or a feature or bin is not there.
     """
+    from shapeviz_report.building.query import find_similar
     from shapeviz_report.cache import default_root
     from shapeviz_report.config import Config
-    from shapeviz_report.querying import find_similar
 
     return find_similar(
         Path(site),

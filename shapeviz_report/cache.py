@@ -19,7 +19,7 @@ from pathlib import Path
 
 from shapeviz_report.errors import CacheError
 from shapeviz_report.files import read_regular
-from shapeviz_report.writing import write_atomically
+from shapeviz_report.staging import write_atomically
 
 logger = logging.getLogger(__name__)
 

@@ -25,7 +25,7 @@ from shapeviz_report.order import classes_of
 from shapeviz_report.types import Database, Failure, Report
 
 if TYPE_CHECKING:
-    from shapeviz_report.querying import QueryResult
+    from shapeviz_report.building.query import QueryResult
 
 EXIT_CODES = """\
 exit codes:
@@ -309,9 +309,9 @@ def _check(options: argparse.Namespace) -> int:
 
 
 def _query(options: argparse.Namespace) -> int:
+    from shapeviz_report.building.query import find_similar
     from shapeviz_report.cache import default_root
-    from shapeviz_report.querying import find_similar
-    from shapeviz_report.site.data_files import json_text
+    from shapeviz_report.writing.data_files import json_text
 
     listen(end_in_order)
     config = load_config(None, {name: getattr(options, name) for name in QUERYING}, options.config)

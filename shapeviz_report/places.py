@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from shapeviz_report.writing import created, leftovers
+from shapeviz_report.staging import created, leftovers
 
 _TRIAL = ".shapeviz-trial-"
 

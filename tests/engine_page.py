@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from playwright.sync_api import Page
 
-from shapeviz_report.site.joiner import join
+from shapeviz_report.writing.joiner import join
 
 ENTRY = Path(__file__).parent / "browser" / "engine.js"
 

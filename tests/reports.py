@@ -16,8 +16,8 @@ from solids import ball
 from shapeviz_report import quality
 from shapeviz_report.bins import features_of, scale_bins
 from shapeviz_report.clusters import describe_clusters, part
-from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.distinct import rate_without_copies
+from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.order import classes_of
@@ -306,12 +306,12 @@ def _groups(report: Report) -> np.ndarray:
 def with_paintings(report: Report) -> Report:
     """The report with pictures of the bins that its search found, which show polygons; of the right shapes."""
     xy = next(iter(report.projections.values()))[0].xy
-    contrasts = choose_contrasts(
+    exemplars = choose_exemplars(
         report.bins, report.features, report.labels, report.features.values, xy, quality.NEIGHBOURS
     )
     paintings = (
         Painting(column, row, picture(number, row), picture(number, row + 1))
-        for number, (column, rows) in enumerate(contrasts.items())
+        for number, (column, rows) in enumerate(exemplars.items())
         for row in rows
     )
     return replace(report, paintings=tuple(paintings))

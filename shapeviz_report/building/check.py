@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from shapeviz_report import stages
 from shapeviz_report.bins import read_bins
+from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import find_copies

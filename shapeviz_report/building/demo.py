@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from shapeviz_report import demo, stages
+from shapeviz_report import demo
+from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_places
 from shapeviz_report.building.pipeline import build_report
 from shapeviz_report.building.progress import Progress, QuietProgress
@@ -14,8 +15,8 @@ from shapeviz_report.cache import Cache, default_root, discard
 from shapeviz_report.config import Config
 from shapeviz_report.errors import CacheError, DatabaseError
 from shapeviz_report.render import check_renderer
+from shapeviz_report.staging import write_atomically
 from shapeviz_report.types import Report
-from shapeviz_report.writing import write_atomically
 
 
 def build_demo(destination: Path, config: Config, progress: Progress | None = None) -> Report:

@@ -8,8 +8,8 @@ from pathlib import Path
 from shapeviz_report.config import Config
 from shapeviz_report.errors import CacheError, SiteError
 from shapeviz_report.places import explain, holds, tried
-from shapeviz_report.site import check_destination
 from shapeviz_report.types import Database
+from shapeviz_report.writing import check_destination
 
 
 def check_cache(root: Path, database: Path | None) -> None:

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from shapeviz_report import stages
 from shapeviz_report.bins import read_bins, scale_bins
+from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_meshes, check_places
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import (
@@ -30,9 +30,9 @@ from shapeviz_report.building.runner import Runner, Task
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
-from shapeviz_report.contrasts import choose_contrasts
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.errors import DatabaseError
+from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.features import BLOCKS, PRESETS, compared_values, fixed_edges, quantile_edges, scale
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.projections import squared_distances
@@ -40,8 +40,8 @@ from shapeviz_report.publication import read_publication
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
 from shapeviz_report.search import make_space
-from shapeviz_report.site import write_site
 from shapeviz_report.types import Failure, FeatureTable, Painting, Projection, Quality, Report, group_copies
+from shapeviz_report.writing import write_site
 
 SAMPLED_VERTICES = 400_000
 """Vertices behind data-driven histogram ranges, over all shapes."""
@@ -176,7 +176,7 @@ def build_report(
         retrieval = rate_all(run, space, labels, search, chosen or None, by_bins)
         paintings: tuple[Painting, ...] = ()
         if found is not None:
-            contrasts = choose_contrasts(
+            exemplars = choose_exemplars(
                 found, features, labels, scaled, next(iter(projections.values())).xy, config.neighbours
             )
 
@@ -184,7 +184,7 @@ def build_report(
                 name = shapes[shape].id
                 return plan(stages.PAINT, name, views[name], edges, bins, PAINTING_SIZE)
 
-            paintings = paint_all(run, features, contrasts, plan_painting)
+            paintings = paint_all(run, features, exemplars, plan_painting)
     models = None
     if config.meshes:
         models = tuple(

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report import stages
 from shapeviz_report.bins import features_of
+from shapeviz_report.building import stages
 from shapeviz_report.building.runner import Result, Runner, Task
 from shapeviz_report.clusters import describe_clusters
 from shapeviz_report.config import Config
@@ -347,7 +347,7 @@ def rate_all(
 def paint_all(
     run: Runner,
     features: FeatureTable,
-    contrasts: Mapping[str, Sequence[int]],
+    exemplars: Mapping[str, Sequence[int]],
     plan: Callable[[int, tuple[tuple[int, int], ...]], Task],
 ) -> tuple[Painting, ...]:
     """Bins painted on shapes, a task a shape.
@@ -356,14 +356,14 @@ def paint_all(
     ----------
     run : Runner
     features : FeatureTable
-    contrasts : mapping of str to rows
+    exemplars : mapping of str to rows
         Bin -> the shapes that are to show it.
     plan : callable
         The task of a shape, by its row, and some bins, each by its dimension and place, both from 0.
     """
     place = {column: divmod(number, BINS) for number, column in enumerate(features.columns)}
-    shapes = sorted({row for rows in contrasts.values() for row in rows})
-    columns = {row: [column for column, rows in contrasts.items() if row in rows] for row in shapes}
+    shapes = sorted({row for rows in exemplars.values() for row in rows})
+    columns = {row: [column for column, rows in exemplars.items() if row in rows] for row in shapes}
     tasks = {row: plan(row, tuple(place[column] for column in columns[row])) for row in shapes}
     answers = run.all(
         "paint",
@@ -375,4 +375,4 @@ def paint_all(
     for row, answer in answers.items():
         for column, (value, inside) in zip(columns[row], stages.read_paintings(answer)):
             found[column, row] = Painting(column, row, value, inside)
-    return tuple(found[column, row] for column, rows in contrasts.items() for row in rows)
+    return tuple(found[column, row] for column, rows in exemplars.items() for row in rows)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from shapeviz_report import stages
+from shapeviz_report.building import stages
 from shapeviz_report.building.runner import Task
 from shapeviz_report.config import Config
 from shapeviz_report.database import read_database

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from shapeviz_report.building.progress import Clock
+from shapeviz_report.building.stages import Stage
 from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache
 from shapeviz_report.config import Config
 from shapeviz_report.errors import DatabaseError, MeshError
 from shapeviz_report.executor import Executor
-from shapeviz_report.stages import Stage
 from shapeviz_report.types import Database, Failure, ShapeEntry
 
 Name = TypeVar("Name", bound=Hashable)

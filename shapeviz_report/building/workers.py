@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from shapeviz_report import stages
+from shapeviz_report.building import stages
 from shapeviz_report.config import Config
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
 from shapeviz_report.render import check_renderer

@@ -27,7 +27,7 @@ from shapeviz_report.demo import (
     teddy,
 )
 from shapeviz_report.demo.classes import DemoClass
-from shapeviz_report.demo.surface import mesh_solid
+from shapeviz_report.demo.surface_nets import mesh_solid
 from shapeviz_report.types import Mesh
 
 __all__ = ["CLASSES", "PER_CLASS", "DemoClass", "encode_shape", "make_shape", "shape_path", "write_shape"]

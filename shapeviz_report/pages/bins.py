@@ -8,8 +8,8 @@ from hashlib import sha256
 
 import numpy as np
 
-from shapeviz_report.contrasts import find_rivals
 from shapeviz_report.descriptors import DESCRIPTORS
+from shapeviz_report.exemplars import find_rivals
 from shapeviz_report.features import BINS
 from shapeviz_report.pages.base import (
     COORDINATE_STEPS,

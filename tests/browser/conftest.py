@@ -32,8 +32,8 @@ from reports import (
 )
 from together import alone
 
-from shapeviz_report.site import write_site
 from shapeviz_report.types import Report
+from shapeviz_report.writing import write_site
 
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
 NASTY_FEATURES = ("Gc", "<b>50 %</b> & more", "עברית ימין", "a feature name without an end " * 3)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from shapeviz_report.site.record import RECORD
+from shapeviz_report.writing.record import RECORD
 
 
 @pytest.mark.parametrize("width", [1280, 390])

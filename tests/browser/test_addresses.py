@@ -8,7 +8,7 @@ import pytest
 from waiting import drawn_again, eventually
 
 from shapeviz_report.cells import write_cell
-from shapeviz_report.site.joiner import join
+from shapeviz_report.writing.joiner import join
 
 NUMBERS = (
     "NaN",

@@ -12,8 +12,8 @@ from waiting import drawn_again, eventually
 
 from shapeviz_report.features import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
-from shapeviz_report.site import write_site
-from shapeviz_report.site.joiner import join
+from shapeviz_report.writing import write_site
+from shapeviz_report.writing.joiner import join
 
 SURFACE = ".bin-plot .surface"
 BARS = Path(__file__).parent / "bars.js"

@@ -8,7 +8,7 @@ import pytest
 from reports import make_report, with_search
 from waiting import drawn_again, eventually
 
-from shapeviz_report.site import write_site
+from shapeviz_report.writing import write_site
 
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
 MAP = "figure.map .surface"

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from shapeviz_report.quality import hit_range, share_of_range
-from shapeviz_report.site.joiner import join
+from shapeviz_report.writing.joiner import join
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from reports import make_report, with_bin_search, with_retrieval, with_search
 
-from shapeviz_report.site import write_site
+from shapeviz_report.writing import write_site
 
 KINDS = [f"kind {letter}" for letter in "abcd"]
 FEATURES = ("Gc", "Sc", "PFH")

@@ -10,7 +10,7 @@ from scipy.stats import spearmanr
 from scorer_groups import read_groups
 
 from shapeviz_report.scorers import SCORERS, Contest, score_separation
-from shapeviz_report.site.joiner import join
+from shapeviz_report.writing.joiner import join
 
 TOLERANCE = {"chi2": 1e-8, "anova": 1e-8, "trees": 1e-8, "logistic": 1e-8, "relief": 1e-4, "rfe": 1e-8}
 """Of relative scores. Relief adds up in single precision in Python."""

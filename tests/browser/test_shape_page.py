@@ -14,8 +14,8 @@ from waiting import drawn_again, eventually
 
 from shapeviz_report.features import PRESETS
 from shapeviz_report.similarity import rank_similar, typical_distance
-from shapeviz_report.site import write_site
-from shapeviz_report.site.joiner import join
+from shapeviz_report.writing import write_site
+from shapeviz_report.writing.joiner import join
 
 SIMILAR = Path(__file__).parent / "similar.js"
 

@@ -11,9 +11,9 @@ import pytest
 from reports import make_report, with_bin_search, with_scores, with_search
 
 from shapeviz_report.pages import PAGES
-from shapeviz_report.site import write_site
-from shapeviz_report.site.data_files import json_text
-from shapeviz_report.site.resources import site_folder, templates_folder
+from shapeviz_report.writing import write_site
+from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.resources import site_folder, templates_folder
 
 
 @cache

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from shapeviz_report.pages import PAGES
-from shapeviz_report.site.resources import site_folder
+from shapeviz_report.writing.resources import site_folder
 
 #: From the scripts that start a page down to what knows nothing of the site. Rooms of one layer do not meet.
 LAYERS = (

@@ -7,8 +7,8 @@ import re
 import pytest
 
 from shapeviz_report.pages import PAGES
-from shapeviz_report.site.assets import STYLES
-from shapeviz_report.site.resources import site_folder, templates_folder
+from shapeviz_report.writing.assets import STYLES
+from shapeviz_report.writing.resources import site_folder, templates_folder
 
 SHEETS = {path.name: path for path in (site_folder() / "styles").glob("*.css")}
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 import shapeviz_report
-from shapeviz_report import stages
+from shapeviz_report.building import stages
 from shapeviz_report.versions import find_function_closure
 
 SOURCE = Path(shapeviz_report.__file__).parent
@@ -47,11 +47,11 @@ def changed(tmp_path_factory) -> dict[str, list[str]]:
         """
         import json, sys
         from pathlib import Path
-        from shapeviz_report import stages
+        from shapeviz_report.building import stages
         from shapeviz_report.versions import function_version
 
         kept = {name: stage for name, stage in vars(stages).items() if isinstance(stage, stages.Stage)}
-        root = Path(stages.__file__).parent
+        root = Path(stages.__file__).parents[1]
         assert root.parent == Path(sys.argv[1])
         before = {name: stage.version for name, stage in kept.items()}
         changed = {}
@@ -100,12 +100,12 @@ def test_a_change_in_the_function_itself_changes_the_key(tmp_path) -> None:
     shutil.copytree(SOURCE, tmp_path / SOURCE.name, ignore=shutil.ignore_patterns("__pycache__", "_*s"))
     versions = """
         import json
-        from shapeviz_report import stages
+        from shapeviz_report.building import stages
         kept = {name: stage for name, stage in vars(stages).items() if isinstance(stage, stages.Stage)}
         print(json.dumps({name: stage.version for name, stage in kept.items()}))
     """
     before = run(tmp_path, versions)
-    file = tmp_path / SOURCE.name / "stages.py"
+    file = tmp_path / SOURCE.name / "building" / "stages.py"
     old = "score_separation(scorer, values, contests, seed=seed)"
     assert old in file.read_text()
     file.write_text(file.read_text().replace(old, old.replace("values", "values * 0")))
@@ -120,7 +120,7 @@ def test_what_runs_is_reached() -> None:
         import json, sys
         import numpy as np
         import trimesh
-        from shapeviz_report import stages
+        from shapeviz_report.building import stages
         from shapeviz_report.features import fixed_edges
         from shapeviz_report.search.bins import make_bin_space
         from shapeviz_report.features import PRESETS, FeatureTable, BLOCKS

@@ -79,7 +79,7 @@ def test_the_wheel_carries_its_licence_and_its_command(wheel: Path):
 def test_an_unpacked_wheel_finds_its_own_files(wheel: Path, tmp_path: Path):
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tmp_path)
-    code = "from shapeviz_report.site.resources import site_folder, templates_folder as t; print(site_folder(), t())"
+    code = "from shapeviz_report.writing.resources import site_folder, templates_folder as t; print(site_folder(), t())"
     result = subprocess.run(
         [sys.executable, "-c", code],
         cwd=tmp_path,

@@ -16,8 +16,8 @@ import shapeviz_report
 from shapeviz_report.cli import main
 from shapeviz_report.errors import ConfigError, MeshError, SiteError
 from shapeviz_report.features import PRESETS, scale
-from shapeviz_report.site import write_site
 from shapeviz_report.types import Report
+from shapeviz_report.writing import write_site
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ import pytest
 import shapeviz_report.cache
 from shapeviz_report.cache import Cache, default_root, make_key
 from shapeviz_report.errors import CacheError
-from shapeviz_report.writing import write_atomically
+from shapeviz_report.staging import write_atomically
 
 
 def test_an_entry_comes_back(tmp_path) -> None:
@@ -41,7 +41,7 @@ def test_a_writer_killed_half_way_leaves_the_old_content(tmp_path) -> None:
         """
         import os, signal, sys
         from pathlib import Path
-        from shapeviz_report.writing import write_atomically
+        from shapeviz_report.staging import write_atomically
         Path.replace = lambda *a: os.kill(os.getpid(), signal.SIGKILL)
         write_atomically(Path(sys.argv[1]), b"new" * 100000)
         """
@@ -189,7 +189,7 @@ def test_what_a_killed_writer_left_goes_with_the_next(tmp_path) -> None:
         """
         import os, signal, sys
         from pathlib import Path
-        from shapeviz_report.writing import write_atomically
+        from shapeviz_report.staging import write_atomically
         Path.replace = lambda *a: os.kill(os.getpid(), signal.SIGKILL)
         write_atomically(Path(sys.argv[1]), b"new" * 100000)
         """

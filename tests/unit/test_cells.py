@@ -12,13 +12,13 @@ from reports import make_report
 
 from shapeviz_report import __version__
 from shapeviz_report.bins import read_bins
+from shapeviz_report.building.query import _open_site
 from shapeviz_report.cells import read_cell, write_cell
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError
 from shapeviz_report.features import load_external
-from shapeviz_report.querying import _open_site
-from shapeviz_report.site.data_files import _csv, data_files
 from shapeviz_report.types import FeatureBlock
+from shapeviz_report.writing.data_files import _csv, data_files
 
 FORMULAS = [
     *("=1+1", "+A1", "-2+3+cmd|'!A0", "@SUM(1)", "\t=1", "\r=1", "\n=1"),
@@ -73,7 +73,7 @@ def test_a_query_reads_names_as_they_were(tmp_path, monkeypatch) -> None:
     (tmp_path / "data").mkdir()
     for name, content in data_files(report, __version__).items():
         (tmp_path / "data" / name).write_bytes(content)
-    monkeypatch.setattr("shapeviz_report.querying.BLOCKS", report.features.blocks)
+    monkeypatch.setattr("shapeviz_report.building.query.BLOCKS", report.features.blocks)
     site = _open_site(tmp_path)
     assert [shape["id"] for shape in site.shapes] == list(ids)
     assert {shape["class"] for shape in site.shapes} == {"=kind", "+other"}

@@ -5,9 +5,9 @@ over processes.
 """
 
 from shapeviz_report.search.bins.automatic import select_bins
+from shapeviz_report.search.bins.bin_space import BinSpace, encode, make_bin_space
 from shapeviz_report.search.bins.honest import affordable_deals, hold_out, shuffle_labels
 from shapeviz_report.search.bins.minimal import find_minimal_bins
-from shapeviz_report.search.bins.space import BinSpace, encode, make_bin_space
 
 __all__ = [
     "BinSpace",

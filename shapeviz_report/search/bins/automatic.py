@@ -9,7 +9,7 @@ import numpy as np
 
 from shapeviz_report.projections import turn_towards
 from shapeviz_report.quality import NEIGHBOURS, highest_hits
-from shapeviz_report.search.bins.space import (
+from shapeviz_report.search.bins.bin_space import (
     BinSpace,
     Codes,
     encode,

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from shapeviz_report.quality import NEIGHBOURS, TIE, highest_hits, hits_among
 from shapeviz_report.search.bins.automatic import LIMIT, select_bins
-from shapeviz_report.search.bins.space import BinSpace, Codes, encode, hits_of, hits_on, lay_out
+from shapeviz_report.search.bins.bin_space import BinSpace, Codes, encode, hits_of, hits_on, lay_out
 from shapeviz_report.types import FloatArray, HeldOutBins
 
 MAP_SEEDS = 5
@@ -50,7 +50,7 @@ def hold_out(
     labels : labels of all shapes of the table
     fold : int array
         The held-out shapes, as places in ``space.rows`` (:func:`shapeviz_report.search.certainty.deal_folds` of the
-        numbers that :func:`~shapeviz_report.search.bins.space.encode` gives); all labelled.
+        numbers that :func:`~shapeviz_report.search.bins.bin_space.encode` gives); all labelled.
     everything : (m, m) float array
         Squared distances of the space's shapes by all features: what is to be surpassed.
     k, limit, seed

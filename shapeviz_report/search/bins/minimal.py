@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from shapeviz_report.quality import NEIGHBOURS, highest_hits
-from shapeviz_report.search.bins.space import BinSpace, encode, hits_of_additions, hits_on, lay_out
+from shapeviz_report.search.bins.bin_space import BinSpace, encode, hits_of_additions, hits_on, lay_out
 from shapeviz_report.types import MinimalBins, MinimalSet
 
 LARGEST = 3

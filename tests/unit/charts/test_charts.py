@@ -199,7 +199,7 @@ def test_vendored_vega_is_what_its_readme_says_and_fits_altair():
     """Altair writes specifications for one version of Vega-Lite; the vendored one must be of that line."""
     import altair
 
-    from shapeviz_report.site.resources import site_folder
+    from shapeviz_report.writing.resources import site_folder
 
     vendored = (site_folder() / "vendor" / "vega.js").read_text(encoding="utf-8")
     assert vendored == vl_convert.javascript_bundle("window.vegaEmbed = vegaEmbed;")

@@ -7,8 +7,8 @@ import pytest
 from reports import make_report
 
 from shapeviz_report.pages.about import MOST_LISTED, AboutPage
-from shapeviz_report.site import write_site
 from shapeviz_report.types import Copy, Failure, Match
+from shapeviz_report.writing import write_site
 
 
 @pytest.fixture

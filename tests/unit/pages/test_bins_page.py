@@ -9,7 +9,7 @@ import pytest
 from reports import make_report, with_bin_search, with_bins, with_models, with_paintings
 
 from shapeviz_report.pages.bins import BinsPage, mean_over_folds
-from shapeviz_report.site import write_site
+from shapeviz_report.writing import write_site
 
 
 @pytest.fixture(scope="module")

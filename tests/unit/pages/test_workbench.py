@@ -13,9 +13,9 @@ from shapeviz_report.bins import explain_bins
 from shapeviz_report.features import PRESETS, compared_values
 from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.scorers import SCORERS
-from shapeviz_report.site import write_site
-from shapeviz_report.site.data_files import json_text
 from shapeviz_report.types import FeatureBlock, FeatureTable, Projection
+from shapeviz_report.writing import write_site
+from shapeviz_report.writing.data_files import json_text
 
 FEATURES = ("Gc", "Sc", "own one")
 

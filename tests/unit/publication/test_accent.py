@@ -6,7 +6,7 @@ import pytest
 
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.publication.accent import DARK_GROUND, LIGHT_GROUND, contrast, fit_accent
-from shapeviz_report.site.resources import site_folder
+from shapeviz_report.writing.resources import site_folder
 
 
 def test_contrast_is_that_of_the_guidelines():

@@ -8,8 +8,8 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
+from shapeviz_report.building.stages import prepare_shape, read_picture, render_shape
 from shapeviz_report.render.viewpoint import choose_view
-from shapeviz_report.stages import prepare_shape, read_picture, render_shape
 from shapeviz_report.types import Mesh
 
 Y_UP = np.eye(3)

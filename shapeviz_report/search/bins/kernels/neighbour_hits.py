@@ -27,7 +27,7 @@ def hits_with_each(
 
     Neighbours that tie for the last places share them equally, as in :mod:`shapeviz_report.quality`. Distances tie if
     they are equal to the bit: columns lie on a grid on which sums are exact
-    (:class:`shapeviz_report.search.bins.space.BinSpace`).
+    (:class:`shapeviz_report.search.bins.bin_space.BinSpace`).
 
     Parameters
     ----------

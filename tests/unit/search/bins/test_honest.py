@@ -10,8 +10,8 @@ import pytest
 from shapeviz_report.features import PRESETS, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.search.bins import encode, hold_out, shuffle_labels
+from shapeviz_report.search.bins.bin_space import hits_on, lay_out
 from shapeviz_report.search.bins.honest import MAP_SEEDS, affordable_deals, recognise
-from shapeviz_report.search.bins.space import hits_on, lay_out
 from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.types import HeldOutBins
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from shapeviz_report.errors import SiteError
 from shapeviz_report.places import explain, holds, is_mount_point, refuse_no_path, tried
-from shapeviz_report.site.record import (
+from shapeviz_report.writing.record import (
     FOLDERS,
     find_own,
     is_changed,
@@ -18,7 +18,7 @@ from shapeviz_report.site.record import (
     list_entries,
     may_be_written,
 )
-from shapeviz_report.site.swap import mend
+from shapeviz_report.writing.swap import mend
 
 
 def check_destination(

@@ -13,9 +13,9 @@ from reports import NASTY_LABELS, make_report, picture, with_models
 
 from shapeviz_report.errors import SiteError
 from shapeviz_report.pages import PAGES
-from shapeviz_report.site import check_destination, write_site
-from shapeviz_report.site.single_file import Inline, split_large
 from shapeviz_report.types import Painting
+from shapeviz_report.writing import check_destination, write_site
+from shapeviz_report.writing.single_file import Inline, split_large
 
 
 @pytest.fixture(scope="module")

@@ -12,10 +12,10 @@ from PIL import Image
 from reports import NASTY_LABELS, make_report
 
 from shapeviz_report.pages import PAGES
-from shapeviz_report.site import write_site
-from shapeviz_report.site.markdown import first_paragraph, render_markdown
-from shapeviz_report.site.preview import draw_preview
 from shapeviz_report.types import Accent, Licence, Logo, Projection, Publication
+from shapeviz_report.writing import write_site
+from shapeviz_report.writing.markdown import first_paragraph, render_markdown
+from shapeviz_report.writing.preview import draw_preview
 
 URL = "https://example.org/shapes/"
 LICENCE = Licence("CC BY 4.0: Attribution", "https://creativecommons.org/licenses/by/4.0/")

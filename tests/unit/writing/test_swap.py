@@ -9,12 +9,12 @@ import time
 
 import pytest
 
-from shapeviz_report.site.swap import replaced_folder
+from shapeviz_report.writing.swap import replaced_folder
 
 WRITER = """
 import sys, time
 from pathlib import Path
-from shapeviz_report.site.swap import replaced_folder
+from shapeviz_report.writing.swap import replaced_folder
 with replaced_folder(Path(sys.argv[1]), lambda folder: set()) as folder:
     (folder / "new").write_text("half")
     print(folder, flush=True)

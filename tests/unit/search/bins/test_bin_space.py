@@ -10,7 +10,7 @@ from shapeviz_report.features import PRESETS
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.quality import score
 from shapeviz_report.search.bins import encode, make_bin_space
-from shapeviz_report.search.bins.space import hits_of, hits_of_additions
+from shapeviz_report.search.bins.bin_space import hits_of, hits_of_additions
 from shapeviz_report.types import FeatureBlock, FeatureTable
 
 

@@ -17,8 +17,8 @@ from collections.abc import Callable, Iterator, Set
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from shapeviz_report.site.record import FOLDERS, RECORD, SUMMARY, list_entries
-from shapeviz_report.writing import created, hidden_prefix, leftovers, new_path
+from shapeviz_report.staging import created, hidden_prefix, leftovers, new_path
+from shapeviz_report.writing.record import FOLDERS, RECORD, SUMMARY, list_entries
 
 logger = logging.getLogger(__name__)
 
@@ -27,7 +27,7 @@ _RENAME_EXCHANGE = 2
 _WRITING, _PLACING = "writing", "placing"
 
 FindOwn = Callable[[Path], Set[str]]
-"""Says which entries of a folder may be removed; see :func:`~shapeviz_report.site.record.find_own`."""
+"""Says which entries of a folder may be removed; see :func:`~shapeviz_report.writing.record.find_own`."""
 
 
 @contextmanager

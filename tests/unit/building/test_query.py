@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from reports import make_report
 
+from shapeviz_report.building.query import find_similar
 from shapeviz_report.errors import CacheError, SiteError
-from shapeviz_report.querying import find_similar
-from shapeviz_report.site import write_site
+from shapeviz_report.writing import write_site
 
 
 @pytest.fixture(scope="module")

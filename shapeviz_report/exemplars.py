@@ -72,7 +72,7 @@ def _mean_distances(xy: FloatArray, means: FloatArray) -> FloatArray:
     return total
 
 
-def choose_contrasts(
+def choose_exemplars(
     found: BinSearch,
     table: FeatureTable,
     labels: Sequence[str | None],

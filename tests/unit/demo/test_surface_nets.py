@@ -30,7 +30,7 @@ from shapeviz_report.demo.solids import (
     turn,
     unite,
 )
-from shapeviz_report.demo.surface import MOST_FACES, _compose_well, _crossings, _distances, mesh_solid
+from shapeviz_report.demo.surface_nets import MOST_FACES, _compose_well, _crossings, _distances, mesh_solid
 from shapeviz_report.types import IntArray, Mesh
 
 

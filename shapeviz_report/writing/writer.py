@@ -15,15 +15,23 @@ from shapeviz_report.errors import SiteError
 from shapeviz_report.pages.bins import model_name, painting_name
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.places import explain
-from shapeviz_report.site import preview
-from shapeviz_report.site.assets import chunk_script, collect_assets, join_scripts, join_styles, pack_chunks
-from shapeviz_report.site.consistency import check_report
-from shapeviz_report.site.data_files import data_files
-from shapeviz_report.site.destination import check_destination
-from shapeviz_report.site.joiner import join
-from shapeviz_report.site.linked_data import catalogue, describe
-from shapeviz_report.site.record import RECORD, find_own, record_text, sealed
-from shapeviz_report.site.rendering import (
+from shapeviz_report.staging import write_atomically
+from shapeviz_report.types import Report
+from shapeviz_report.writing import preview
+from shapeviz_report.writing.assets import (
+    chunk_script,
+    collect_assets,
+    join_scripts,
+    join_styles,
+    pack_chunks,
+)
+from shapeviz_report.writing.consistency import check_report
+from shapeviz_report.writing.data_files import data_files
+from shapeviz_report.writing.destination import check_destination
+from shapeviz_report.writing.joiner import join
+from shapeviz_report.writing.linked_data import catalogue, describe
+from shapeviz_report.writing.record import RECORD, find_own, record_text, sealed
+from shapeviz_report.writing.rendering import (
     CONTENT_SECURITY_POLICY,
     compute_contents,
     describe_site,
@@ -31,8 +39,8 @@ from shapeviz_report.site.rendering import (
     make_environment,
     render_pages,
 )
-from shapeviz_report.site.resources import site_folder
-from shapeviz_report.site.single_file import (
+from shapeviz_report.writing.resources import site_folder
+from shapeviz_report.writing.single_file import (
     Inline,
     base64_text,
     data_address,
@@ -40,9 +48,7 @@ from shapeviz_report.site.single_file import (
     media_type,
     split_large,
 )
-from shapeviz_report.site.swap import replaced_folder
-from shapeviz_report.types import Report
-from shapeviz_report.writing import write_atomically
+from shapeviz_report.writing.swap import replaced_folder
 
 #: Data of more bytes than this is left out of a site in one file; the About page says so.
 MOST_EMBEDDED = 2_000_000

@@ -11,9 +11,9 @@ import pytest
 from reports import make_report, with_bin_search, with_models, with_paintings, with_scores
 
 from shapeviz_report.errors import SiteError
-from shapeviz_report.site import check_destination, swap, write_site
-from shapeviz_report.site.record import RECORD, find_own, may_be_written, record_text
-from shapeviz_report.site.swap import replaced_folder
+from shapeviz_report.writing import check_destination, swap, write_site
+from shapeviz_report.writing.record import RECORD, find_own, may_be_written, record_text
+from shapeviz_report.writing.swap import replaced_folder
 
 
 def whole_report():

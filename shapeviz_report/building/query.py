@@ -21,8 +21,9 @@ from typing import Any
 
 import numpy as np
 
-from shapeviz_report import __version__, stages
+from shapeviz_report import __version__
 from shapeviz_report.bins import read_bins
+from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Progress, QuietProgress
 from shapeviz_report.cache import Cache
@@ -34,8 +35,8 @@ from shapeviz_report.features import BLOCKS, PRESETS, Preset
 from shapeviz_report.files import read_regular
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.similarity import rank_similar, typical_distance
-from shapeviz_report.site.data_files import GENERATOR
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, ShapeFacts
+from shapeviz_report.writing.data_files import GENERATOR
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from reports import make_report, with_clusters, with_scores, with_search
 
 from shapeviz_report.pages import PAGES
 from shapeviz_report.pages.base import clusters_chunk
-from shapeviz_report.site import write_site
+from shapeviz_report.writing import write_site
 
 NOTICE = '<p class="stand-in" role="note">'
 

@@ -9,8 +9,8 @@ import pytest
 from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_scores, with_search
 
 from shapeviz_report.bins import read_bins
-from shapeviz_report.site.data_files import data_files, json_text, summary
 from shapeviz_report.types import Failure
+from shapeviz_report.writing.data_files import data_files, json_text, summary
 
 
 @pytest.fixture

@@ -10,12 +10,12 @@ from markupsafe import Markup
 
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
-from shapeviz_report.site import preview
-from shapeviz_report.site.data_files import json_text
-from shapeviz_report.site.linked_data import dataset, describe
-from shapeviz_report.site.markdown import first_paragraph, render_markdown
-from shapeviz_report.site.resources import templates_folder
 from shapeviz_report.types import Report
+from shapeviz_report.writing import preview
+from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.linked_data import dataset, describe
+from shapeviz_report.writing.markdown import first_paragraph, render_markdown
+from shapeviz_report.writing.resources import templates_folder
 
 #: Nothing but the site's own files. ``file:`` stands beside ``'self'`` because a page opened by double-click has no
 #: origin that ``'self'`` could mean. Trusted Types, where a browser knows them, make it impossible that a script

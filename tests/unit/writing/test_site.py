@@ -15,8 +15,8 @@ from reports import NASTY_LABELS, make_report, with_bin_search, with_models, wit
 
 from shapeviz_report.errors import SiteError
 from shapeviz_report.pages.workbench import WorkbenchPage
-from shapeviz_report.site import check_destination, write_site
 from shapeviz_report.types import Failure, Projection
+from shapeviz_report.writing import check_destination, write_site
 
 
 def contents(folder) -> dict[str, bytes]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from shapeviz_report.site.joiner import join, join_pages
+from shapeviz_report.writing.joiner import join, join_pages
 
 
 @pytest.fixture

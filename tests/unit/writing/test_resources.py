@@ -2,7 +2,7 @@
 
 import pytest
 
-from shapeviz_report.site import resources
+from shapeviz_report.writing import resources
 
 
 @pytest.mark.parametrize(("site", "templates"), [("pkg/_site", "pkg/_templates"), ("site", "templates")])

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from reports import make_report, with_bin_search
 
-from shapeviz_report.contrasts import choose_contrasts, find_centres, find_rivals
+from shapeviz_report.exemplars import choose_exemplars, find_centres, find_rivals
 
 LABELS = ["ant"] * 6 + ["bird"] * 6 + ["cup"] * 6 + [None]
 
@@ -44,19 +44,19 @@ def test_every_bin_found_is_seen_where_it_tells_classes_apart() -> None:
     report = with_bin_search(make_report(features=("Gc", "Sc", "Nd")))
     table, labels = report.features, np.array(report.labels)
     xy = report.projections["tsne"][0].xy
-    contrasts = choose_contrasts(report.bins, table, report.labels, table.values, xy, 10)
+    exemplars = choose_exemplars(report.bins, table, report.labels, table.values, xy, 10)
     centres, rivals = find_centres(table.values, report.labels), find_rivals(xy, report.labels, 10)
     for separated in report.bins.minimal:
         for column in separated.sets[0].bins:
-            assert {centres[separated.label], centres[rivals[separated.label]]} <= set(contrasts[column])
+            assert {centres[separated.label], centres[rivals[separated.label]]} <= set(exemplars[column])
     for column in report.bins.automatic.bins:
         amounts = table.values[:, table.columns.index(column)]
         means = {name: amounts[labels == name].mean() for name in centres}
         ranked = sorted(means, key=means.get)
-        assert {centres[ranked[0]], centres[ranked[-1]]} <= set(contrasts[column])
+        assert {centres[ranked[0]], centres[ranked[-1]]} <= set(exemplars[column])
     found = {c for m in report.bins.minimal for s in m.sets for c in s.bins} | set(report.bins.automatic.bins)
-    assert set(contrasts) == found
-    assert list(contrasts) == sorted(found, key=table.columns.index)
+    assert set(exemplars) == found
+    assert list(exemplars) == sorted(found, key=table.columns.index)
 
 
 def test_external_features_have_no_surface_to_be_seen_on() -> None:
@@ -72,4 +72,4 @@ def test_external_features_have_no_surface_to_be_seen_on() -> None:
     path = (replace(path[-1], bins=tuple(names[b] for b in path[-1].bins)),)
     found = replace(report.bins, minimal=minimal, automatic=replace(report.bins.automatic, path=path))
     xy = report.projections["tsne"][0].xy
-    assert choose_contrasts(found, plain, report.labels, plain.values, xy, 10) == {}
+    assert choose_exemplars(found, plain, report.labels, plain.values, xy, 10) == {}

@@ -19,12 +19,6 @@ from shapeviz_report.cells import write_cell
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.quality import hit_range, share_of_range
 from shapeviz_report.search.certainty import measure_distinct_gain, measure_gain
-from shapeviz_report.site.retrieval_data import (
-    named_scores,
-    retrieval_class_rows,
-    retrieval_rows,
-    retrieval_summary,
-)
 from shapeviz_report.types import (
     BinSearch,
     BinSelection,
@@ -36,6 +30,12 @@ from shapeviz_report.types import (
     HitRange,
     Report,
     WithoutCopies,
+)
+from shapeviz_report.writing.retrieval_data import (
+    named_scores,
+    retrieval_class_rows,
+    retrieval_rows,
+    retrieval_summary,
 )
 
 #: Tells a folder that this package wrote from one that it must not replace.

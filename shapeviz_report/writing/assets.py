@@ -8,10 +8,10 @@ import json
 from collections.abc import Sequence
 
 from shapeviz_report.pages import PAGES, Page, PageContent
-from shapeviz_report.site.data_files import json_text
-from shapeviz_report.site.joiner import join, join_pages
-from shapeviz_report.site.resources import site_folder
 from shapeviz_report.types import Accent, Report
+from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.joiner import join, join_pages
+from shapeviz_report.writing.resources import site_folder
 
 #: The style sheets that make up the site's one, in their order.
 STYLES = (

@@ -1,6 +1,0 @@
-"""From a report to a site: a folder of files, or one file."""
-
-from shapeviz_report.site.destination import check_destination
-from shapeviz_report.site.writer import write_site
-
-__all__ = ["check_destination", "write_site"]
