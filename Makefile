@@ -86,8 +86,8 @@ drawing-library:
 
 .PHONY: browser
 browser:
-	@command -v chromium >/dev/null || command -v chromium-browser >/dev/null || command -v google-chrome >/dev/null || \
-	  $(call apt_install,chromium)
+	@for name in chromium-headless-shell chromium chromium-browser google-chrome; do \
+	  command -v $$name >/dev/null && exit 0; done; $(call apt_install,chromium-headless-shell)
 
 # Install a Debian package. As a user without sudo, say what to ask for.
 define apt_install
