@@ -29,6 +29,10 @@ format: $(INSTALLED) $(SCRIPT_TOOLS) ## put files in form
 	$(BIN)/ruff format .
 	PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent format
 
+.PHONY: chunks
+chunks: $(INSTALLED) ## tell the scripts the types of the site's data, after a change of pages/chunks.py
+	$(BIN)/python tests/chunk_types.py
+
 .PHONY: style
 style: drawing-library $(INSTALLED) $(SCRIPT_TOOLS)
 	$(BIN)/ruff check .

@@ -10,6 +10,7 @@ some readers confuse never share a symbol, and a hundred classes keep a pair of 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 #: Up to this many classes, circles of different colour suffice.
 PLAIN_CLASSES = 8
@@ -43,14 +44,16 @@ _MARKS = tuple(
 )
 
 
+ThemeName = Literal["light", "dark"]
+
+
 @dataclass(frozen=True)
 class Theme:
     """Colours of one theme, as ``#rrggbb``.
 
     Attributes
     ----------
-    name : str
-        ``light`` or ``dark``.
+    name : ThemeName
     ground : str
         What marks lie on.
     ink : str
@@ -70,7 +73,7 @@ class Theme:
         Lines behind marks.
     """
 
-    name: str
+    name: ThemeName
     ground: str
     ink: str
     unlabelled: str

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from shapeviz_report import charts
 from shapeviz_report.order import classes_of
+from shapeviz_report.pages.chunks import Chunks, Clusters, FeatureMarks, ThemeName
 from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.search.certainty import measure_distinct_gain
 from shapeviz_report.types import FloatArray, HeldOutBins, HeldOutFold, Projection, Report
@@ -30,13 +31,12 @@ class PageContent:
     ----------
     context : mapping of str to object
         What the page's template may use, beside what the site gives every template.
-    chunks : mapping of str to JSON value or bytes
-        Data that the page's scripts load, by name; bytes become an ``ArrayBuffer``. Two pages may share a chunk when
-        they agree on its content.
+    chunks : Chunks
+        Data that the page's scripts load, by name. Two pages may share a chunk when they agree on its content.
     """
 
     context: Mapping[str, object]
-    chunks: Mapping[str, object] = field(default_factory=dict)
+    chunks: Chunks = field(default_factory=Chunks)
 
 
 def distinct_means(folds: Sequence[HeldOutFold | HeldOutBins]) -> dict[str, object] | None:
@@ -86,7 +86,7 @@ def class_names(report: Report) -> tuple[str, ...]:
     return classes_of(report.labels)
 
 
-def clusters_chunk(report: Report) -> dict[str, object] | None:
+def clusters_chunk(report: Report) -> Clusters | None:
     """The chunk "clusters": the groups that the features alone make; None where there are too few shapes."""
     found = report.clusters
     if found is None:
@@ -116,7 +116,7 @@ def bins_note(projection: Projection) -> str:
     return f" Only {count} of {', '.join(projection.features)} are compared."
 
 
-def feature_marks() -> dict[str, object]:
+def feature_marks() -> dict[ThemeName, FeatureMarks]:
     """The colours of features and of bars for each theme."""
     return {theme.name: {"features": list(theme.features), "bar": theme.bar} for theme in charts.THEMES}
 

@@ -19,6 +19,7 @@ from shapeviz_report.pages.base import (
     distinct_means,
     rounded,
 )
+from shapeviz_report.pages.chunks import BinSet, Dimension, Fold, FoundBins, PathStep, Selection
 from shapeviz_report.quality import hit_range
 from shapeviz_report.render import CLAY, MARKED, ramp_codes
 from shapeviz_report.search.certainty import measure_gain
@@ -58,12 +59,15 @@ def model_name(model: bytes) -> str:
     return sha256(model).hexdigest()[:20]
 
 
-def _selection(report: Report) -> dict[str, object]:
+def _selection(report: Report) -> Selection:
     """What the search for bins found, as far as there is one, and what the views of shapes need. No times: they differ
     from build to build."""
     place = {column: index for index, column in enumerate(report.features.columns)}
+    found: FoundBins = (
+        {"minimal": [], "path": []} if report.bins is None else _found(report, report.bins, place)
+    )
     return {
-        **({"minimal": [], "path": []} if report.bins is None else _found(report, report.bins, place)),
+        **found,
         "coordinateSteps": COORDINATE_STEPS,
         "dimensions": _dimensions(report),
         "paintings": [
@@ -82,10 +86,10 @@ def _selection(report: Report) -> dict[str, object]:
     }
 
 
-def _dimensions(report: Report) -> list[dict[str, object]]:
+def _dimensions(report: Report) -> list[Dimension]:
     """What each dimension of the descriptors measures, and between which values its bins lie; percentages as such."""
     descriptors = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
-    dimensions: list[dict[str, object]] = []
+    dimensions: list[Dimension] = []
     for block in report.features.blocks:
         descriptor = descriptors.get(block.name)
         for dimension in range(block.dimensions if block.bins > 1 else 0):
@@ -101,7 +105,7 @@ def _dimensions(report: Report) -> list[dict[str, object]]:
     return dimensions
 
 
-def _found(report: Report, found: BinSearch, place: dict[str, int]) -> dict[str, object]:
+def _found(report: Report, found: BinSearch, place: dict[str, int]) -> FoundBins:
     automatic = found.automatic
     number = {name: index for index, name in enumerate(class_names(report))}
     projection, hits = next(iter(report.projections.values()))
@@ -136,27 +140,31 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> dict[str,
     }
 
 
-def _set(chosen: MinimalSet, place: dict[str, int]) -> dict[str, object]:
+def _set(chosen: MinimalSet, place: dict[str, int]) -> BinSet:
+    x, y = coordinate_steps(chosen.xy).T.tolist()
     return {
         "bins": [place[name] for name in chosen.bins],
         "nhSpace": round(chosen.nh_c_space, SCORE_DECIMALS),
         "nh": round(chosen.nh_c, SCORE_DECIMALS),
-        **_points(chosen.xy),
+        "x": x,
+        "y": y,
     }
 
 
-def _step(step: BinStep, place: dict[str, int]) -> dict[str, object]:
+def _step(step: BinStep, place: dict[str, int]) -> PathStep:
+    x, y = coordinate_steps(step.xy).T.tolist()
     return {
         "bins": [place[name] for name in step.bins],
         "added": [place[name] for name in step.added],
         "removed": [place[name] for name in step.removed],
         "nhSpace": round(step.nh_space, SCORE_DECIMALS),
         "nh": round(step.nh_s, SCORE_DECIMALS),
-        **_points(step.xy),
+        "x": x,
+        "y": y,
     }
 
 
-def _fold(fold: HeldOutBins, place: dict[str, int]) -> dict[str, object]:
+def _fold(fold: HeldOutBins, place: dict[str, int]) -> Fold:
     return {
         "bins": [place[name] for name in fold.bins],
         "shapes": fold.shapes,
@@ -167,11 +175,6 @@ def _fold(fold: HeldOutBins, place: dict[str, int]) -> dict[str, object]:
         "recognised": round(fold.knn_accuracy, SCORE_DECIMALS),
         "recognisedAll": round(fold.knn_accuracy_all, SCORE_DECIMALS),
     }
-
-
-def _points(xy: np.ndarray) -> dict[str, object]:
-    x, y = coordinate_steps(xy).T.tolist()
-    return {"x": x, "y": y}
 
 
 def _all_features(report: Report, found: BinSearch) -> float:

@@ -9,6 +9,7 @@ from shapeviz_report.bins import scale_bins, word_conditions, word_side, word_wh
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
 from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
+from shapeviz_report.pages.chunks import Comparison, Sides
 from shapeviz_report.similarity import feature_weight
 from shapeviz_report.types import FloatArray, Report
 
@@ -72,7 +73,7 @@ def _space(bins: tuple[str, ...] | None) -> str:
 
 def _compare(
     report: Report, points: FloatArray, codes: npt.NDArray[np.int_], k: int, spaces: list[str]
-) -> dict[str, object]:
+) -> Comparison:
     """How well shapes fit their classes, in which order classes stand, and what a comparison needs beside the bins."""
     preset = PRESETS[str(report.parameters["preset"])]
     compared = compared_values(report.features, preset)
@@ -95,9 +96,9 @@ def _compare(
     }
 
 
-def _sides(report: Report) -> list[dict[str, list[str]] | None]:
+def _sides(report: Report) -> list[Sides | None]:
     """For each feature with one histogram, what lies below and above each inner edge; None for the others."""
-    sides: list[dict[str, list[str]] | None] = []
+    sides: list[Sides | None] = []
     row = 0
     for block in report.features.blocks:
         if block.bins == 1 or block.dimensions > 1:

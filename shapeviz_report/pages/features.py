@@ -20,6 +20,7 @@ from shapeviz_report.pages.base import (
     feature_marks,
     rounded,
 )
+from shapeviz_report.pages.chunks import Box, Chunks, Search, SubsetMaps
 from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
 from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, HitRange, Report, SeedSpread
@@ -44,7 +45,7 @@ class FeaturesPage:
 
     def content(self, report: Report) -> PageContent:
         context: dict[str, object] = {"search": None, "retrieval": None}
-        chunks: dict[str, object] = {}
+        chunks: Chunks = {}
         if report.retrieval is not None:
             context["retrieval"] = retrieval_context(report, report.retrieval)
             chunks["retrieval"] = retrieval_chunk(report, report.retrieval)
@@ -83,7 +84,7 @@ class Ranking:
         return self.codes.index("".join("1" if name in features else "0" for name in search.features))
 
 
-def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
+def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
     """All but the maps. No times: they differ from build to build."""
     number = {name: index for index, name in enumerate(class_names(report))}
     rows = list(ranking.order)
@@ -144,7 +145,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[str
     }
 
 
-def _maps(search: FeatureSearch, ranking: Ranking) -> dict[str, object]:
+def _maps(search: FeatureSearch, ranking: Ranking) -> SubsetMaps:
     """The maps and the hits on them in whole numbers: the largest part of the site, loaded when one is wanted."""
     rows = list(ranking.order)
     steps = coordinate_steps(search.subsets.xy[rows])
@@ -171,13 +172,16 @@ def _by_effect(search: FeatureSearch) -> list[int]:
     return sorted(range(len(search.features)), key=lambda index: -weight(index))
 
 
-def _boxes(nh_c: FloatArray) -> list[dict[str, float | None]]:
+def _boxes(nh_c: FloatArray) -> list[Box]:
     """The spread of NH_c over all subsets, a box a class."""
     if np.isnan(nh_c).any():
         return []
     parts = np.quantile(nh_c, [0, 0.25, 0.5, 0.75, 1], axis=0)
-    names = ("least", "lower", "median", "upper", "most")
-    return [dict(zip(names, rounded(column, SCORE_DECIMALS))) for column in parts.T]
+    boxes: list[Box] = []
+    for column in parts.T:
+        least, lower, median, upper, most = rounded(column, SCORE_DECIMALS)
+        boxes.append({"least": least, "lower": lower, "median": median, "upper": upper, "most": most})
+    return boxes
 
 
 def _range(report: Report, search: FeatureSearch) -> HitRange:

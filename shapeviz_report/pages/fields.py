@@ -7,9 +7,10 @@ import re
 from collections import Counter
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from typing import Any, TypedDict
+from typing import Any
 
 from shapeviz_report.order import natural
+from shapeviz_report.pages.chunks import Field
 from shapeviz_report.types import Clusters, Report, ShapeFacts
 
 #: Most values of a column that still says what kind of shape one is; beyond, it names them, and is only searched.
@@ -40,39 +41,6 @@ _FACTS: tuple[tuple[str, str, str, Callable[[ShapeFacts], float | None]], ...] =
 )
 
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
-
-
-class Field(TypedDict):
-    """What shapes can be grouped, filtered or sorted by.
-
-    Attributes
-    ----------
-    key : str
-        Names the field in an address.
-    title, unit : str
-    active : bool
-        Whether it is the active labeling.
-    names : list of str, or None
-        The values in their order; None for a field that has no few values.
-    of : list of int, or None
-        The number of each shape's value, -1 without one; None as with ``names``.
-    notes : list of str, or None
-        A sentence on each of the values.
-    numbers : list of float or None, or None
-        The number of each shape, None without one; None for a field that is no number.
-    edges : list of float, or None
-        Of intervals, which rise and hold all numbers; None also for a field of a few numbers.
-    """
-
-    key: str
-    title: str
-    unit: str
-    active: bool
-    names: list[str] | None
-    of: list[int] | None
-    notes: list[str] | None
-    numbers: list[float | None] | None
-    edges: list[float] | None
 
 
 def describe_fields(report: Report) -> list[Field]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from shapeviz_report.order import natural
-from shapeviz_report.pages.fields import Field
+from shapeviz_report.pages.chunks import Field, Hierarchy, Tree, TreeNode
 from shapeviz_report.types import Report
 
 #: What stands between a class and its parent in a value that names both.
@@ -21,7 +21,7 @@ FEWEST_SHAPES_A_FOLDER = 2
 Chain = tuple[str, ...] | None
 
 
-def describe_hierarchy(report: Report, fields: Sequence[Field]) -> dict[str, object]:
+def describe_hierarchy(report: Report, fields: Sequence[Field]) -> Hierarchy:
     """The trees of a database: its active classes, with all above them, and whatever else is ordered in levels.
 
     Parameters
@@ -33,17 +33,15 @@ def describe_hierarchy(report: Report, fields: Sequence[Field]) -> dict[str, obj
 
     Returns
     -------
-    dict
-        ``trees``, each with a ``key`` (that of the field it is of, or ``folders``), a ``title``, whether it is of the
-        ``active`` labeling, ``nodes`` with the ``name`` and the number of the ``parent`` (-1 at the top), each after
-        its parent, siblings in natural order, and ``of``, the node of every shape, -1 without one.
+    Hierarchy
     """
-    trees: list[dict[str, object]] = []
+    trees: list[Tree] = []
     known: list[list[Chain]] = []
 
     def add(key: str, title: str, chains: list[Chain], *, active: bool = False) -> None:
         known.append(chains)
-        trees.append({"key": key, "title": title, "active": active, **_tree(chains)})
+        nodes, of = _tree(chains)
+        trees.append({"key": key, "title": title, "active": active, "nodes": nodes, "of": of})
 
     for field in fields:
         chains = _chains(report, field)
@@ -120,11 +118,12 @@ def _is_level(chains: Sequence[Chain], finer: Sequence[Chain]) -> bool:
     return same and max(len(chain) for chain, _ in pairs) <= max(len(fine) for _, fine in pairs)
 
 
-def _tree(chains: Sequence[Chain]) -> dict[str, object]:
+def _tree(chains: Sequence[Chain]) -> tuple[list[TreeNode], list[int]]:
+    """The nodes of a tree, and the number of each shape's."""
     paths = {chain[:depth] for chain in chains if chain for depth in range(1, len(chain) + 1)}
     ordered = sorted(paths, key=lambda path: [natural(name) for name in path])
     number = {path: index for index, path in enumerate(ordered)}
-    return {
-        "nodes": [{"name": path[-1], "parent": number.get(path[:-1], -1)} for path in ordered],
-        "of": [-1 if not chain else number[chain] for chain in chains],
-    }
+    return (
+        [{"name": path[-1], "parent": number.get(path[:-1], -1)} for path in ordered],
+        [-1 if not chain else number[chain] for chain in chains],
+    )

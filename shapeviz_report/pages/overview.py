@@ -15,6 +15,7 @@ from shapeviz_report.pages.base import (
     clusters_chunk,
     rounded,
 )
+from shapeviz_report.pages.chunks import Details, Marks, Method, ShapeList, SubsetChoice
 from shapeviz_report.types import Projection, Quality, Report, WithoutCopies, copies_of
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
@@ -73,7 +74,7 @@ def thumbnail_name(thumbnail: bytes) -> str:
     return sha256(thumbnail).hexdigest()[:20] + ".webp"
 
 
-def _shapes(report: Report, classes: tuple[str, ...]) -> dict[str, object]:
+def _shapes(report: Report, classes: tuple[str, ...]) -> ShapeList:
     number = {name: index for index, name in enumerate(classes)}
     return {
         "ids": [shape.id for shape in report.shapes],
@@ -85,7 +86,7 @@ def _shapes(report: Report, classes: tuple[str, ...]) -> dict[str, object]:
 
 def _method(
     projection: Projection, quality: Quality, classes: tuple[str, ...], without_copies: WithoutCopies | None
-) -> dict[str, object]:
+) -> Method:
     """One projection with its quality; missing values are None."""
     return {
         "key": projection.method,
@@ -112,7 +113,7 @@ def _method(
     }
 
 
-def _subsets(report: Report) -> dict[str, object] | None:
+def _subsets(report: Report) -> SubsetChoice | None:
     """Whose maps the page can show beside those of all features or of chosen bins; None if there was no search, or of a
     sample only."""
     search = report.search
@@ -132,7 +133,7 @@ def _subsets(report: Report) -> dict[str, object] | None:
     }
 
 
-def _marks(class_count: int) -> dict[str, object]:
+def _marks(class_count: int) -> Marks:
     """Colours and symbols, for what the page draws beside the charts; and the charts' configuration by theme."""
     return {
         "symbols": [charts.SYMBOLS[index] for index in charts.class_symbol_indices(class_count)],
@@ -151,7 +152,7 @@ def _marks(class_count: int) -> dict[str, object]:
     }
 
 
-def _details(report: Report) -> dict[str, object]:
+def _details(report: Report) -> Details:
     """What is known of every shape beyond its place: loaded when a reader opens one, or searches."""
     row = {shape.id: index for index, shape in enumerate(report.shapes)}
     name = [shape.name for shape in report.shapes]
@@ -161,12 +162,12 @@ def _details(report: Report) -> dict[str, object]:
             {
                 "labels": [shape.labels.get(labeling) for labeling in report.database.labelings],
                 # Pairs, because a column may have any name, "__proto__" included.
-                "metadata": [[key, value] for key, value in shape.metadata.items()],
+                "metadata": list(shape.metadata.items()),
                 "copies": [
-                    [row[other], f"by way of {name[row[found]]}" if isinstance(found, str) else found.words]
+                    (row[other], f"by way of {name[row[found]]}" if isinstance(found, str) else found.words)
                     for other, found in copies_of(report.copies, shape.id)
                 ],
-                "repairs": [[repair, count] for repair, count in facts.repairs.items()],
+                "repairs": list(facts.repairs.items()),
                 "faces": facts.faces,
                 "vertices": facts.vertices,
                 "facesRead": facts.faces_read,

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from shapeviz_report import charts
+from shapeviz_report.pages import chunks
 from shapeviz_report.pages.base import class_names, feature_marks
 from shapeviz_report.retrieval import MEASURES, RECALL_LEVELS, best_subset, highest_e_measures
 from shapeviz_report.types import FloatArray, Rating, Report, Retrieval
@@ -53,7 +56,7 @@ def _without_copies(report: Report) -> dict[str, object] | None:
     return {"copies": found.copies, "nearest": nearest, "average": average}
 
 
-def retrieval_chunk(report: Report, retrieval: Retrieval) -> dict[str, object]:
+def retrieval_chunk(report: Report, retrieval: Retrieval) -> chunks.Retrieval:
     """Everything that was rated, for the page's chart and tables."""
     number = {name: index for index, name in enumerate(class_names(report))}
     singles = [retrieval.subsets[retrieval.place((name,))] for name in retrieval.features]
@@ -78,7 +81,7 @@ def retrieval_chunk(report: Report, retrieval: Retrieval) -> dict[str, object]:
     }
 
 
-def _rated(retrieval: Retrieval, rating: Rating) -> dict[str, object]:
+def _rated(retrieval: Retrieval, rating: Rating) -> chunks.Rated:
     """The scores and the curve on average over shapes and over classes, and the scores of each class."""
     return {
         "shapes": _steps(retrieval.over_shapes(rating.scores)),
@@ -89,5 +92,5 @@ def _rated(retrieval: Retrieval, rating: Rating) -> dict[str, object]:
     }
 
 
-def _steps(values: FloatArray) -> list[object]:
+def _steps(values: FloatArray) -> list[Any]:
     return np.round(values * RATING_STEPS).astype(int).tolist()

@@ -9,6 +9,7 @@ from shapeviz_report.bins import explain_bins
 from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.features import PRESETS, Preset, compared_values
 from shapeviz_report.pages.base import PageContent, class_names, feature_marks
+from shapeviz_report.pages.chunks import Chunks, Feature, FeatureWords, MixedClasses, Scorer, Workbench
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import FeatureBlock, FloatArray, Report
 
@@ -30,7 +31,7 @@ class WorkbenchPage:
         classes = class_names(report)
         preset = PRESETS[str(report.parameters["preset"])]
         compared = compared_values(report.features, preset)
-        chunks: dict[str, object] = {
+        chunks: Chunks = {
             "workbench": _workbench(report, preset, compared, classes),
             "bins": _bins(report, compared),
         }
@@ -46,9 +47,7 @@ class WorkbenchPage:
         )
 
 
-def _workbench(
-    report: Report, preset: Preset, compared: FloatArray, classes: tuple[str, ...]
-) -> dict[str, object]:
+def _workbench(report: Report, preset: Preset, compared: FloatArray, classes: tuple[str, ...]) -> Workbench:
     """All but the values: what the columns are, and what the page starts from."""
     projection, hits = next(iter(report.projections.values()))
     return {
@@ -67,10 +66,10 @@ def _workbench(
     }
 
 
-def _features(report: Report, compared: FloatArray) -> list[dict[str, object]]:
+def _features(report: Report, compared: FloatArray) -> list[Feature]:
     """Every feature: its columns, its words, and between which values the chunk of bins is cut into steps."""
     hues = charts.feature_color_indices(len(report.features.blocks))
-    features = []
+    features: list[Feature] = []
     for block, hue in zip(report.features.blocks, hues, strict=True):
         columns = report.features.slice_of(block.name)
         low, high = _span(compared[:, columns])
@@ -89,7 +88,7 @@ def _features(report: Report, compared: FloatArray) -> list[dict[str, object]]:
     return features
 
 
-def _words(block: FeatureBlock) -> dict[str, str]:
+def _words(block: FeatureBlock) -> FeatureWords:
     """What a feature is: from its descriptor, or plain for one that was brought along."""
     descriptor = _DESCRIPTORS.get(block.name)
     if descriptor is None:
@@ -131,7 +130,7 @@ def _columns(report: Report, bins: tuple[str, ...]) -> list[int]:
     return [place[name] for name in bins]
 
 
-def _scorers() -> list[dict[str, object]]:
+def _scorers() -> list[Scorer]:
     return [
         {
             "key": scorer.name,
@@ -143,7 +142,7 @@ def _scorers() -> list[dict[str, object]]:
     ]
 
 
-def _example(report: Report, classes: tuple[str, ...]) -> dict[str, object] | None:
+def _example(report: Report, classes: tuple[str, ...]) -> MixedClasses | None:
     """The two classes most mixed on the map of all features: whose shapes have the most neighbours of the other class.
 
     ``mixed`` is the mean of two shares: of the neighbours of the one class that belong to the other, and the other
@@ -159,7 +158,7 @@ def _example(report: Report, classes: tuple[str, ...]) -> dict[str, object] | No
     first, second = divmod(int(mixed.argmax()), len(classes))
     if mixed[first, second] == 0:
         return None
-    return {"classes": [first, second], "mixed": round(float(mixed[first, second]), 6)}
+    return {"classes": (first, second), "mixed": round(float(mixed[first, second]), 6)}
 
 
 def _original_map(report: Report) -> tuple[FloatArray, int] | None:

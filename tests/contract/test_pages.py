@@ -12,7 +12,6 @@ from reports import make_report, with_bin_search, with_scores, with_search
 
 from shapeviz_report.pages import PAGES
 from shapeviz_report.writing import write_site
-from shapeviz_report.writing.data_files import json_text
 from shapeviz_report.writing.resources import site_folder, templates_folder
 
 
@@ -38,11 +37,6 @@ class TestPage:
         source = (site_folder() / "scripts" / "pages" / f"{page.name}.js").read_text(encoding="utf-8")
         # A page that is opened as all are follows the theme from when it is ready.
         assert ("openPage(" in source and " ready(" in source) or "watchTheme(" in source
-
-    @pytest.mark.parametrize("classes", [("ant", "bird"), (None,), ("ant", None)])
-    def test_its_chunks_are_json_or_bytes(self, page, classes):
-        for chunk in page.content(whole_report(classes)).chunks.values():
-            assert isinstance(chunk, bytes) or json.loads(json_text(chunk)) == chunk
 
     def test_its_content_is_the_same_every_time(self, page):
         report = whole_report(("ant", "bird"))

@@ -13,7 +13,12 @@ export function openReception() {
 
 const loaded = new Map();
 
-/** The content of a chunk, loaded when first asked for: an ArrayBuffer where it holds bytes. */
+/**
+ * The content of a chunk, loaded when first asked for: an ArrayBuffer where it holds bytes.
+ * @template {keyof Chunk.Chunks} Name
+ * @param {Name} name
+ * @returns {Promise<Chunk.Chunks[Name]>}
+ */
 export function chunk(name) {
   if (!loaded.has(name))
     loaded.set(
@@ -21,6 +26,16 @@ export function chunk(name) {
       load(name, () => JSON.parse(document.body.dataset.chunks)[name]),
     );
   return loaded.get(name);
+}
+
+/**
+ * Several chunks at once.
+ * @template {(keyof Chunk.Chunks)[]} Names
+ * @param {Names} names
+ * @returns {Promise<{ [Place in keyof Names]: Chunk.Chunks[Names[Place]] }>}
+ */
+export function chunks(...names) {
+  return /** @type {any} */ (Promise.all(names.map(chunk)));
 }
 
 /** The 3D model of a shape by its name in the chunk "selection", an ArrayBuffer; loaded anew each time. */

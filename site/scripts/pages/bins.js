@@ -1,7 +1,7 @@
 // The Bins page (paper, 4.4 and Fig. 6, 7, 8): the few bins that separate a class, or all, and how they look on shapes.
 
 import { readBinsAddress, workbenchAddress, writeBinsAddress } from "../addresses/bins.js";
-import { chunk } from "../base/chunks.js";
+import { chunks } from "../base/chunks.js";
 import { calm } from "../base/dom.js";
 import { delayed, openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
@@ -20,9 +20,7 @@ import { carrySelection } from "../tray/carry.js";
 import { clearOnEscape, Tray } from "../tray/tray.js";
 
 async function main() {
-  const [overview, selection, data, bytes] = await Promise.all(
-    ["overview", "selection", "workbench", "bins"].map(chunk),
-  );
+  const [overview, selection, data, bytes] = await chunks("overview", "selection", "workbench", "bins");
   const bins = new Bins(data, bytes);
   const database = new Database(overview, currentTheme);
   const first = firstBin(selection);

@@ -1,7 +1,7 @@
 // The Compare page: what sets two groups apart, what they share, outliers, and classes that are alike.
 
 import { readView, writeView } from "../addresses/compare.js";
-import { chunk } from "../base/chunks.js";
+import { chunk, chunks } from "../base/chunks.js";
 import { openPage } from "../base/page.js";
 import { pageAddress } from "../base/place.js";
 import { watchTables } from "../base/tables.js";
@@ -18,9 +18,7 @@ import { carrySelection, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
-  const [overview, data, bytes, clusters] = await Promise.all(
-    ["overview", "compare", "neighbours", "clusters"].map(chunk),
-  );
+  const [overview, data, bytes, clusters] = await chunks("overview", "compare", "neighbours", "clusters");
   const database = new Database(overview, currentTheme);
   const neighbours = new Neighbours(database, data, bytes);
   // The values of all bins are large where shapes are many: they come when they are first needed.

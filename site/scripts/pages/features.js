@@ -65,10 +65,7 @@ async function main() {
       mark.style.background = marks().features[mark.dataset.hue];
   };
   paint();
-  for (const [id, value] of [
-    ["chance", search.chance],
-    ["chance-best", search.chanceBest],
-  ]) {
+  for (const [id, value] of Object.entries({ chance: search.chance, "chance-best": search.chanceBest })) {
     if (subsets.labelled) document.getElementById(id).textContent = figure(value);
   }
   await ranking.start();

@@ -1,7 +1,7 @@
 // The Shapes page: all shapes as pictures, to search, filter, group, sort, and select.
 
 import { readGalleryAddress, writeGalleryAddress } from "../addresses/shapes.js";
-import { chunk } from "../base/chunks.js";
+import { chunks } from "../base/chunks.js";
 import { delayed, openPage } from "../base/page.js";
 import { pageAddress } from "../base/place.js";
 import { watchTables } from "../base/tables.js";
@@ -27,7 +27,7 @@ import { Tray } from "../tray/tray.js";
 const SAY_AFTER = 500;
 
 async function main() {
-  const [overview, described, hierarchy] = await Promise.all(["overview", "fields", "hierarchy"].map(chunk));
+  const [overview, described, hierarchy] = await chunks("overview", "fields", "hierarchy");
   const database = new Database(overview, currentTheme);
   const fields = new Fields(database, described, hierarchy);
   const { state, announce, ready } = await openPage({

@@ -1,6 +1,6 @@
 // What is known of a shape by its features: how it differs, and which shapes are like it.
 
-import { chunk } from "../base/chunks.js";
+import { chunks } from "../base/chunks.js";
 import { grouped } from "../base/words.js";
 import { Bins } from "../database/bins.js";
 import { Comparison } from "./comparison.js";
@@ -32,7 +32,7 @@ export async function showFeatures(database, state, { links, portrait }) {
   const waiting = document.getElementById("waiting");
   waiting.textContent =
     database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
-  const [data, bytes, selection] = await Promise.all(["workbench", "bins", "selection"].map(chunk));
+  const [data, bytes, selection] = await chunks("workbench", "bins", "selection");
   const bins = new Bins(data, bytes);
   const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, state);
   const histograms = new Histograms(database, bins, state, {

@@ -1,0 +1,604 @@
+"""The data that pages load, as JSON holds it: both ends keep to these types.
+
+mypy holds the writers to them, and ``site/scripts/chunks.d.ts``, which ``make chunks`` makes of this module, the
+browser's scripts. Kinds are those that JSON has; a tuple is a list of so many values.
+"""
+
+# Annotations are evaluated: what a TypedDict knows of keys that may be left out, it reads from them.
+from typing import Any, Literal, NotRequired, TypedDict
+
+from shapeviz_report.charts import ThemeName
+
+#: A specification, or a configuration, of Vega-Lite.
+Spec = dict[str, Any]
+
+
+class ShapeList(TypedDict):
+    """The shapes, one list a fact: ``groups`` are the numbers of classes, -1 without one."""
+
+    ids: list[str]
+    names: list[str]
+    groups: list[int]
+    pictures: list[str]
+
+
+class WithoutCopies(TypedDict):
+    """What a map reaches where copies of shapes are left out."""
+
+    copies: int
+    hitOfAll: float | None
+    highest: float | None
+
+
+class Method(TypedDict):
+    """A map of all shapes, with its quality; a class or a shape without a score has None."""
+
+    key: str
+    title: str
+    note: str
+    features: list[str]
+    x: list[float | None]
+    y: list[float | None]
+    hit: list[float | None]
+    neighbours: int
+    hitOfClass: list[float | None]
+    hitOfAll: float | None
+    withoutCopies: WithoutCopies | None
+    chance: float | None
+    chanceSpread: float | None
+
+
+class SubsetChoice(TypedDict):
+    """Whose maps the Overview can show beside its own."""
+
+    method: str
+    features: list[str]
+    bins: int | None
+    bestByChance: float | None
+    best: list[str] | None
+
+
+MapCharts = TypedDict("MapCharts", {"class": Spec, "hit": Spec, "thumbnail": Spec, "bars": Spec})
+
+
+class ThemeMarks(TypedDict):
+    """Colours of marks in a theme; ``config`` is that of charts."""
+
+    config: Spec
+    classes: list[str]
+    hit: list[str]
+    unlabelled: str
+    outline: str
+    ink: str
+
+
+class Marks(TypedDict):
+    """The symbol of every class, as a path, and the colours of each theme."""
+
+    symbols: list[str]
+    plain: str
+    themes: dict[ThemeName, ThemeMarks]
+
+
+class Overview(TypedDict):
+    """What every page knows of the database."""
+
+    shapes: ShapeList
+    classes: list[str]
+    labeling: str | None
+    standIn: bool
+    methods: list[Method]
+    subsets: SubsetChoice | None
+    charts: MapCharts
+    marks: Marks
+
+
+class ShapeDetails(TypedDict):
+    """What is known of a shape beyond its place: ``labels`` by labeling, ``copies`` with what says so."""
+
+    labels: list[str | None]
+    metadata: list[tuple[str, str]]
+    copies: list[tuple[int, str]]
+    repairs: list[tuple[str, int]]
+    faces: int
+    vertices: int
+    facesRead: int
+    verticesRead: int
+    components: int
+    watertight: bool
+    deviation: float | None
+    area: float | None
+    volume: float | None
+    extents: list[float]
+
+
+class Details(TypedDict):
+    """What is known of every shape beyond its place."""
+
+    labelings: list[str]
+    shapes: list[ShapeDetails]
+
+
+class Cluster(TypedDict):
+    """A group that the features make: its most central shape, and sentences on what is typical of it."""
+
+    name: str
+    central: int
+    size: int
+    typical: list[str]
+
+
+class Clusters(TypedDict):
+    """The groups that the features alone make; ``standIn`` where they are the active labels, as there are none."""
+
+    standIn: bool
+    of: list[int]
+    clusters: list[Cluster]
+    quality: float
+
+
+class Field(TypedDict):
+    """What shapes can be grouped, filtered or sorted by.
+
+    Attributes
+    ----------
+    key : str
+        Names the field in an address.
+    title, unit : str
+    active : bool
+        Whether it is the active labeling.
+    names : list of str, or None
+        The values in their order; None for a field that has no few values.
+    of : list of int, or None
+        The number of each shape's value, -1 without one; None as with ``names``.
+    notes : list of str, or None
+        A sentence on each of the values.
+    numbers : list of float or None, or None
+        The number of each shape, None without one; None for a field that is no number.
+    edges : list of float, or None
+        Of intervals, which rise and hold all numbers; None also for a field of a few numbers.
+    """
+
+    key: str
+    title: str
+    unit: str
+    active: bool
+    names: list[str] | None
+    of: list[int] | None
+    notes: list[str] | None
+    numbers: list[float | None] | None
+    edges: list[float] | None
+
+
+class Fields(TypedDict):
+    """What shapes can be ordered by; ``byName`` are their rows in the order of their names."""
+
+    byName: list[int]
+    fields: list[Field]
+
+
+class TreeNode(TypedDict):
+    """A class of shapes or of classes; ``parent`` is the number of a node before it, -1 at the top."""
+
+    name: str
+    parent: int
+
+
+class Tree(TypedDict):
+    """Classes of classes.
+
+    Attributes
+    ----------
+    key : str
+        That of the field it is of, or ``folders``.
+    title : str
+    active : bool
+        Whether it is of the active labeling.
+    nodes : list of TreeNode
+        Each after its parent, siblings in natural order.
+    of : list of int
+        The node of every shape, -1 without one.
+    """
+
+    key: str
+    title: str
+    active: bool
+    nodes: list[TreeNode]
+    of: list[int]
+
+
+class Hierarchy(TypedDict):
+    """The trees of a database: its classes, and whatever else is ordered in levels."""
+
+    trees: list[Tree]
+
+
+class Sides(TypedDict):
+    """What lies below and above each inner edge of a feature's bins, in words."""
+
+    below: list[str]
+    above: list[str]
+
+
+class Comparison(TypedDict):
+    """How well shapes fit their classes, and what a comparison needs beside the bins.
+
+    Attributes
+    ----------
+    k : int
+        Numbers a shape in each part of the chunk "neighbours".
+    spaces : list of str
+        The order of its parts.
+    order : list of int
+        The classes, alike ones beside each other.
+    fit, rival : list
+        A shape's fit to its class, and the class it fits next best; None and -1 without.
+    weights : list of float
+        What a squared difference in a feature's compared values counts.
+    whole : str
+        What shares are of, in words.
+    where : list of str
+        The condition that a bin stands for, in words; None for a value that is no share.
+    sides : list of Sides, or None
+        Of each feature; None for one without one histogram.
+    """
+
+    k: int
+    spaces: list[str]
+    order: list[int]
+    fit: list[float | None]
+    rival: list[int]
+    weights: list[float]
+    whole: str
+    where: list[str | None]
+    sides: list[Sides | None]
+
+
+class FeatureMarks(TypedDict):
+    """The colours of features, and of bars that stand for none."""
+
+    features: list[str]
+    bar: str
+
+
+class Measure(TypedDict):
+    """A measure of retrieval."""
+
+    title: str
+    explanation: str
+
+
+class Rated(TypedDict):
+    """Scores by measure, and precision by recall, on average over shapes and over classes; ``each`` by class."""
+
+    shapes: list[int]
+    classes: list[int]
+    curveOfShapes: list[int]
+    curveOfClasses: list[int]
+    each: list[list[int]]
+
+
+class Retrieval(TypedDict):
+    """How well each choice of features finds shapes of a class, in ``steps`` from 0 to 1.
+
+    Attributes
+    ----------
+    order : list of int
+        The features by falling average precision of each alone.
+    classes : list of int
+        Those that were asked for, as the Overview numbers them; ``queries`` of each.
+    members : list of str
+        The features of each of ``subsets``: a ``1`` or ``0`` a feature.
+    best : int
+        The best of ``subsets``.
+    bins : list of str, or None
+        The chosen bins, and with ``byBins`` what they reach.
+    """
+
+    steps: int
+    features: list[str]
+    hues: list[int]
+    order: list[int]
+    classes: list[int]
+    queries: list[int]
+    measures: list[Measure]
+    recall: list[float]
+    members: list[str]
+    best: int
+    subsets: list[Rated]
+    bins: list[str] | None
+    byBins: Rated | None
+    chance: Rated
+    marks: dict[ThemeName, FeatureMarks]
+
+
+class Box(TypedDict):
+    """How a class's hit spreads over all subsets."""
+
+    least: float | None
+    lower: float | None
+    median: float | None
+    upper: float | None
+    most: float | None
+
+
+class GreedyPath(TypedDict):
+    """A greedy search: the places of the subsets that it went through."""
+
+    s: int
+    runs: int
+    path: list[int]
+
+
+#: What a feature reaches alone, and maps with and without it on average.
+Effect = TypedDict("Effect", {"feature": int, "alone": float, "with": float | None, "without": float | None})
+
+
+class SeedHits(TypedDict):
+    """How far the seed moves a subset, and whether it is told apart from the best."""
+
+    place: int
+    hits: list[float | None]
+    mean: float
+    margin: float
+    apart: bool
+
+
+class SubsetCharts(TypedDict):
+    """The charts of the Features page."""
+
+    bars: Spec
+    matrix: Spec
+    boxes: Spec
+    effects: Spec
+    seeds: Spec
+
+
+class Search(TypedDict):
+    """What the subsets of the features reach, from best to worst.
+
+    Attributes
+    ----------
+    hues : list of int
+        The number of each feature's colour.
+    order : list of int
+        The features, those that help most first.
+    classes : list of int
+        The columns of ``hitOfClass``, as the Overview numbers them.
+    rows : list of int, or None
+        The shapes that took part; None for all.
+    members : list of str
+        The features of each subset: a ``1`` or ``0`` a feature.
+    """
+
+    method: str
+    methodTitle: str
+    note: str
+    neighbours: int
+    features: list[str]
+    hues: list[int]
+    order: list[int]
+    classes: list[int]
+    rows: list[int] | None
+    members: list[str]
+    hit: list[float | None]
+    hitOfClass: list[list[float | None]]
+    boxes: list[Box]
+    chance: float | None
+    highest: float | None
+    chanceBest: float | None
+    greedy: list[GreedyPath]
+    effects: list[Effect]
+    spread: list[SeedHits]
+    charts: SubsetCharts
+    marks: dict[ThemeName, FeatureMarks]
+
+
+class SubsetMaps(TypedDict):
+    """A map a subset: ``steps`` from the middle to the edge, ``hitSteps`` from 0 to 1, -1 without a hit."""
+
+    steps: int
+    hitSteps: int
+    x: list[list[int]]
+    y: list[list[int]]
+    hit: list[list[int]]
+
+
+class FeatureWords(TypedDict):
+    """What a feature is."""
+
+    title: str
+    measures: str
+    lowMeans: str
+    highMeans: str
+
+
+class Feature(FeatureWords):
+    """A feature: its columns, its words, and between which values the chunk "bins" is cut into steps."""
+
+    name: str
+    start: int
+    dimensions: int
+    bins: int
+    hue: int
+    low: float
+    high: float
+
+
+class Scorer(TypedDict):
+    """A way to score bins; ``exact`` where the browser scores as the build does."""
+
+    key: str
+    title: str
+    explanation: str
+    exact: bool
+
+
+class MixedClasses(TypedDict):
+    """The two classes most mixed on the map of all features."""
+
+    classes: tuple[int, int]
+    mixed: float
+
+
+class Workbench(TypedDict):
+    """The bins but for their values; ``bins`` are the columns that the maps of the site are made from, or all."""
+
+    features: list[Feature]
+    sentences: list[str]
+    scaling: Literal["balanced", "plain"]
+    neighbours: int
+    seed: int
+    method: str
+    scorers: list[Scorer]
+    scored: bool
+    bins: list[int] | None
+    example: MixedClasses | None
+    marks: dict[ThemeName, FeatureMarks]
+
+
+class Dimension(TypedDict):
+    """What a dimension of a descriptor measures, and between which values its bins lie."""
+
+    quantity: str
+    unit: str
+    edges: list[float]
+
+
+class PaintedBin(TypedDict):
+    """Pictures of a bin on a shape: its value, and what lies inside."""
+
+    column: int
+    shape: int
+    value: str
+    inside: str
+
+
+class BinSet(TypedDict):
+    """Bins that separate a class, what they reach, and their map in steps."""
+
+    bins: list[int]
+    nhSpace: float
+    nh: float
+    x: list[int]
+    y: list[int]
+
+
+class ChanceHit(TypedDict):
+    """What as many bins reach for shuffled labels."""
+
+    nh: float
+    nhSpace: float
+
+
+class SeparatedClass(TypedDict):
+    """The fewest bins that separate a class: ``other`` is the class it is mixed with most."""
+
+    group: int
+    other: int
+    sets: list[BinSet]
+    highest: float
+    byChance: list[ChanceHit]
+
+
+class PathStep(BinSet):
+    """A step of the selection of bins for all classes."""
+
+    added: list[int]
+    removed: list[int]
+
+
+class Fold(TypedDict):
+    """Bins that were chosen without some shapes, and what these reach on their map, and on that of all bins."""
+
+    bins: list[int]
+    shapes: int
+    deal: int
+    nhSpace: float
+    nh: float
+    nhAll: float
+    recognised: float
+    recognisedAll: float
+
+
+class FoundBins(TypedDict):
+    """What the search for bins found; all but the first two left out where nothing was searched.
+
+    Attributes
+    ----------
+    minimal : list of SeparatedClass
+    path : list of PathStep
+    rows : list of int, or None
+        The shapes that took part; None for all.
+    allFeatures : float
+        What the map of all features reaches.
+    """
+
+    minimal: list[SeparatedClass]
+    path: list[PathStep]
+    rows: NotRequired[list[int] | None]
+    neighbours: NotRequired[int]
+    seed: NotRequired[int]
+    otherSeeds: NotRequired[list[float | None]]
+    heldOut: NotRequired[list[Fold]]
+    shuffled: NotRequired[list[Fold]]
+    chance: NotRequired[float]
+    allFeatures: NotRequired[float]
+
+
+class Selection(FoundBins):
+    """What the search for bins found, and what views of shapes need.
+
+    Attributes
+    ----------
+    coordinateSteps : int
+        From the middle of a map to its edge.
+    dimensions : list of Dimension
+        Of all features with histograms.
+    models : list of str, or None
+        The name of every shape's 3D model.
+    ramp : list of str
+        The colour of each bin of a dimension.
+    clay, marked : list of float
+        The colour of surfaces, and of what is marked on them, in linear light.
+    """
+
+    coordinateSteps: int
+    dimensions: list[Dimension]
+    paintings: list[PaintedBin]
+    models: list[str] | None
+    ramp: list[str]
+    clay: list[float]
+    marked: list[float]
+
+
+class Chunks(TypedDict, total=False):
+    """Every chunk by its name; one is left out where there is nothing to say. Bytes become an ``ArrayBuffer``.
+
+    Attributes
+    ----------
+    neighbours : bytes
+        Of each of the ``spaces`` of a comparison, the nearest shapes of every shape; little-endian uint32.
+    bins : bytes
+        The compared values, column after column, in 65,535 steps from ``low`` to ``high`` of the feature; uint16.
+    scores : bytes
+        The score of every scorer, class and column in 65,535 steps; uint16.
+    engine : str
+        The script of the worker.
+    """
+
+    overview: Overview
+    details: Details
+    clusters: Clusters | None
+    fields: Fields
+    hierarchy: Hierarchy
+    compare: Comparison
+    neighbours: bytes
+    retrieval: Retrieval
+    search: Search
+    subsets: SubsetMaps
+    workbench: Workbench
+    bins: bytes
+    scores: bytes
+    selection: Selection
+    engine: str

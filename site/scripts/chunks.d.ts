@@ -1,0 +1,417 @@
+// Made of shapeviz_report/pages/chunks.py by `make chunks`. Only the type checker reads this file.
+
+declare namespace Chunk {
+  /** The shapes, one list a fact: `groups` are the numbers of classes, -1 without one. */
+  interface ShapeList {
+    ids: string[];
+    names: string[];
+    groups: number[];
+    pictures: string[];
+  }
+  /** What a map reaches where copies of shapes are left out. */
+  interface WithoutCopies {
+    copies: number;
+    hitOfAll: number | null;
+    highest: number | null;
+  }
+  /** A map of all shapes, with its quality; a class or a shape without a score has None. */
+  interface Method {
+    key: string;
+    title: string;
+    note: string;
+    features: string[];
+    x: (number | null)[];
+    y: (number | null)[];
+    hit: (number | null)[];
+    neighbours: number;
+    hitOfClass: (number | null)[];
+    hitOfAll: number | null;
+    withoutCopies: WithoutCopies | null;
+    chance: number | null;
+    chanceSpread: number | null;
+  }
+  /** Whose maps the Overview can show beside its own. */
+  interface SubsetChoice {
+    method: string;
+    features: string[];
+    bins: number | null;
+    bestByChance: number | null;
+    best: string[] | null;
+  }
+  interface MapCharts {
+    class: Record<string, any>;
+    hit: Record<string, any>;
+    thumbnail: Record<string, any>;
+    bars: Record<string, any>;
+  }
+  /** Colours of marks in a theme; `config` is that of charts. */
+  interface ThemeMarks {
+    config: Record<string, any>;
+    classes: string[];
+    hit: string[];
+    unlabelled: string;
+    outline: string;
+    ink: string;
+  }
+  /** The symbol of every class, as a path, and the colours of each theme. */
+  interface Marks {
+    symbols: string[];
+    plain: string;
+    themes: Record<"light" | "dark", ThemeMarks>;
+  }
+  /** What every page knows of the database. */
+  interface Overview {
+    shapes: ShapeList;
+    classes: string[];
+    labeling: string | null;
+    standIn: boolean;
+    methods: Method[];
+    subsets: SubsetChoice | null;
+    charts: MapCharts;
+    marks: Marks;
+  }
+  /** What is known of a shape beyond its place: `labels` by labeling, `copies` with what says so. */
+  interface ShapeDetails {
+    labels: (string | null)[];
+    metadata: ([string, string])[];
+    copies: ([number, string])[];
+    repairs: ([string, number])[];
+    faces: number;
+    vertices: number;
+    facesRead: number;
+    verticesRead: number;
+    components: number;
+    watertight: boolean;
+    deviation: number | null;
+    area: number | null;
+    volume: number | null;
+    extents: number[];
+  }
+  /** What is known of every shape beyond its place. */
+  interface Details {
+    labelings: string[];
+    shapes: ShapeDetails[];
+  }
+  /** A group that the features make: its most central shape, and sentences on what is typical of it. */
+  interface Cluster {
+    name: string;
+    central: number;
+    size: number;
+    typical: string[];
+  }
+  /** The groups that the features alone make; `standIn` where they are the active labels, as there are none. */
+  interface Clusters {
+    standIn: boolean;
+    of: number[];
+    clusters: Cluster[];
+    quality: number;
+  }
+  /** What shapes can be grouped, filtered or sorted by. */
+  interface Field {
+    key: string;
+    title: string;
+    unit: string;
+    active: boolean;
+    names: string[] | null;
+    of: number[] | null;
+    notes: string[] | null;
+    numbers: (number | null)[] | null;
+    edges: number[] | null;
+  }
+  /** What shapes can be ordered by; `byName` are their rows in the order of their names. */
+  interface Fields {
+    byName: number[];
+    fields: Field[];
+  }
+  /** A class of shapes or of classes; `parent` is the number of a node before it, -1 at the top. */
+  interface TreeNode {
+    name: string;
+    parent: number;
+  }
+  /** Classes of classes. */
+  interface Tree {
+    key: string;
+    title: string;
+    active: boolean;
+    nodes: TreeNode[];
+    of: number[];
+  }
+  /** The trees of a database: its classes, and whatever else is ordered in levels. */
+  interface Hierarchy {
+    trees: Tree[];
+  }
+  /** What lies below and above each inner edge of a feature's bins, in words. */
+  interface Sides {
+    below: string[];
+    above: string[];
+  }
+  /** How well shapes fit their classes, and what a comparison needs beside the bins. */
+  interface Comparison {
+    k: number;
+    spaces: string[];
+    order: number[];
+    fit: (number | null)[];
+    rival: number[];
+    weights: number[];
+    whole: string;
+    where: (string | null)[];
+    sides: (Sides | null)[];
+  }
+  /** The colours of features, and of bars that stand for none. */
+  interface FeatureMarks {
+    features: string[];
+    bar: string;
+  }
+  /** A measure of retrieval. */
+  interface Measure {
+    title: string;
+    explanation: string;
+  }
+  /** Scores by measure, and precision by recall, on average over shapes and over classes; `each` by class. */
+  interface Rated {
+    shapes: number[];
+    classes: number[];
+    curveOfShapes: number[];
+    curveOfClasses: number[];
+    each: number[][];
+  }
+  /** How well each choice of features finds shapes of a class, in `steps` from 0 to 1. */
+  interface Retrieval {
+    steps: number;
+    features: string[];
+    hues: number[];
+    order: number[];
+    classes: number[];
+    queries: number[];
+    measures: Measure[];
+    recall: number[];
+    members: string[];
+    best: number;
+    subsets: Rated[];
+    bins: string[] | null;
+    byBins: Rated | null;
+    chance: Rated;
+    marks: Record<"light" | "dark", FeatureMarks>;
+  }
+  /** How a class's hit spreads over all subsets. */
+  interface Box {
+    least: number | null;
+    lower: number | null;
+    median: number | null;
+    upper: number | null;
+    most: number | null;
+  }
+  /** A greedy search: the places of the subsets that it went through. */
+  interface GreedyPath {
+    s: number;
+    runs: number;
+    path: number[];
+  }
+  interface Effect {
+    feature: number;
+    alone: number;
+    with: number | null;
+    without: number | null;
+  }
+  /** How far the seed moves a subset, and whether it is told apart from the best. */
+  interface SeedHits {
+    place: number;
+    hits: (number | null)[];
+    mean: number;
+    margin: number;
+    apart: boolean;
+  }
+  /** The charts of the Features page. */
+  interface SubsetCharts {
+    bars: Record<string, any>;
+    matrix: Record<string, any>;
+    boxes: Record<string, any>;
+    effects: Record<string, any>;
+    seeds: Record<string, any>;
+  }
+  /** What the subsets of the features reach, from best to worst. */
+  interface Search {
+    method: string;
+    methodTitle: string;
+    note: string;
+    neighbours: number;
+    features: string[];
+    hues: number[];
+    order: number[];
+    classes: number[];
+    rows: number[] | null;
+    members: string[];
+    hit: (number | null)[];
+    hitOfClass: ((number | null)[])[];
+    boxes: Box[];
+    chance: number | null;
+    highest: number | null;
+    chanceBest: number | null;
+    greedy: GreedyPath[];
+    effects: Effect[];
+    spread: SeedHits[];
+    charts: SubsetCharts;
+    marks: Record<"light" | "dark", FeatureMarks>;
+  }
+  /** A map a subset: `steps` from the middle to the edge, `hitSteps` from 0 to 1, -1 without a hit. */
+  interface SubsetMaps {
+    steps: number;
+    hitSteps: number;
+    x: number[][];
+    y: number[][];
+    hit: number[][];
+  }
+  /** What a feature is. */
+  interface FeatureWords {
+    title: string;
+    measures: string;
+    lowMeans: string;
+    highMeans: string;
+  }
+  /** A feature: its columns, its words, and between which values the chunk "bins" is cut into steps. */
+  interface Feature {
+    title: string;
+    measures: string;
+    lowMeans: string;
+    highMeans: string;
+    name: string;
+    start: number;
+    dimensions: number;
+    bins: number;
+    hue: number;
+    low: number;
+    high: number;
+  }
+  /** A way to score bins; `exact` where the browser scores as the build does. */
+  interface Scorer {
+    key: string;
+    title: string;
+    explanation: string;
+    exact: boolean;
+  }
+  /** The two classes most mixed on the map of all features. */
+  interface MixedClasses {
+    classes: [number, number];
+    mixed: number;
+  }
+  /** The bins but for their values; `bins` are the columns that the maps of the site are made from, or all. */
+  interface Workbench {
+    features: Feature[];
+    sentences: string[];
+    scaling: "balanced" | "plain";
+    neighbours: number;
+    seed: number;
+    method: string;
+    scorers: Scorer[];
+    scored: boolean;
+    bins: number[] | null;
+    example: MixedClasses | null;
+    marks: Record<"light" | "dark", FeatureMarks>;
+  }
+  /** What a dimension of a descriptor measures, and between which values its bins lie. */
+  interface Dimension {
+    quantity: string;
+    unit: string;
+    edges: number[];
+  }
+  /** Pictures of a bin on a shape: its value, and what lies inside. */
+  interface PaintedBin {
+    column: number;
+    shape: number;
+    value: string;
+    inside: string;
+  }
+  /** Bins that separate a class, what they reach, and their map in steps. */
+  interface BinSet {
+    bins: number[];
+    nhSpace: number;
+    nh: number;
+    x: number[];
+    y: number[];
+  }
+  /** What as many bins reach for shuffled labels. */
+  interface ChanceHit {
+    nh: number;
+    nhSpace: number;
+  }
+  /** The fewest bins that separate a class: `other` is the class it is mixed with most. */
+  interface SeparatedClass {
+    group: number;
+    other: number;
+    sets: BinSet[];
+    highest: number;
+    byChance: ChanceHit[];
+  }
+  /** A step of the selection of bins for all classes. */
+  interface PathStep {
+    bins: number[];
+    nhSpace: number;
+    nh: number;
+    x: number[];
+    y: number[];
+    added: number[];
+    removed: number[];
+  }
+  /** Bins that were chosen without some shapes, and what these reach on their map, and on that of all bins. */
+  interface Fold {
+    bins: number[];
+    shapes: number;
+    deal: number;
+    nhSpace: number;
+    nh: number;
+    nhAll: number;
+    recognised: number;
+    recognisedAll: number;
+  }
+  /** What the search for bins found; all but the first two left out where nothing was searched. */
+  interface FoundBins {
+    minimal: SeparatedClass[];
+    path: PathStep[];
+    rows?: number[] | null;
+    neighbours?: number;
+    seed?: number;
+    otherSeeds?: (number | null)[];
+    heldOut?: Fold[];
+    shuffled?: Fold[];
+    chance?: number;
+    allFeatures?: number;
+  }
+  /** What the search for bins found, and what views of shapes need. */
+  interface Selection {
+    minimal: SeparatedClass[];
+    path: PathStep[];
+    rows?: number[] | null;
+    neighbours?: number;
+    seed?: number;
+    otherSeeds?: (number | null)[];
+    heldOut?: Fold[];
+    shuffled?: Fold[];
+    chance?: number;
+    allFeatures?: number;
+    coordinateSteps: number;
+    dimensions: Dimension[];
+    paintings: PaintedBin[];
+    models: string[] | null;
+    ramp: string[];
+    clay: number[];
+    marked: number[];
+  }
+  /** Every chunk by its name; one is left out where there is nothing to say. Bytes become an `ArrayBuffer`. */
+  interface Chunks {
+    overview: Overview;
+    details: Details;
+    clusters: Clusters | null;
+    fields: Fields;
+    hierarchy: Hierarchy;
+    compare: Comparison;
+    neighbours: ArrayBuffer;
+    retrieval: Retrieval;
+    search: Search;
+    subsets: SubsetMaps;
+    workbench: Workbench;
+    bins: ArrayBuffer;
+    scores: ArrayBuffer;
+    selection: Selection;
+    engine: string;
+  }
+}

@@ -1,0 +1,86 @@
+"""The data of a site is of the types that ``pages/chunks.py`` gives it, on both ends."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+from functools import cache
+from typing import get_type_hints
+
+import pytest
+from chunk_types import DECLARATIONS, misfits, typescript
+from reports import (
+    make_report,
+    with_bin_search,
+    with_clusters,
+    with_copies,
+    with_external,
+    with_models,
+    with_paintings,
+    with_retrieval,
+    with_scores,
+    with_search,
+)
+
+from shapeviz_report.pages import PAGES
+from shapeviz_report.pages.chunks import Chunks
+from shapeviz_report.writing import write_site
+from shapeviz_report.writing.data_files import json_text
+
+TYPES = get_type_hints(Chunks)
+
+_HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(json|bytes)", "([^"]*)"\);\n')
+
+
+@cache
+def everything():
+    """A report with all that one may hold."""
+    report = with_clusters(with_copies(with_external(make_report(("ant", "bird", None))), [(0, 1)]))
+    report = with_bin_search(with_retrieval(with_scores(with_search(report))))
+    return with_models(with_paintings(report))
+
+
+@cache
+def plain(*classes):
+    return make_report(classes, 3)
+
+
+def test_the_browser_s_types_are_made_of_these():
+    assert DECLARATIONS.read_text(encoding="utf-8") == typescript(), "run `make chunks`"
+
+
+def test_a_site_holds_every_chunk_and_each_is_of_its_type(tmp_path):
+    write_site(everything(), tmp_path)
+    held = {}
+    for path in (tmp_path / "assets").glob("chunk-*.js"):
+        name, kind, text = _HANDED_OVER.fullmatch(path.read_text(encoding="utf-8")).groups()
+        content = gzip.decompress(base64.b64decode(text))
+        held[name] = json.loads(content) if kind == "json" else content
+    assert held.keys() == TYPES.keys()
+    assert [where for name, value in held.items() for where in misfits(value, TYPES[name], name)] == []
+
+
+@pytest.mark.parametrize("classes", [("ant", "bird"), (None,), ("ant", None)])
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_what_is_missing_from_a_report_is_missing_by_type(page, classes):
+    for name, chunk in page.content(plain(*classes)).chunks.items():
+        held = chunk if isinstance(chunk, bytes) else json.loads(json_text(chunk))
+        assert list(misfits(held, TYPES[name], name)) == []
+
+
+@pytest.mark.parametrize(
+    ("change", "found"),
+    [
+        (lambda held: held["shapes"].pop("ids"), "overview.shapes.ids is missing"),
+        (lambda held: held.update(title="Ants"), "overview.title is not declared"),
+        (lambda held: held["shapes"]["groups"].append(None), "is None, no int"),
+        (lambda held: held["marks"]["themes"].update(blue=None), "overview.marks.themes 'blue' is 'blue'"),
+        (lambda held: held["methods"][0].update(hitOfAll="0.5"), "overview.methods[0].hitOfAll is '0.5'"),
+    ],
+)
+def test_what_does_not_fit_is_found(change, found):
+    held = json.loads(json_text(PAGES[0].content(plain("ant", "bird")).chunks["overview"]))
+    change(held)
+    assert any(found in where for where in misfits(held, TYPES["overview"], "overview"))
