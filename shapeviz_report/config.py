@@ -103,8 +103,9 @@ class Config:
     )
     neighbours: int = _option(10, "k of the neighbourhood hit", "K")
     search: str = _option(
-        "tsne",
-        "method of the maps among which the best features are searched: 'tsne', 'umap', or 'none' for no search",
+        SEARCHES[0],
+        f"method of the maps among which the best features are searched: "
+        f"{', '.join(map(repr, SEARCHES[:-1]))}, or {SEARCHES[-1]!r} for no search",
         "METHOD",
     )
     meshes: bool = _option(

@@ -40,7 +40,7 @@ LEAST = 1e-3
 """Rounding moves continuous values smaller than this as much as this one: they are differences of larger ones."""
 
 BLOCKS = tuple(FeatureBlock(d.name, d.dimensions, BINS) for d in DESCRIPTORS)
-"""The features of Table 1: 187 dimensions, 1870 columns."""
+"""The features of Table 1: a histogram of ``BINS`` columns for each of the D dimensions of all descriptors."""
 
 
 @dataclass(frozen=True)
@@ -90,16 +90,16 @@ PRESETS = {
 
 
 def fixed_edges() -> FloatArray:
-    """The (187, 11) bin edges of every dimension that the descriptors define, clear of the values they take."""
+    """The (D, 11) bin edges of every dimension that the descriptors define, clear of the values they take."""
     return clear_edges(np.concatenate([np.tile(d.edges, (d.dimensions, 1)) for d in DESCRIPTORS]))
 
 
 def quantile_edges(samples: Sequence[FloatArray]) -> FloatArray:
-    """The (187, 11) bin edges from values at some vertices of every shape, each shape of equal weight.
+    """The (D, 11) bin edges from values at some vertices of every shape, each shape of equal weight.
 
     Parameters
     ----------
-    samples : sequence of (s, 187) arrays
+    samples : sequence of (s, D) arrays
         As :func:`sample_values` gives them.
     """
     low, high = np.quantile(np.concatenate(samples).astype(np.float64), QUANTILES, axis=0)
@@ -124,12 +124,12 @@ def clear_edges(edges: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    edges : (187, 11) array
+    edges : (D, 11) array
         Rising along each row.
 
     Returns
     -------
-    (187, 11) float64 array
+    (D, 11) float64 array
         The first and last edges, which no value is compared with, stay.
     """
     cleared, start = edges.astype(np.float64), 0
@@ -154,7 +154,7 @@ def _shares(descriptor: Descriptor) -> FloatArray:
 
 
 def sample_values(mesh: Mesh, count: int) -> FloatArray:
-    """Values of all descriptors at ``count`` vertices spread over a mesh's numbering; (count, 187) float32."""
+    """Values of all descriptors at ``count`` vertices spread over a mesh's numbering; (count, D) float32."""
     surface = Surface(mesh)
     chosen = ((np.arange(count) + 0.5) / count * len(surface.vertices)).astype(int)
     return np.concatenate([d.compute(surface)[chosen].astype(np.float32) for d in DESCRIPTORS], axis=1)
@@ -167,7 +167,7 @@ def compute_histograms(mesh: Mesh, edges: FloatArray, *, by_area: bool) -> Float
     ----------
     mesh : Mesh
         Prepared.
-    edges : (187, 11) array
+    edges : (D, 11) array
         Rising along each row. Bin b takes ``edges[b] <= value < edges[b + 1]``; the first and last bin also take
         what lies beyond.
     by_area : bool
@@ -175,7 +175,7 @@ def compute_histograms(mesh: Mesh, edges: FloatArray, *, by_area: bool) -> Float
 
     Returns
     -------
-    (1870,) float64 array
+    (D * BINS,) float64 array
         Fractions; each dimension's ten add up to 1.
     """
     return describe(mesh, edges, np.empty(0, np.int64), by_area=by_area)[0]
@@ -195,8 +195,8 @@ def describe(
 
     Returns
     -------
-    histograms : (1870,) float64 array
-    bins : (187, v) uint8 array
+    histograms : (D * BINS,) float64 array
+    bins : (D, v) uint8 array
         From 0, in every dimension.
     """
     surface = Surface(mesh)
@@ -228,7 +228,7 @@ def find_bins(values: npt.NDArray[np.float32], edges: FloatArray) -> npt.NDArray
 
 
 def measure(mesh: Mesh, dimensions: Sequence[int]) -> npt.NDArray[np.float32]:
-    """The values at every vertex in some of the 187 dimensions; (len(dimensions), n).
+    """The values at every vertex in some of the D dimensions; (len(dimensions), n).
 
     Parameters
     ----------

@@ -114,7 +114,7 @@ class _Site:
         The features that a mesh alone has.
     brought : tuple of FeatureBlock
         Those that it has not.
-    edges : (187, 11) float64 array
+    edges : (dimensions, 11) float64 array
     """
 
     folder: Path

@@ -120,7 +120,7 @@ def read_facts(prepared: bytes) -> ShapeFacts:
 
 
 def sample_shape(prepared: bytes, count: int) -> bytes:
-    """Descriptor values at ``count`` vertices of a prepared shape; an array (count, 187) as a file."""
+    """Descriptor values at ``count`` vertices of a prepared shape; an array (count, dimensions) as a file."""
     return _pack_array(sample_values(_unpack(prepared), count))
 
 
@@ -140,7 +140,7 @@ def measure_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
 
 
 def read_features(described: bytes) -> FloatArray:
-    """The (1870,) features in a result of :func:`describe_shape`."""
+    """The features, one value a column, in a result of :func:`describe_shape`."""
     return _read_arrays(described)["features"]
 
 
@@ -181,7 +181,7 @@ def paint_shape(
     ----------
     prepared : bytes
     view : (3, 3) float64 array
-    edges : (187, 11) float64 array
+    edges : (dimensions, 11) float64 array
     bins : sequence of (int, int)
         Dimension and bin, both from 0.
     size : int

@@ -20,6 +20,7 @@ from shapeviz_report.pages.base import (
     rounded,
 )
 from shapeviz_report.pages.chunks import BinSet, Dimension, Fold, FoundBins, PathStep, Selection
+from shapeviz_report.projections import MAIN_PROJECTION
 from shapeviz_report.quality import hit_range
 from shapeviz_report.render import CLAY, MARKED, ramp_codes
 from shapeviz_report.search.certainty import measure_gain
@@ -178,9 +179,9 @@ def _fold(fold: HeldOutBins, place: dict[str, int]) -> Fold:
 
 
 def _all_features(report: Report, found: BinSearch) -> float:
-    """NH_s of the t-SNE map of all features: the one that the site shows, if it shows all shapes on one."""
+    """NH_s of the map of all features: the one that the site shows, if it shows all shapes on one."""
     whole = len(found.automatic.rows) == found.automatic.shape_count
-    shown = report.projections.get("tsne")
+    shown = report.projections.get(MAIN_PROJECTION.name)
     if whole and shown is not None and shown[0].bins is None and shown[1].nh_s is not None:
         return shown[1].nh_s
     return mean_over_folds(found.held_out, "nh_s_all")

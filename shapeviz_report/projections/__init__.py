@@ -15,7 +15,11 @@ from shapeviz_report.projections.umap import UMAP_METHOD
 
 PROJECTIONS: tuple[Method, ...] = (TSNE_METHOD, UMAP_METHOD, PCA_METHOD)
 
+MAIN_PROJECTION = PROJECTIONS[0]
+"""The one that readers meet first, and by whose maps bins are chosen."""
+
 __all__ = [
+    "MAIN_PROJECTION",
     "PROJECTIONS",
     "Method",
     "align",

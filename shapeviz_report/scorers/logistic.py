@@ -15,7 +15,7 @@ MOST = 200
 """Rows of either group in a run, so that a run costs no more with thousands of shapes than with some hundreds."""
 
 STRENGTHS = 0.64 ** np.arange(1, 7)
-"""Of the penalty, as parts of the least that leaves no coefficient; the last one leaves about 15 of 1870."""
+"""Of the penalty, as parts of the least that leaves no coefficient; the last one leaves about one in a hundred."""
 
 WEAKEST = 0.5
 """A run makes the penalty of a column up to twice as strong."""

@@ -60,7 +60,7 @@ def _rounds(method: str) -> int:
     return next(known.rounds for known in PROJECTIONS if known.name == method)
 
 
-def planned_runs(feature_count: int, method: str = "tsne", rounds: int | None = None) -> int | None:
+def planned_runs(feature_count: int, method: str, rounds: int | None = None) -> int | None:
     """The most maps that :func:`search_features` asks for; None where that depends on what it finds."""
     rounds = rounds or _rounds(method)
     if feature_count > EXHAUSTIVE_LIMIT:
@@ -91,7 +91,7 @@ def search_features(
     labels : n labels
         Of all rows of the feature table; None for a shape without one.
     method : str
-        ``tsne`` or ``umap``.
+        The name of a projection.
     evaluate : callable
         How maps are made; by default here and now.
     seed : int

@@ -136,7 +136,7 @@ def map_subsets(
     squared : (f, m, m) float32 array
         The distances of a :class:`SearchSpace`.
     method : str
-        ``tsne`` or ``umap``.
+        The name of a projection.
     seed : int
     subsets : whole numbers from 1 to 2^f - 1
     """

@@ -15,7 +15,7 @@ class Projection:
     Attributes
     ----------
     method : str
-        ``tsne``, ``umap`` or ``pca``.
+        The name of a projection.
     features : tuple of str
         The features it was made from.
     seed : int

@@ -229,7 +229,7 @@ class FeatureSearch:
     Attributes
     ----------
     method : str
-        ``tsne`` or ``umap``.
+        The name of the projection.
     seed : int
         Of the maps in ``subsets``; round r of Table 2 has ``seed + r - 1``.
     k : int

@@ -17,6 +17,7 @@ import numpy as np
 
 from shapeviz_report.cells import write_cell
 from shapeviz_report.pages.base import class_names
+from shapeviz_report.projections import MAIN_PROJECTION
 from shapeviz_report.quality import hit_range, share_of_range
 from shapeviz_report.search.certainty import measure_distinct_gain, measure_gain
 from shapeviz_report.types import (
@@ -458,7 +459,8 @@ def _gain(gain: Gain | None) -> dict[str, object] | None:
 
 def _bin_list(selection: BinSelection) -> str:
     """What ``build --bins`` reads."""
-    head = f"# {len(selection.bins)} bins that separate all classes: NH_s {selection.nh_s:.3f} on their t-SNE map\n"
+    head = f"# {len(selection.bins)} bins that separate all classes: NH_s {selection.nh_s:.3f} on their "
+    head += f"{MAIN_PROJECTION.title} map\n"
     return head + "".join(f"{name}\n" for name in selection.bins)
 
 

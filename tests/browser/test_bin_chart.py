@@ -448,9 +448,9 @@ class TestManyBars:
     def test_chosen_ones_stay_wide_enough_to_be_seen_and_places_find_back(self, painter):
         found = painter.evaluate("""() => {
             const scale = new window.bars.BinScale();
-            scale.fit(1870, [0, 1, 2, 700, 701], 990);
-            const whole = [0, 1, 2, 3, 700, 701, 702, 1869, 1870].map((place) => scale.xOf(place));
-            const places = [0, 0.5, 2.9, 3, 350, 700.25, 1000, 1869.5];
+            scale.fit(2000, [0, 1, 2, 700, 701], 990);
+            const whole = [0, 1, 2, 3, 700, 701, 702, 1999, 2000].map((place) => scale.xOf(place));
+            const places = [0, 0.5, 2.9, 3, 350, 700.25, 1000, 1999.5];
             const back = places.map((place) => scale.placeOf(scale.xOf(place)) - place);
             scale.hold(700.5, 300, 2);
             const held = scale.xOf(700.5);
@@ -462,7 +462,7 @@ class TestManyBars:
         np.testing.assert_allclose(np.diff([*whole[:4]]), 6)
         np.testing.assert_allclose(np.diff(whole[4:7]), 6)
         assert whole[8] == pytest.approx(990)
-        assert 0.4 < whole[8] - whole[7] < 990 / 1870
+        assert 0.4 < whole[8] - whole[7] < 990 / 2000
         np.testing.assert_allclose(found["back"], 0, atol=1e-9)
         assert found["held"] == pytest.approx(300)
         assert found["kept"] == 6

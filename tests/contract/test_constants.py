@@ -1,6 +1,7 @@
-"""What the modules of the features and of NH bind to a name in capitals stands under it in docs/method/method.md.
+"""Numbers of the method: what a module binds to a name in capitals stands under it in docs/method/method.md, and how
+many dimensions and columns the features have is written nowhere.
 
-What a number does without a name, in an expression, is not looked for.
+What another number does without a name, in an expression, is not looked for.
 """
 
 from __future__ import annotations
@@ -16,8 +17,10 @@ import pytest
 
 import shapeviz_report
 from shapeviz_report import descriptors
+from shapeviz_report.features import BLOCKS
 
-METHOD = Path(__file__).parents[2] / "docs" / "method" / "method.md"
+ROOT = Path(__file__).parents[2]
+METHOD = ROOT / "docs" / "method" / "method.md"
 
 ROW = re.compile(r"^\| `([\w.]+)` \| `(\w+)` \| ([^|`]+) \|", re.MULTILINE)
 
@@ -65,3 +68,20 @@ def test_every_row_is_a_constant() -> None:
     for (module, name), values in stated().items():
         held = getattr(importlib.import_module(f"{shapeviz_report.__name__}.{module}"), name)
         assert values == pytest.approx(np.ravel(held).astype(float).tolist(), rel=1e-5), (module, name)
+
+
+def test_how_many_features_there_are_follows_from_the_descriptors() -> None:
+    dimensions, columns = sum(block.dimensions for block in BLOCKS), sum(block.width for block in BLOCKS)
+    number = re.compile(rf"(?<![\w.]){dimensions}(?!\w)|(?<![\w.]){columns}(?!\w)")
+    sources = [
+        *(ROOT / "shapeviz_report").rglob("*.py"),
+        *(ROOT / "tests").rglob("*.py"),
+        *(ROOT / "site" / "scripts").rglob("*.js"),
+    ]
+    found = [
+        f"{source.relative_to(ROOT)}:{place}: write what follows from BLOCKS or fixed_edges() instead: {line.strip()}"
+        for source in sorted(sources)
+        for place, line in enumerate(source.read_text(encoding="utf-8").splitlines(), start=1)
+        if number.search(line)
+    ]
+    assert not found, "\n".join(found)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import pkgutil
 from pathlib import Path
@@ -58,6 +59,20 @@ def test_projection(method) -> None:
 def test_searches_are_by_the_methods_that_have_rounds() -> None:
     searched = tuple(method.name for method in PROJECTIONS if method.rounds)
     assert searched == SEARCHES[:-1]
+
+
+def test_only_its_own_file_names_a_projection() -> None:
+    """What uses maps asks the record; the options, which stand below all methods, are held by the test above."""
+    names = {method.name for method in PROJECTIONS}
+    package = Path(projections.__file__).parents[1]
+    own = {package / "config.py", *(package / "projections").rglob("*.py")}
+    found = [
+        f"{path.relative_to(ROOT)}:{node.lineno} names {node.value}: ask PROJECTIONS or MAIN_PROJECTION"
+        for path in sorted({*package.rglob("*.py")} - own)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Constant) and node.value in names
+    ]
+    assert not found, "\n".join(found)
 
 
 def test_one_file_a_projection() -> None:

@@ -151,7 +151,7 @@ def test_what_runs_is_reached() -> None:
         call("MEASURE", prepared, edges, True)
         call("PAINT", prepared, view, edges, [(0, 1)], 64)
         random = np.random.default_rng(0)
-        values = random.random((24, 1870))
+        values = random.random((24, sum(block.width for block in BLOCKS)))
         labels = ["a", "b", "c"] * 8
         for method in ("tsne", "umap", "pca"):
             call("PROJECT", method, values, 0)

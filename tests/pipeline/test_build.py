@@ -24,7 +24,7 @@ from small_database import OPTIONS, WITH_SEARCH, make_shape, read_site, write_da
 import shapeviz_report
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
-from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.features import BINS, PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search.bins import affordable_deals, find_minimal_bins, make_bin_space
 
@@ -51,7 +51,7 @@ def test_a_site_is_complete(built) -> None:
     assert len(list((site / "models").glob("*.js"))) == 15
     assert (site / "bins.html").is_file()
     with np.load(site / "data/features.npz", allow_pickle=False) as features:
-        assert features["values"].shape == (15, 1870)
+        assert features["values"].shape == (15, len(report.features.columns))
         assert features["shape_ids"].tolist() == [s.id for s in report.shapes]
     with open(site / "data/shapes.csv", newline="", encoding="utf-8") as file:
         assert len(list(csv.DictReader(file))) == 15
@@ -365,11 +365,11 @@ def test_models_are_of_their_shapes(built) -> None:
         assert view @ view.T == pytest.approx(np.eye(3), abs=1e-6)
         assert len(faces) <= 4000
         assert np.linalg.norm(vertices, axis=1).max() == pytest.approx(1, abs=0.02)
-        assert bins.shape == (187, len(vertices))
+        assert bins.shape == (len(report.edges), len(vertices))
         # Of its ten bins, the one with most vertices is one of the fullest of the whole surface.
         fullest = np.stack([np.bincount(row, minlength=10) for row in bins]).argmax(axis=1)
-        shares = report.features.values[row].reshape(187, 10)
-        held = shares[np.arange(187), fullest]
+        shares = report.features.values[row].reshape(-1, BINS)
+        held = shares[np.arange(len(shares)), fullest]
         assert (held > shares.max(axis=1) - 0.2).mean() > 0.9
 
 
@@ -427,7 +427,7 @@ def test_bins_that_are_not_there_stop_a_build_before_any_work(tmp_path, database
 
 def test_the_papers_preset(tmp_path, database, cache, built) -> None:
     report = shapeviz_report.build(database, tmp_path / "site", cache=cache, preset="paper", **OPTIONS)
-    assert report.features.values.reshape(15, 187, 10).sum(axis=2) == pytest.approx(1)
+    assert report.features.values.reshape(15, -1, BINS).sum(axis=2) == pytest.approx(1)
     assert not np.allclose(report.features.values, built[1].features.values)
 
 

@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.features import Preset
 from shapeviz_report.order import classes_of
-from shapeviz_report.projections import PROJECTIONS, arrange, canonical_order
+from shapeviz_report.projections import MAIN_PROJECTION, arrange, canonical_order
 from shapeviz_report.quality import neighbour_weights, neighbourhood_hits
 from shapeviz_report.search.bins.kernels.neighbour_hits import hits_with_each
 from shapeviz_report.search.space import stratified_sample
@@ -31,8 +31,6 @@ GRID_BITS = 20
 up to 1000 bins fit the 53 of double precision."""
 
 Codes = npt.NDArray[np.int64]
-
-_MAP = next(method for method in PROJECTIONS if method.name == "tsne")
 
 
 @dataclass(frozen=True)
@@ -157,9 +155,9 @@ def hits_of(squared: FloatArray, rows: npt.NDArray[np.intp], codes: Codes, k: in
 
 
 def lay_out(squared: FloatArray, seed: int) -> FloatArray:
-    """The t-SNE map (m, 2) of shapes by squared distances (m, m)."""
+    """The map (m, 2) of shapes by squared distances (m, m)."""
     with threadpool_limits(limits=1):
-        return arrange(_MAP, squared, seed)
+        return arrange(MAIN_PROJECTION, squared, seed)
 
 
 def hits_on(xy: FloatArray, codes: Codes, k: int) -> FloatArray:

@@ -48,7 +48,7 @@ def searched(values):
 
 def test_no_map_is_made_twice_and_all_were_announced(searched) -> None:
     _, evaluate = searched
-    assert len(evaluate.asked) == len(set(evaluate.asked)) <= planned_runs(3, rounds=2)
+    assert len(evaluate.asked) == len(set(evaluate.asked)) <= planned_runs(3, "tsne", rounds=2)
 
 
 def test_all_subsets_are_there(searched) -> None:
@@ -122,7 +122,7 @@ def test_many_features_are_searched_greedily(values, monkeypatch) -> None:
     assert len(set(evaluate.asked)) == len(evaluate.asked)
     assert result.effects[0].mean_with is None
     assert result.effects[0].alone == result.subsets.nh_s[result.subsets.members.sum(axis=1) == 1][0]
-    assert planned_runs(11) is None
+    assert planned_runs(11, "tsne") is None
 
 
 def test_without_labels_there_are_maps_only(values) -> None:
