@@ -102,6 +102,25 @@ def test_shift_adds_one_shape_and_a_click_beside_all_drops_the_selection(open_pa
     assert counted(page) == 0
 
 
+@pytest.mark.parametrize("file", MAPS)
+def test_escape_gives_up_a_box_and_leaves_the_selection_as_it_was(open_page, file):
+    page = open_page(SITE_OF.get(file, "workbench"), f"{file}#select=class000%2F0001")
+    page.locator(MAPS[file]).scroll_into_view_if_needed()
+    place = page.locator(MAPS[file]).bounding_box()
+    page.mouse.move(place["x"] + 3, place["y"] + 3)
+    page.mouse.down()
+    page.mouse.move(place["x"] + place["width"] * 0.9, place["y"] + place["height"] * 0.9, steps=4)
+    shown = page.locator(f"{MAPS[file]} .brush.shown")
+    assert shown.count() == 1
+    page.keyboard.press("Escape")
+    assert shown.count() == 0
+    # What is left of the drag draws nothing, and is no click beside all shapes.
+    page.mouse.move(place["x"] + place["width"] * 0.8, place["y"] + place["height"] * 0.5, steps=4)
+    page.mouse.up()
+    assert shown.count() == 0
+    assert counted(page) == 1
+
+
 def test_the_selection_goes_along_through_the_whole_site(open_page):
     page = open_page("workbench", "index.html")
     box(page, MAPS["index.html"], right=0.4)

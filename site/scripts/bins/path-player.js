@@ -3,8 +3,8 @@
 import { calm, element, svg } from "../base/dom.js";
 import { difference, symbol } from "../base/figures.js";
 import { count, figure } from "../base/words.js";
-import { watchBrush } from "../map/brush.js";
 import { Labels } from "../map/labels.js";
+import { FULL } from "../map/marks.js";
 import { mapOf, Plot } from "../map/plot.js";
 
 const PACE = 900;
@@ -86,7 +86,7 @@ export class PathPlayer {
       selection: () => this.state.get("selection"),
       mark: (index) => {
         const group = database.groups[index];
-        return { path: database.symbol(group), color: database.color(group), radius: this.#radius, alpha: 0.92 };
+        return { path: database.symbol(group), color: database.color(group), radius: this.#radius, alpha: FULL };
       },
       drawn: () => {
         const { width, height } = this.plot.view;
@@ -106,8 +106,7 @@ export class PathPlayer {
       },
     });
     surface.append(this.plot.node, overlay);
-    watchBrush(surface, this.plot, this.state);
-    pointing.watch(surface, this.plot, choose);
+    pointing.watch(surface, this.plot, choose, this.state);
   }
 
   get #radius() {

@@ -7,7 +7,6 @@ import { styleColor } from "../base/theme.js";
 import { dimensionOf, pictured, shapeLine } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { findShapes } from "../database/shape-finder.js";
-import { watchBrush } from "../map/brush.js";
 import { Plot } from "../map/plot.js";
 import { Paint } from "../viewer/paint.js";
 
@@ -124,12 +123,11 @@ export class Turntable {
           alpha: 0.35 + 0.6 * Math.sqrt(share),
         };
       },
-      drawn: () => this.#ring(),
+      drawn: (marks) => marks.ring(this.pick.screen(this.shape), 9, styleColor("accent")),
     });
     const surface = document.getElementById("pick-surface");
     surface.append(this.pick.node);
-    watchBrush(surface, this.pick, this.state);
-    pointing.watch(surface, this.pick, (shape) => this.state.set({ shape }));
+    pointing.watch(surface, this.pick, (shape) => this.state.set({ shape }), this.state);
   }
 
   /** How much of the bin a shape has, from 0 for the least to 1 for the most of all shapes. */
@@ -141,17 +139,5 @@ export class Turntable {
       this.scale = { bin, shares: values.map((value) => (high > low ? (value - low) / (high - low) : 0)) };
     }
     return this.scale.shares[index];
-  }
-
-  #ring() {
-    const { pen } = this.pick;
-    const dense = window.devicePixelRatio || 1;
-    const [x, y] = this.pick.screen(this.shape);
-    pen.globalAlpha = 1;
-    pen.lineWidth = 2.5 * dense;
-    pen.strokeStyle = styleColor("accent");
-    pen.beginPath();
-    pen.arc(x * dense, y * dense, 9 * dense, 0, 7);
-    pen.stroke();
   }
 }

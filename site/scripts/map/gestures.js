@@ -1,144 +1,67 @@
 // Pointer, wheel and keys on a map.
 
 import { toggled } from "../database/selection.js";
+import { ShapeBrush } from "./brush.js";
 
-const CLICK = 4;
-
-export class Gestures {
-  #pointers = new Map();
-  #drag = null;
-
+export class Gestures extends ShapeBrush {
   constructor(view, { open, promote, announce }) {
+    super(view.surface, view.brush, view, view.state);
     this.view = view;
     this.scene = view.scene;
-    this.state = view.state;
     this.open = open;
     this.promote = promote;
     this.announce = announce;
     const { surface } = view;
-    surface.addEventListener("pointerdown", (event) => this.#down(event));
-    surface.addEventListener("pointermove", (event) => this.#move(event));
-    surface.addEventListener("pointerup", (event) => this.#up(event));
-    surface.addEventListener("pointercancel", (event) => this.#cancel(event));
     surface.addEventListener("pointerleave", () => this.state.set({ pointed: null }));
     surface.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     surface.addEventListener("keydown", (event) => this.#key(event));
     surface.addEventListener("blur", () => this.state.set({ pointed: null }));
   }
 
-  #place(event) {
-    const box = this.view.surface.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
+  moves() {
+    return this.state.get("drag") === "move";
   }
 
-  #down(event) {
-    if (event.button === 2) return;
-    const place = this.#place(event);
-    this.#pointers.set(event.pointerId, place);
-    this.view.surface.setPointerCapture(event.pointerId);
-    if (this.#pointers.size === 2) {
-      this.#drag = { kind: "pinch", ...this.#pinch(), camera: this.scene.camera() };
-      this.#hideBrush();
-      return;
-    }
-    const moves = this.state.get("drag") === "move" || event.button === 1;
-    this.#drag = {
-      kind: "press",
-      becomes: moves ? "move" : "select",
-      start: place,
-      camera: this.scene.camera(),
-      before: event.shiftKey ? this.state.get("selection") : new Set(),
-    };
+  hold() {
+    return this.scene.camera();
   }
 
-  #move(event) {
-    const place = this.#place(event);
-    if (this.#pointers.has(event.pointerId)) this.#pointers.set(event.pointerId, place);
-    const drag = this.#drag;
-    if (!drag) {
-      this.#point(place, event.pointerType === "mouse" ? 6 : 14);
-      return;
-    }
-    if (drag.kind === "pinch") {
-      this.#stretch(drag);
-      return;
-    }
-    const [dx, dy] = [place[0] - drag.start[0], place[1] - drag.start[1]];
-    if (drag.kind === "press" && Math.hypot(dx, dy) > CLICK) {
-      drag.kind = drag.becomes;
-      this.state.set({ pointed: null, brushing: drag.kind === "select" });
-    }
-    if (drag.kind === "move") {
-      const scale = this.view.scale;
-      this.scene.look({ ...drag.camera, x: drag.camera.x - dx / scale, y: drag.camera.y + dy / scale });
-    }
-    if (drag.kind === "select") this.#select(drag, place);
+  hover(place, { pointerType }) {
+    const index = this.view.at(...place, pointerType === "mouse" ? 6 : 14);
+    this.surface.classList.toggle("on-shape", index !== null);
+    this.state.set({ pointed: index, pointedFrom: this.view });
   }
 
-  #up(event) {
-    const drag = this.#drag;
-    this.#release(event);
-    if (drag?.kind !== "press") return;
-    const index = this.view.at(...this.#place(event), event.pointerType === "mouse" ? 6 : 16);
+  click(place, { pointerType, shiftKey }) {
+    const index = this.view.at(...place, pointerType === "mouse" ? 6 : 16);
     if (!this.view.large) this.promote(this.view.name);
-    else if (index !== null && event.shiftKey) this.#toggle(index);
+    else if (index !== null && shiftKey) this.#toggle(index);
     else if (index !== null) this.open(index);
     else this.state.set({ selection: new Set() });
   }
 
-  #cancel(event) {
-    this.#release(event);
+  move([fromX, fromY], [toX, toY], camera) {
+    const { scale } = this.view;
+    this.state.set({ pointed: null });
+    this.scene.look({ ...camera, x: camera.x - (toX - fromX) / scale, y: camera.y + (toY - fromY) / scale });
   }
 
-  #release(event) {
-    this.#pointers.delete(event.pointerId);
-    this.#hideBrush();
-    this.#drag = null;
-    this.state.set({ brushing: false });
-  }
-
-  #hideBrush() {
-    this.view.brush.classList.remove("shown");
-  }
-
-  #point(place, reach) {
-    const index = this.view.at(...place, reach);
-    this.view.surface.classList.toggle("on-shape", index !== null);
-    this.state.set({ pointed: index, pointedFrom: this.view });
-  }
-
-  #select(drag, place) {
-    const [x, y] = place;
-    const [left, right] = [Math.min(x, drag.start[0]), Math.max(x, drag.start[0])];
-    const [top, bottom] = [Math.min(y, drag.start[1]), Math.max(y, drag.start[1])];
-    const { brush } = this.view;
-    brush.classList.add("shown");
-    brush.setAttribute("x", left);
-    brush.setAttribute("y", top);
-    brush.setAttribute("width", right - left);
-    brush.setAttribute("height", bottom - top);
-    this.state.set({ selection: new Set([...drag.before, ...this.view.inside(left, top, right, bottom)]) });
+  pinch(before, now, camera) {
+    const zoom = (camera.zoom * now.spread) / before.spread;
+    const whole = this.view.scale / this.scene.camera().zoom;
+    const [old, scale] = [whole * camera.zoom, whole * zoom];
+    const { width, clearHeight: height } = this.view;
+    const x = camera.x + (before.middle[0] - width / 2) / old;
+    const y = camera.y - (before.middle[1] - height / 2) / old;
+    this.scene.look({
+      x: x - (now.middle[0] - width / 2) / scale,
+      y: y + (now.middle[1] - height / 2) / scale,
+      zoom,
+    });
   }
 
   #toggle(index) {
     this.state.set({ selection: toggled(this.state.get("selection"), index) });
-  }
-
-  #pinch() {
-    const [[ax, ay], [bx, by]] = [...this.#pointers.values()];
-    return { spread: Math.hypot(ax - bx, ay - by), middle: [(ax + bx) / 2, (ay + by) / 2] };
-  }
-
-  #stretch(drag) {
-    const { spread, middle } = this.#pinch();
-    const factor = spread / Math.max(drag.spread, 1);
-    const zoom = drag.camera.zoom * factor;
-    const scale = (this.view.scale / this.scene.camera().zoom) * zoom;
-    const old = (this.view.scale / this.scene.camera().zoom) * drag.camera.zoom;
-    const { width, clearHeight: height } = this.view;
-    const x = drag.camera.x + (drag.middle[0] - width / 2) / old;
-    const y = drag.camera.y - (drag.middle[1] - height / 2) / old;
-    this.scene.look({ x: x - (middle[0] - width / 2) / scale, y: y + (middle[1] - height / 2) / scale, zoom });
   }
 
   #wheel(event) {
@@ -147,7 +70,7 @@ export class Gestures {
     if (!this.view.large || (scrolls && !event.ctrlKey && !event.metaKey)) return;
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 18 : 1;
-    this.zoom(Math.exp((-event.deltaY * lines * (event.ctrlKey ? 4 : 1)) / 500), this.#place(event));
+    this.zoom(Math.exp((-event.deltaY * lines * (event.ctrlKey ? 4 : 1)) / 500), this.placeOf(event));
   }
 
   /** Zoom by a factor with one place of the screen held still; the middle unless another is given. */

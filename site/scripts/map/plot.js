@@ -1,12 +1,10 @@
 // A map of shapes on one canvas: the Bins page shows dozens, each of few marks, and none needs more than a picture.
 
-import { calm, element } from "../base/dom.js";
+import { calm } from "../base/dom.js";
 import { bounds } from "../database/database.js";
+import { FADED, Marks } from "./marks.js";
 
 const DURATION = 450;
-
-/** Opacity of a shape that is not selected while others are, as on all maps. */
-const FAINT = 0.14;
 
 /** The map of a step or a class from the chunk "selection": shapes that took no part have no place. */
 export function mapOf({ x, y }, { rows, coordinateSteps }, count) {
@@ -20,13 +18,16 @@ export function mapOf({ x, y }, { rows, coordinateSteps }, count) {
 }
 
 export class Plot {
+  #marks;
+
   /**
-   * `mark(index)` says how a shape is drawn: `{ color, path, radius, faint }`; `first(index)` puts shapes below the
-   * others; `selection()` are the shapes that stand out, all where there are none; `drawn` is called after every drawing.
+   * `mark(index)` says how a shape is drawn: `{ color, path, radius, alpha }`; `first(index)` puts shapes below the
+   * others; `selection()` are the shapes that stand out, all where there are none; `drawn(marks)` is called after every
+   * drawing, and may draw more.
    */
   constructor(
     database,
-    { mark, first = (_) => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} },
+    { mark, first = (_) => false, selection = () => NOBODY, margin = 8, label = null, drawn = (_) => {} },
   ) {
     this.database = database;
     this.mark = mark;
@@ -34,13 +35,13 @@ export class Plot {
     this.selection = selection;
     this.margin = margin;
     this.drawn = drawn;
-    this.node = element("canvas", {
+    this.#marks = new Marks({
       class: "few-plot",
       role: label === null ? null : "img",
       "aria-label": label,
       "aria-hidden": label === null ? "true" : null,
     });
-    this.pen = this.node.getContext("2d");
+    this.node = this.#marks.node;
     this.map = null;
     new ResizeObserver(() => this.draw()).observe(this.node);
   }
@@ -93,45 +94,30 @@ export class Plot {
   }
 
   draw() {
-    const { node, pen, map, database } = this;
+    const { node, map, database } = this;
+    const marks = this.#marks;
     const [width, height] = [node.clientWidth, node.clientHeight];
     if (map === null || width === 0 || height === 0) return;
-    const dense = window.devicePixelRatio || 1;
-    Object.assign(node, { width: Math.round(width * dense), height: Math.round(height * dense) });
     const extent = bounds(map);
     const scale = Math.min((width - 2 * this.margin) / extent.width, (height - 2 * this.margin) / extent.height);
     this.view = { x: extent.x, y: extent.y, scale, width, height };
-    pen.strokeStyle = database.marks.outline;
+    const { outline } = database.marks;
     const chosen = this.selection();
-    const faint = (index) => chosen.size > 0 && !chosen.has(index);
+    const faded = (index) => chosen.size > 0 && !chosen.has(index);
+    marks.begin(width, height);
     for (const below of [true, false]) {
       for (let index = 0; index < database.count; index += 1) {
-        if (Number.isNaN(map.x[index]) || (this.first(index) || faint(index)) !== below) continue;
-        const { color, path, radius, alpha } = this.mark(index);
-        const [x, y] = this.screen(index);
-        pen.setTransform(dense * radius, 0, 0, dense * radius, dense * x, dense * y);
-        pen.globalAlpha = faint(index) ? FAINT : alpha;
-        pen.fillStyle = color;
-        const shape = pathOf(path);
-        pen.fill(shape);
-        if (radius < 2.5) continue;
-        pen.lineWidth = 0.6 / radius;
-        pen.stroke(shape);
+        if (Number.isNaN(map.x[index]) || (this.first(index) || faded(index)) !== below) continue;
+        const { path, color, radius, alpha } = this.mark(index);
+        marks.lay(marks.stamp(path, color, radius, outline), this.screen(index), faded(index) ? FADED : alpha);
       }
     }
-    pen.setTransform(1, 0, 0, 1, 0, 0);
-    this.drawn();
+    marks.show();
+    this.drawn(marks);
   }
 }
 
 const NOBODY = new Set();
-
-const paths = new Map();
-
-function pathOf(text) {
-  if (!paths.has(text)) paths.set(text, new Path2D(text));
-  return paths.get(text);
-}
 
 function between(from, to, share) {
   const mix = (a, b) =>

@@ -1,6 +1,8 @@
-// Pointing at a shape on a plot: its picture and name beside the pointer; a click chooses it.
+// Pointing at a shape on a plot: its picture and name beside the pointer; a click chooses it, and a box selects.
 
-import { element, picture, swatch } from "../base/dom.js";
+import { element, picture, svg, swatch } from "../base/dom.js";
+import { toggled } from "../database/selection.js";
+import { ShapeBrush } from "./brush.js";
 
 const REACH = 14;
 const GAP = 14;
@@ -13,9 +15,13 @@ export class Pointing {
     window.addEventListener("scroll", () => this.#hide(), { passive: true });
   }
 
-  /** Watch a plot in its surface; `choose` is told of the shape that was clicked. */
-  watch(surface, plot, choose) {
+  /**
+   * Watch a plot in its surface; `choose` is told of the shape that was clicked. With a `state`, its selection is what
+   * a box has in it, as on all maps, and a click beside all shapes drops it.
+   */
+  watch(surface, plot, choose, state = null) {
     const at = (event) => plot.at(event.offsetX, event.offsetY, REACH);
+    const brush = state && new PlotBrush(surface, plot, state);
     surface.addEventListener("pointermove", (event) => {
       const index = at(event);
       surface.classList.toggle("on-shape", index !== null);
@@ -24,8 +30,10 @@ export class Pointing {
     });
     surface.addEventListener("pointerleave", () => this.#hide());
     surface.addEventListener("click", (event) => {
+      if (brush?.dragged) return;
       const index = at(event);
-      if (index !== null) choose(index);
+      if (index !== null && !(state && event.shiftKey)) choose(index);
+      else state?.set({ selection: index === null ? new Set() : toggled(state.get("selection"), index) });
     });
   }
 
@@ -57,5 +65,28 @@ export class Pointing {
 
   #hide() {
     this.node.hidden = true;
+  }
+}
+
+/** A mouse draws boxes on a plot; a finger scrolls the page. */
+class PlotBrush extends ShapeBrush {
+  #frame = null;
+
+  constructor(surface, plot, state) {
+    const box = svg("rect", { class: "brush" });
+    surface.append(svg("svg", { class: "overlay", "aria-hidden": "true" }, box));
+    super(surface, box, plot, state);
+    state.listen((changed) => {
+      if (changed.has("selection")) this.#frame ??= requestAnimationFrame(() => this.#redraw());
+    });
+  }
+
+  takes({ pointerType, button }) {
+    return pointerType === "mouse" && button === 0;
+  }
+
+  #redraw() {
+    this.#frame = null;
+    this.plot.draw();
   }
 }

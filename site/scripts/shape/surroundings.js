@@ -23,7 +23,7 @@ export class Surroundings {
       margin: 14,
       first: (index) => !this.near.has(index) && index !== state.get("shape"),
       mark: (index) => this.#mark(index),
-      drawn: () => this.#tie(),
+      drawn: (marks) => this.#tie(marks),
     });
     const surface = document.getElementById("place-surface");
     surface.append(this.plot.node);
@@ -129,24 +129,13 @@ export class Surroundings {
   }
 
   /** Lines to the neighbours, and a ring around the shape itself. */
-  #tie() {
-    const { pen } = this.plot;
-    const dense = window.devicePixelRatio || 1;
-    const [x, y] = this.plot.screen(this.state.get("shape")).map((value) => value * dense);
-    pen.globalAlpha = 0.6;
-    pen.lineWidth = dense;
-    pen.strokeStyle = styleColor("quiet");
-    pen.beginPath();
-    for (const other of this.near) {
-      pen.moveTo(x, y);
-      pen.lineTo(...this.plot.screen(other).map((value) => value * dense));
-    }
-    pen.stroke();
-    pen.globalAlpha = 1;
-    pen.lineWidth = 2.5 * dense;
-    pen.strokeStyle = styleColor("accent");
-    pen.beginPath();
-    pen.arc(x, y, 11 * dense, 0, 7);
-    pen.stroke();
+  #tie(marks) {
+    const place = this.plot.screen(this.state.get("shape"));
+    marks.tie(
+      place,
+      [...this.near].map((other) => this.plot.screen(other)),
+      styleColor("quiet"),
+    );
+    marks.ring(place, 11, styleColor("accent"));
   }
 }

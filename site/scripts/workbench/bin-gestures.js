@@ -1,98 +1,85 @@
 // Pointer, wheel, fingers and keys on the bars.
 
-const CLICK = 4;
+import { Brush } from "../map/brush.js";
+
 const LEAP = 10;
 
-export class BinGestures {
-  #pointers = new Map();
-  #drag = null;
-
+export class BinGestures extends Brush {
   /** `plot` is the BinPlot; `chart` is asked to point, to mark a range and to choose. */
   constructor(plot, chart) {
+    super(plot.surface);
     this.plot = plot;
     this.chart = chart;
     const { surface } = plot;
-    surface.addEventListener("pointerdown", (event) => this.#down(event));
-    surface.addEventListener("pointermove", (event) => this.#move(event));
-    surface.addEventListener("pointerup", (event) => this.#up(event));
-    surface.addEventListener("pointercancel", (event) => this.#release(event));
     surface.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && chart.point(null));
     surface.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     surface.addEventListener("keydown", (event) => this.#key(event));
     surface.addEventListener("blur", () => this.#letGo());
   }
 
-  #x(event) {
-    return event.clientX - this.plot.surface.getBoundingClientRect().left;
+  /** One choice on the page says what dragging does, on the maps and here. */
+  moves() {
+    return this.surface.closest("[data-drag='move']") !== null;
   }
 
-  #down(event) {
-    if (event.button === 2) return;
-    const x = this.#x(event);
-    this.#pointers.set(event.pointerId, x);
-    this.plot.surface.setPointerCapture(event.pointerId);
-    if (this.#pointers.size === 2) {
-      const [a, b] = [...this.#pointers.values()];
-      const { scale } = this.plot;
-      this.#drag = { kind: "pinch", spread: Math.abs(a - b), place: scale.placeOf((a + b) / 2), step: scale.step };
-      this.chart.mark(null);
-      return;
-    }
-    // One choice on the page says what dragging does, on the maps and here.
-    const moves = this.plot.surface.closest("[data-drag='move']") !== null || event.button === 1;
-    this.#drag = { kind: "press", becomes: moves ? "move" : "select", start: x, last: x, place: this.plot.at(x, true) };
+  /**
+   * Bars stand side by side: only what goes along them counts.
+   * @param {[number, number]} to
+   * @param {[number, number]} from
+   */
+  distance([x], [fromX]) {
+    return Math.abs(x - fromX);
   }
 
-  #move(event) {
-    const { plot, chart } = this;
-    const x = this.#x(event);
-    if (this.#pointers.has(event.pointerId)) this.#pointers.set(event.pointerId, x);
-    const drag = this.#drag;
-    if (!drag) {
-      if (event.pointerType === "mouse") chart.point(this.#columnAt(x));
-      return;
-    }
-    if (drag.kind === "pinch") this.#stretch(drag);
-    if (drag.kind === "press" && Math.abs(x - drag.start) > CLICK) {
-      drag.kind = drag.becomes;
-      chart.point(null);
-    }
-    if (drag.kind === "move") plot.pan(drag.last - x);
-    drag.last = x;
-    if (drag.kind === "select" && plot.places.length > 0) {
-      if (x < 0 || x > plot.width) plot.pan(x < 0 ? x : x - plot.width);
-      chart.mark([drag.place, plot.at(x, true)]);
-    }
+  hold([x]) {
+    const { scale } = this.plot;
+    return { place: this.plot.at(x, true), point: scale.placeOf(x), step: scale.step };
   }
 
-  #up(event) {
-    const drag = this.#drag;
-    const x = this.#x(event);
-    this.#release(event);
-    if (drag?.kind === "select") this.chart.apply(this.chart.marked);
-    if (drag?.kind !== "press" || event.button === 1) return;
+  hover([x], { pointerType }) {
+    if (pointerType === "mouse") this.chart.point(this.#columnAt(x));
+  }
+
+  click([x], { pointerType, button }) {
     const column = this.#columnAt(x);
-    if (column === null) return;
+    if (button === 1 || column === null) return;
     // A finger cannot point without touching, so its first touch points and the next one chooses.
-    if (event.pointerType === "mouse" || this.chart.pointed === column) this.chart.toggle(column);
+    if (pointerType === "mouse" || this.chart.pointed === column) this.chart.toggle(column);
     else this.chart.point(column);
   }
 
-  #release(event) {
-    this.#pointers.delete(event.pointerId);
-    this.#drag = null;
-    if (event.type === "pointercancel") this.chart.mark(null);
+  begin() {
+    this.chart.point(null);
+  }
+
+  draw(_from, [x], { place }) {
+    const { plot } = this;
+    if (plot.places.length === 0) return;
+    if (x < 0 || x > plot.width) plot.pan(x < 0 ? x : x - plot.width);
+    this.chart.mark([place, plot.at(x, true)]);
+  }
+
+  end() {
+    this.chart.apply(this.chart.marked);
+  }
+
+  giveUp() {
+    this.chart.mark(null);
+  }
+
+  move(_from, [x], { point }) {
+    this.chart.point(null);
+    this.plot.hold(point, x);
+  }
+
+  /** What was between the fingers stays between them. */
+  pinch(before, now, { point, step }) {
+    this.plot.hold(point, now.middle[0], (step * now.spread) / before.spread);
   }
 
   #columnAt(x) {
     const place = this.plot.at(x);
     return place === null ? null : this.plot.places[place];
-  }
-
-  #stretch(drag) {
-    const [a, b] = [...this.#pointers.values()];
-    // What was between the fingers stays between them.
-    this.plot.hold(drag.place, (a + b) / 2, (drag.step * Math.abs(a - b)) / Math.max(drag.spread, 1));
   }
 
   #wheel(event) {
@@ -105,7 +92,7 @@ export class BinGestures {
       // Where the page itself scrolls, the wheel belongs to it unless the reader asks for zoom.
       const scrolls = document.documentElement.scrollHeight > window.innerHeight + 1;
       if (scrolls && !event.ctrlKey && !event.metaKey) return;
-      this.plot.zoom(Math.exp((-event.deltaY * lines * (event.ctrlKey ? 4 : 1)) / 500), this.#x(event));
+      this.plot.zoom(Math.exp((-event.deltaY * lines * (event.ctrlKey ? 4 : 1)) / 500), this.placeOf(event)[0]);
     }
     event.preventDefault();
     this.chart.point(null);

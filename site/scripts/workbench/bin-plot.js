@@ -4,6 +4,7 @@ import { calm, element, svg } from "../base/dom.js";
 import { styleColor } from "../base/theme.js";
 import { axisEnd, edges, paintBars, paintRows } from "../bins-kit/bin-bars.js";
 import { BinScale } from "../bins-kit/bin-scale.js";
+import { showBox } from "../map/brush.js";
 import { BinStrip } from "./bin-strip.js";
 
 /** Letters of a name below a bar. */
@@ -39,8 +40,8 @@ export class BinPlot {
     this.pointed = null;
     this.range = null;
     this.canvas = element("canvas");
-    this.pointer = svg("rect", { class: "column pointed", y: 0 });
-    this.brush = svg("rect", { class: "brush", y: 0 });
+    this.pointer = svg("rect", { class: "column pointed" });
+    this.brush = svg("rect", { class: "brush" });
     this.message = element("p", { class: "message" }, "No bins to show yet.");
     this.surface = element(
       "div",
@@ -398,13 +399,13 @@ export class BinPlot {
     this.#span(this.brush, this.range, 1);
   }
 
-  #span(node, range, least) {
-    node.classList.toggle("shown", range !== null);
-    if (range === null) return;
+  #span(frame, range, least) {
+    if (range === null) {
+      showBox(frame, null);
+      return;
+    }
     const [start, end] = [this.scale.xOf(Math.min(...range)), this.scale.xOf(Math.max(...range) + 1)];
     const width = Math.max(end - start, least);
-    node.setAttribute("x", (start + end - width) / 2);
-    node.setAttribute("width", width);
-    node.setAttribute("height", this.height);
+    showBox(frame, { x: (start + end - width) / 2, y: 0, width, height: this.height });
   }
 }

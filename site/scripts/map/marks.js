@@ -1,0 +1,174 @@
+// Marks of shapes on a canvas, for all that Vega-Lite does not draw or would take too long for. They look as charts draw
+// them, so that nobody sees the one take over from the other.
+
+import { element } from "../base/dom.js";
+
+/** Opacity of marks, and of those that others stand out from. */
+export const FULL = 0.92;
+export const FADED = 0.14;
+
+/** On smaller marks there would be more outline than colour. */
+const SMALLEST_OUTLINED = 2.5;
+const OUTLINE = 0.6;
+
+/** Beyond so many pixels stamps are forgotten: a reader who zooms for long would fill the memory. */
+const MOST_PIXELS_KEPT = 2_000_000;
+
+export class Marks {
+  /** All sizes and places are in pixels of the page. */
+  constructor(attributes) {
+    this.node = element("canvas", attributes);
+    this.pen = this.node.getContext("2d");
+  }
+
+  /** Begin a drawing of this size. */
+  begin(width, height) {
+    this.density = window.devicePixelRatio || 1;
+    const [wide, high] = [Math.round(width * this.density), Math.round(height * this.density)];
+    if (this.node.width !== wide || this.node.height !== high) Object.assign(this.node, { width: wide, height: high });
+    this.sheet = emptySheet(wide, high);
+  }
+
+  /** A mark to be laid anywhere: a symbol in a colour, with an outline of another or of none. */
+  stamp(path, color, radius, outline = null) {
+    // In steps that nobody sees, or marks that grow would need a stamp for every frame.
+    const size = Math.max(Math.round(4 * radius * this.density), 1) / 4;
+    return stampOf(path, color, size, radius >= SMALLEST_OUTLINED ? outline : null, OUTLINE * this.density);
+  }
+
+  /** Lay a mark with its centre at a place; above those laid before. */
+  lay(stamp, [x, y], opacity) {
+    press(this.sheet, stamp, Math.round(x * this.density), Math.round(y * this.density), opacity);
+  }
+
+  /** Show what was laid. What follows is drawn above it. */
+  show() {
+    this.pen.resetTransform();
+    this.pen.putImageData(this.sheet, 0, 0);
+    this.sheet = null;
+    this.pen.scale(this.density, this.density);
+    this.pen.imageSmoothingQuality = "high";
+  }
+
+  /** A ring about a mark. */
+  ring([x, y], radius, color) {
+    const { pen } = this;
+    Object.assign(pen, { globalAlpha: 1, lineWidth: 2.5, strokeStyle: color });
+    pen.beginPath();
+    pen.arc(x, y, radius, 0, 7);
+    pen.stroke();
+  }
+
+  /** Lines from one mark to others. */
+  tie(from, others, color) {
+    const { pen } = this;
+    Object.assign(pen, { globalAlpha: 0.6, lineWidth: 1, strokeStyle: color });
+    pen.beginPath();
+    for (const other of others) {
+      pen.moveTo(...from);
+      pen.lineTo(...other);
+    }
+    pen.stroke();
+  }
+
+  /** A picture in the place of a mark. */
+  picture(image, [x, y], side, opacity) {
+    this.pen.globalAlpha = opacity;
+    this.pen.drawImage(image, x - side / 2, y - side / 2, side, side);
+  }
+}
+
+// A drawing is begun and shown at once, so all share the memory of one.
+let memory = new Uint8ClampedArray(0);
+
+function emptySheet(width, height) {
+  const length = 4 * width * height;
+  if (memory.length < length) memory = new Uint8ClampedArray(length);
+  else memory.fill(0, 0, length);
+  return new ImageData(memory.subarray(0, length), width, height);
+}
+
+const stamps = new Map();
+let pixelsKept = 0;
+
+function stampOf(...how) {
+  const key = how.join(" ");
+  let stamp = stamps.get(key);
+  if (stamp === undefined) {
+    stamp = cut(...how);
+    pixelsKept += stamp.width ** 2;
+    if (pixelsKept > MOST_PIXELS_KEPT) {
+      stamps.clear();
+      pixelsKept = stamp.width ** 2;
+    }
+    stamps.set(key, stamp);
+  }
+  return stamp;
+}
+
+/** Where stamps are drawn. */
+let pad = null;
+
+/** A mark as pixels. */
+function cut(path, color, radius, outline, line) {
+  const mark = new Path2D(path);
+  // Symbols reach a little beyond their radius.
+  const half = Math.ceil(1.6 * radius + 1);
+  pad ??= element("canvas").getContext("2d", { willReadFrequently: true });
+  Object.assign(pad.canvas, { width: 2 * half, height: 2 * half });
+  pad.setTransform(radius, 0, 0, radius, half, half);
+  pad.fillStyle = color;
+  pad.fill(mark);
+  if (outline !== null) {
+    pad.strokeStyle = outline;
+    pad.lineWidth = line / radius;
+    pad.stroke(mark);
+  }
+  const rim = margin(pad.getImageData(0, 0, 2 * half, 2 * half));
+  const side = 2 * (half - rim);
+  return pad.getImageData(rim, rim, side, side);
+}
+
+/** How many pixels about a stamp are empty on all sides. */
+function margin({ data, width }) {
+  let least = width / 2 - 1;
+  for (let place = 0; place < width * width; place += 1) {
+    if (data[4 * place + 3] === 0) continue;
+    const [x, y] = [place % width, Math.floor(place / width)];
+    least = Math.min(least, x, y, width - 1 - x, width - 1 - y);
+  }
+  return least;
+}
+
+/**
+ * Lay a stamp over an image. By hand, because this is done ten thousand times a frame: a canvas takes tens of
+ * milliseconds to draw as many little pictures, and this takes a few.
+ */
+function press({ data: below, width, height }, { data: above, width: side }, x, y, opacity) {
+  const [left, top] = [x - side / 2, y - side / 2];
+  const firstRow = Math.max(-top, 0);
+  const lastRow = Math.min(height - top, side);
+  const firstColumn = Math.max(-left, 0);
+  const lastColumn = Math.min(width - left, side);
+  for (let row = firstRow; row < lastRow; row += 1) {
+    let from = 4 * (row * side + firstColumn);
+    let to = 4 * ((top + row) * width + left + firstColumn);
+    for (let column = firstColumn; column < lastColumn; column += 1, from += 4, to += 4) {
+      const alpha = above[from + 3] * opacity;
+      if (alpha === 0) continue;
+      if (below[to + 3] === 0) {
+        below[to] = above[from];
+        below[to + 1] = above[from + 1];
+        below[to + 2] = above[from + 2];
+        below[to + 3] = alpha;
+        continue;
+      }
+      const rest = (below[to + 3] * (255 - alpha)) / 255;
+      const all = alpha + rest;
+      below[to] = (above[from] * alpha + below[to] * rest) / all;
+      below[to + 1] = (above[from + 1] * alpha + below[to + 1] * rest) / all;
+      below[to + 2] = (above[from + 2] * alpha + below[to + 2] * rest) / all;
+      below[to + 3] = all;
+    }
+  }
+}
