@@ -5,7 +5,8 @@ from __future__ import annotations
 import base64
 import gzip
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import cache
 
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.types import Accent, Report
@@ -32,7 +33,8 @@ STYLES = (
 )
 
 
-def join_scripts() -> dict[str, str]:
+@cache
+def join_scripts() -> Mapping[str, str]:
     """The scripts by their file below ``assets/``; ``first.js`` is the one that runs before anything is painted, and
     ``shared.js`` before the script of a page."""
     source = site_folder()

@@ -35,10 +35,28 @@ CONTENT_SECURITY_POLICY = "; ".join(
 )
 
 
+class _Compiled(jinja2.BytecodeCache):
+    """Templates that this process has compiled: a site of a few shapes waits for little else."""
+
+    def __init__(self) -> None:
+        self._code: dict[str, bytes] = {}
+
+    def load_bytecode(self, bucket: jinja2.bccache.Bucket) -> None:
+        if code := self._code.get(bucket.key):
+            bucket.bytecode_from_string(code)
+
+    def dump_bytecode(self, bucket: jinja2.bccache.Bucket) -> None:
+        self._code[bucket.key] = bucket.bytecode_to_string()
+
+
+_COMPILED = _Compiled()
+
+
 def make_environment(*, single_file: bool = False, left_out: Sequence[str] = ()) -> jinja2.Environment:
     """What templates are rendered in. ``left_out`` are the paths of data that a site in one file does not hold."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(templates_folder()),
+        bytecode_cache=_COMPILED,
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
