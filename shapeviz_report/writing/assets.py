@@ -7,6 +7,7 @@ import gzip
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
+from types import MappingProxyType
 
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.types import Accent, Report
@@ -39,12 +40,14 @@ def join_scripts() -> Mapping[str, str]:
     ``shared.js`` before the script of a page."""
     source = site_folder()
     entries = {f"{page.name}.js": source / "scripts" / "pages" / f"{page.name}.js" for page in PAGES}
-    return {
-        "first.js": join(source / "scripts" / "opening" / "first.js"),
-        # Unwrapped, Vega would leave thousands of names on the window.
-        "vega.js": f"(() => {{\n{(source / 'vendor' / 'vega.js').read_text(encoding='utf-8')}\n}})();\n",
-        **join_pages(entries, source / "scripts"),
-    }
+    return MappingProxyType(
+        {
+            "first.js": join(source / "scripts" / "opening" / "first.js"),
+            # Unwrapped, Vega would leave thousands of names on the window.
+            "vega.js": f"(() => {{\n{(source / 'vendor' / 'vega.js').read_text(encoding='utf-8')}\n}})();\n",
+            **join_pages(entries, source / "scripts"),
+        }
+    )
 
 
 def join_styles(report: Report) -> str:

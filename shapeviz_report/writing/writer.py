@@ -130,7 +130,7 @@ def _whole(report: Report) -> bytes:
     """The site as one HTML file. It holds no 3D models: these would be most of it."""
     report = replace(report, models=None)
     contents = compute_contents(report)
-    scripts = join_scripts()
+    scripts = dict(join_scripts())
     inline = Inline(
         join_styles(report),
         (
