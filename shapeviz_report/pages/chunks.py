@@ -37,8 +37,8 @@ class Method(TypedDict):
     title: str
     note: str
     features: list[str]
-    x: list[float | None]
-    y: list[float | None]
+    x: list[float]
+    y: list[float]
     hit: list[float | None]
     neighbours: int
     hitOfClass: list[float | None]

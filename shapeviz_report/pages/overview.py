@@ -88,13 +88,15 @@ def _method(
     projection: Projection, quality: Quality, classes: tuple[str, ...], without_copies: WithoutCopies | None
 ) -> Method:
     """One projection with its quality; missing values are None."""
+    # Adding zero turns -0.0 into 0.0, which would otherwise differ between equal builds.
+    x, y = (np.round(projection.xy, COORDINATE_DECIMALS) + 0.0).T.tolist()
     return {
         "key": projection.method,
         "title": METHODS[projection.method].title,
         "note": METHODS[projection.method].explanation + bins_note(projection),
         "features": list(projection.features),
-        "x": rounded(projection.xy[:, 0], COORDINATE_DECIMALS),
-        "y": rounded(projection.xy[:, 1], COORDINATE_DECIMALS),
+        "x": x,
+        "y": y,
         "hit": rounded(quality.nh, COORDINATE_DECIMALS),
         "neighbours": quality.k,
         "hitOfClass": rounded(

@@ -20,8 +20,8 @@ declare namespace Chunk {
     title: string;
     note: string;
     features: string[];
-    x: (number | null)[];
-    y: (number | null)[];
+    x: number[];
+    y: number[];
     hit: (number | null)[];
     neighbours: number;
     hitOfClass: (number | null)[];

@@ -1,19 +1,70 @@
 // What the type checker cannot know. Only it reads this file.
 
 /** Every page's scripts are written with its template: what they look up is there, and of the kind they expect. */
+type Found = {
+  readonly children: HTMLCollectionOf<Found>;
+  readonly firstElementChild: Found;
+  readonly parentElement: Found;
+} & HTMLElement &
+  Record<string, any>;
 interface Document {
-  getElementById(id: string): any;
+  getElementById(id: string): Found;
 }
 interface ParentNode {
-  querySelector(selectors: string): any;
-  querySelectorAll(selectors: string): NodeListOf<any>;
+  querySelector(selectors: string): Found;
+  querySelectorAll(selectors: string): NodeListOf<Found>;
 }
-interface EventTarget {
-  closest?: any;
-  matches?: any;
-  value?: any;
-  elements?: any;
-  reset?: any;
+interface Element {
+  closest(selectors: string): Found | null;
+  setAttribute(name: string, value: string | number): void;
+}
+
+/** What listens to elements is told of elements. */
+interface Targeted {
+  target: Found;
+  currentTarget: Found;
+}
+type Handler<Event> = (event: Event & Targeted) => unknown;
+interface HTMLElement {
+  addEventListener<Kind extends keyof HTMLElementEventMap>(
+    kind: Kind,
+    handler: Handler<HTMLElementEventMap[Kind]>,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+}
+interface SVGElement {
+  addEventListener<Kind extends keyof SVGElementEventMap>(
+    kind: Kind,
+    handler: Handler<SVGElementEventMap[Kind]>,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+}
+interface HTMLDivElement {
+  addEventListener<Kind extends keyof HTMLElementEventMap>(
+    kind: Kind,
+    handler: Handler<HTMLElementEventMap[Kind]>,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+}
+interface SVGSVGElement {
+  addEventListener<Kind extends keyof SVGElementEventMap>(
+    kind: Kind,
+    handler: Handler<SVGElementEventMap[Kind]>,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+}
+interface Document {
+  addEventListener<Kind extends keyof DocumentEventMap>(
+    kind: Kind,
+    handler: Handler<DocumentEventMap[Kind]>,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
+}
+
+/** Values of attributes by name, as `element` of base/dom.js takes them; "onclick" is a handler of "click". */
+type Handlers = { [Kind in keyof HTMLElementEventMap as `on${Kind}`]?: Handler<HTMLElementEventMap[Kind]> };
+interface Attributes extends Handlers {
+  [name: string]: string | number | boolean | null | undefined | ((event: any) => unknown);
 }
 
 /** The values that the engine works on: one column after the other, and the feature of each column. */
@@ -23,6 +74,12 @@ interface FeatureValues {
   values: Float32Array;
   blocks: Int32Array;
   scaling: "balanced" | "plain";
+}
+
+/** Two groups of rows that are to be told apart. */
+interface Contest {
+  positive: Int32Array;
+  negative: Int32Array;
 }
 
 /** Work of the engine in slices: between two of them it says how far it is, with what there is to see already. */

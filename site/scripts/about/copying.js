@@ -15,7 +15,10 @@ export function watchCopying() {
   }
 }
 
-/** Whether the browser let a page copy; if not, the text is selected, so that one press of the reader does. */
+/**
+ * Whether the browser let a page copy; if not, the text is selected, so that one press of the reader does.
+ * @param {Element | null} node
+ */
 async function copy(node) {
   try {
     await navigator.clipboard.writeText(node.textContent);

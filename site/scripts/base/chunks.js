@@ -1,7 +1,15 @@
 // Data of a page: gzipped JSON or bytes in scripts that hand it over, because pages from file:// may not fetch.
 
+import { entry } from "./entry.js";
+
+/**
+ * A chunk as it comes: gzipped, in base64.
+ * @typedef {{ kind: "json" | "bytes", text: string }} Packed
+ */
+
 /** Called in the head: chunks may arrive before the scripts that want them. */
 export function openReception() {
+  /** @type {Map<string, Packed>} */
   const packed = new Map();
   window.shapeviz = {
     packed,
@@ -11,6 +19,7 @@ export function openReception() {
   };
 }
 
+/** @type {Map<string, Promise<any>>} */
 const loaded = new Map();
 
 /**
@@ -20,12 +29,7 @@ const loaded = new Map();
  * @returns {Promise<Chunk.Chunks[Name]>}
  */
 export function chunk(name) {
-  if (!loaded.has(name))
-    loaded.set(
-      name,
-      load(name, () => JSON.parse(document.body.dataset.chunks)[name]),
-    );
-  return loaded.get(name);
+  return entry(loaded, name, () => load(name, () => JSON.parse(document.body.dataset.chunks ?? "{}")[name]));
 }
 
 /**
@@ -38,11 +42,20 @@ export function chunks(...names) {
   return /** @type {any} */ (Promise.all(names.map(chunk)));
 }
 
-/** The 3D model of a shape by its name in the chunk "selection", an ArrayBuffer; loaded anew each time. */
+/**
+ * The 3D model of a shape by its name in the chunk "selection", an ArrayBuffer; loaded anew each time.
+ * @param {string} name
+ * @returns {Promise<ArrayBuffer>}
+ */
 export function modelBytes(name) {
   return load(`model-${name}`, () => `models/${name}.js`);
 }
 
+/**
+ * @param {string} name
+ * @param {() => string} address
+ * @returns {Promise<any>}
+ */
 async function load(name, address) {
   const { kind, text } = standing(name) ?? (await received(name, address));
   const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -50,7 +63,10 @@ async function load(name, address) {
   return kind === "bytes" ? response.arrayBuffer() : response.json();
 }
 
-/** What base64 stands for. `Uint8Array.from` with a function takes thirty times as long, seconds for a large database. */
+/**
+ * What base64 stands for. `Uint8Array.from` with a function takes thirty times as long, seconds for a large database.
+ * @param {string} text
+ */
 function bytesOf(text) {
   const letters = atob(text);
   const bytes = new Uint8Array(letters.length);
@@ -58,20 +74,30 @@ function bytesOf(text) {
   return bytes;
 }
 
-/** Data that stands in the document, where the site is one file. */
+/**
+ * Data that stands in the document, where the site is one file.
+ * @param {string} name
+ * @returns {Packed | null}
+ */
 function standing(name) {
   const block = document.getElementById(`chunk-${name}`);
-  return block && { kind: block.dataset.kind, text: block.textContent };
+  return block && { kind: block.dataset.kind === "bytes" ? "bytes" : "json", text: block.textContent };
 }
 
+/**
+ * @param {string} name
+ * @param {() => string} address
+ * @returns {Promise<Packed>}
+ */
 async function received(name, address) {
   const { packed } = window.shapeviz;
   if (!packed.has(name)) await addScript(address());
-  const handed = packed.get(name);
+  const handed = /** @type {Packed} */ (packed.get(name));
   packed.delete(name);
   return handed;
 }
 
+/** @param {string} address */
 function addScript(address) {
   return new Promise((resolve, reject) => {
     const script = document.createElement("script");

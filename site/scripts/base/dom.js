@@ -2,36 +2,75 @@
 
 import { resource } from "./place.js";
 
+/**
+ * What stands in an element: text, or elements; what is null, undefined or false is left out.
+ * @typedef {Node | string | number | null | undefined | false} Child
+ * @typedef {Child | readonly Children[]} Children
+ */
+
 const SVG = "http://www.w3.org/2000/svg";
 
-/** An HTML element with attributes and children (strings become text; null and false are left out). */
+/**
+ * An HTML element with attributes and children (strings become text; null and false are left out).
+ * @template {string} Tag
+ * @param {Tag} tag
+ * @param {Attributes} attributes
+ * @param {...Children} children
+ * @returns {Tag extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[Tag] : HTMLElement}
+ */
 export function element(tag, attributes = {}, ...children) {
   return fill(document.createElement(tag), attributes, children);
 }
 
-/** The same in SVG. */
+/**
+ * The same in SVG.
+ * @template {keyof SVGElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {Attributes} attributes
+ * @param {...Children} children
+ * @returns {SVGElementTagNameMap[Tag]}
+ */
 export function svg(tag, attributes = {}, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
+/**
+ * @param {any} node
+ * @param {Attributes} attributes
+ * @param {Children[]} children
+ */
 function fill(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
     if (value === null || value === undefined || value === false) continue;
     if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
     else node.setAttribute(name, value === true ? "" : value);
   }
-  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
+  node.append(
+    .../** @type {any[]} */ (children)
+      .flat(Infinity)
+      .filter((child) => child !== null && child !== undefined && child !== false),
+  );
   return node;
 }
 
-/** The mark of a class, as the maps draw it. */
+/**
+ * The mark of a class, as the maps draw it.
+ * @param {string} path
+ * @param {string} color
+ */
 export function swatch(path, color) {
   const mark = svg("path", { d: path });
   mark.style.fill = color;
   return svg("svg", { class: "swatch", viewBox: "-1.1 -1.1 2.2 2.2", "aria-hidden": "true" }, mark);
 }
 
-/** A thumbnail; `name` is said where the picture is all there is to read. */
+/**
+ * A thumbnail; `name` is said where the picture is all there is to read.
+ * @param {{ picture(index: number): string }} database
+ * @param {number} index
+ * @param {number} size
+ * @param {string} [name]
+ */
 export function picture(database, index, size, name = "") {
   return element("img", {
     src: database.picture(index),
@@ -44,7 +83,10 @@ export function picture(database, index, size, name = "") {
   });
 }
 
-/** A link to a file of the site's data, by its path. */
+/**
+ * A link to a file of the site's data, by its path.
+ * @param {string} path
+ */
 export function dataLink(path) {
   return element("a", { href: resource(path), download: path.split("/").at(-1) }, path);
 }
@@ -56,7 +98,7 @@ export function calm() {
 
 /** The element that has the focus. */
 export function focused() {
-  return /** @type {HTMLElement} */ (document.activeElement);
+  return /** @type {Found} */ (document.activeElement);
 }
 
 /** Whether readers point with fingers. */

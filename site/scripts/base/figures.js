@@ -3,7 +3,10 @@
 import { element } from "./dom.js";
 import { figure } from "./words.js";
 
-/** A difference with its sign, three decimals as all figures of quality. */
+/**
+ * A difference with its sign, three decimals as all figures of quality.
+ * @param {number} value
+ */
 export function difference(value) {
   const shown = figure(Math.abs(value));
   return shown === "0.000" ? "±0.000" : `${value < 0 ? "−" : "+"}${shown}`;
@@ -14,7 +17,10 @@ export function symbol() {
   return element("span", { class: "symbol" }, "NH", element("sub", {}, "s"));
 }
 
-/** What a change is called where it is heard: "up 0.203". */
+/**
+ * What a change is called where it is heard: "up 0.203".
+ * @param {number} value
+ */
 export function changeWords(value) {
   const shown = figure(Math.abs(value));
   return shown === "0.000" ? "unchanged" : `${value < 0 ? "down" : "up"} ${shown}`;

@@ -2,18 +2,34 @@
 
 import { element } from "./dom.js";
 
+/** @import { Children } from "./dom.js" */
+
 const MOST = 12;
 
+/**
+ * @template Value
+ * @typedef {object} Finding
+ * @property {(text: string) => Value[]} find best first
+ * @property {(value: Value) => Children} label the content of a line
+ * @property {(value: Value) => void} choose is told of the chosen one
+ */
+
+/** @template Value */
 export class Finder {
-  /** `find(text)` gives values, best first; `label(value)` the content of a line; `choose(value)` is told. */
+  /**
+   * @param {string} name of the elements
+   * @param {Finding<Value>} finding
+   */
   constructor(name, { find, label, choose }) {
     this.find = find;
     this.label = label;
     this.choose = choose;
     this.field = document.getElementById(`${name}-search`);
     this.list = document.getElementById(`${name}-found`);
+    /** @type {Value[]} */
     this.found = [];
     this.at = 0;
+    this.more = 0;
     for (const [key, value] of Object.entries({
       role: "combobox",
       "aria-autocomplete": "list",
@@ -78,6 +94,7 @@ export class Finder {
     this.field.removeAttribute("aria-activedescendant");
   }
 
+  /** @param {number} place */
   #choose(place) {
     const value = this.found[place];
     if (value === undefined) return;
@@ -86,6 +103,7 @@ export class Finder {
     this.choose(value);
   }
 
+  /** @param {KeyboardEvent} event */
   #key(event) {
     const open = this.found.length > 0;
     if (event.key === "Enter") this.#choose(this.at);

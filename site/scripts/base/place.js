@@ -22,12 +22,18 @@ export function readHash() {
   return new URLSearchParams((singleFile ? hash.replace(PAGE, "") : hash).replace(/^#/, ""));
 }
 
-/** Write the state of the view into the address, in place of what was there. */
+/**
+ * Write the state of the view into the address, in place of what was there.
+ * @param {URLSearchParams} query
+ */
 export function replaceHash(query) {
   if (!leaving()) window.history.replaceState(null, "", hashAddress(query));
 }
 
-/** The same as a new place, from which the browser's way back leads to the last one. */
+/**
+ * The same as a new place, from which the browser's way back leads to the last one.
+ * @param {URLSearchParams} query
+ */
 export function pushHash(query) {
   if (!leaving()) window.history.pushState(null, "", hashAddress(query));
 }
@@ -44,27 +50,36 @@ export function pageAddress(file, query = []) {
   return state === "" ? file : `${file}#${state}`;
 }
 
-/** The page of this site that an address leads to, `{ file, query }`; null where it leads elsewhere. */
+/**
+ * The page of this site that an address leads to, `{ file, query }`; null where it leads elsewhere.
+ * @param {string} address
+ */
 export function linkedPage(address) {
   const found = /^(?:([a-z-]+)\.html|#\/([a-z-]+))(?:[#?](.*))?$/.exec(address);
   return found && { file: `${found[1] ?? found[2]}.html`, query: new URLSearchParams(found[3]) };
 }
 
-/** The address of a file of this site, by its path. */
+/**
+ * The address of a file of this site, by its path.
+ * @param {string} path
+ */
 export function resource(path) {
   const block = singleFile ? document.getElementById(path) : null;
   return block === null ? path : `data:${block.dataset.type};base64,${block.textContent}`;
 }
 
-/** Make the links and pictures of a template lead where they do in a site of one file. */
+/**
+ * Make the links and pictures of a template lead where they do in a site of one file.
+ * @param {ParentNode} content
+ */
 export function settle(content) {
   for (const link of content.querySelectorAll("a[href]")) {
-    const path = link.getAttribute("href");
+    const path = link.getAttribute("href") ?? "";
     const [, file, state] = LINK.exec(path) ?? [];
     link.href = file === undefined ? resource(path) : pageAddress(file, state);
     if (link.hasAttribute("download")) link.download = path.split("/").at(-1);
   }
-  for (const picture of content.querySelectorAll("img[src]")) picture.src = resource(picture.getAttribute("src"));
+  for (const picture of content.querySelectorAll("img[src]")) picture.src = resource(picture.getAttribute("src") ?? "");
 }
 
 /** Whether the address names another page already, which is about to be loaded. */
@@ -72,6 +87,7 @@ function leaving() {
   return singleFile && addressedFile() !== opened;
 }
 
+/** @param {URLSearchParams} query */
 function hashAddress(query) {
   if (singleFile) return pageAddress(opened, query);
   const hash = query.toString();

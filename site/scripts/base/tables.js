@@ -2,7 +2,12 @@
 
 import { element } from "./dom.js";
 
-/** Make the button open a dialog with what `content` returns at that moment: a title and elements. */
+/** @import { Children } from "./dom.js" */
+
+/**
+ * Make the button open a dialog with what `content` returns at that moment: a title and elements.
+ * @param {() => { title: string, tables: HTMLElement[] }} content
+ */
 export function watchTables(content) {
   const dialog = document.getElementById("tables");
   document.getElementById("open-tables").addEventListener("click", () => {
@@ -23,6 +28,11 @@ export function watchTables(content) {
   });
 }
 
+/**
+ * @param {string} title
+ * @param {Children[]} columns
+ * @param {Children[][]} rows
+ */
 export function table(title, columns, rows) {
   return element(
     "table",

@@ -1,5 +1,9 @@
 // Light or dark: as the system says, unless the reader chose otherwise.
 
+import { entry } from "./entry.js";
+
+/** @typedef {"light" | "dark"} Theme */
+
 const KEY = "shapeviz-theme";
 const system = window.matchMedia("(prefers-color-scheme: dark)");
 
@@ -12,6 +16,7 @@ function stored() {
   }
 }
 
+/** @param {Theme} theme */
 function store(theme) {
   try {
     window.localStorage.setItem(KEY, theme);
@@ -20,20 +25,29 @@ function store(theme) {
   }
 }
 
+/** @returns {Theme} */
 export function currentTheme() {
-  return document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light");
+  const chosen = /** @type {Theme | undefined} */ (document.documentElement.dataset.theme);
+  return chosen ?? (system.matches ? "dark" : "light");
 }
 
+/** @type {Map<string, string>} */
 const colors = new Map();
 
-/** A colour of the style sheet, for marks that are drawn and not styled. */
+/**
+ * A colour of the style sheet, for marks that are drawn and not styled.
+ * @param {string} name
+ * @returns {string}
+ */
 export function styleColor(name) {
   const key = `${name} ${currentTheme()}`;
-  if (!colors.has(key)) colors.set(key, computedColor(`var(--${name})`));
-  return colors.get(key);
+  return entry(colors, key, () => computedColor(`var(--${name})`));
 }
 
-/** What a colour comes to in the theme in use; asked of an element, which knows the theme. */
+/**
+ * What a colour comes to in the theme in use; asked of an element, which knows the theme.
+ * @param {string} color
+ */
 function computedColor(color) {
   const node = document.createElement("i");
   node.style.color = color;
@@ -48,7 +62,10 @@ export function applyStoredTheme() {
   if (theme === "light" || theme === "dark") document.documentElement.dataset.theme = theme;
 }
 
-/** Make the theme button work; `changed` is called after every change of theme, the system's included. */
+/**
+ * Make the theme button work; `changed` is called after every change of theme, the system's included.
+ * @param {() => void} changed
+ */
 export function watchTheme(changed) {
   document.getElementById("theme").addEventListener("click", () => {
     const theme = currentTheme() === "dark" ? "light" : "dark";

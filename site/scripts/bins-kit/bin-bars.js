@@ -33,14 +33,20 @@ function sorted(bars) {
   };
 }
 
-/** The next value above one that an axis may well end at, and be halved. */
+/**
+ * The next value above one that an axis may well end at, and be halved.
+ * @param {number} value
+ */
 export function axisEnd(value) {
   if (value <= 0) return 1;
   const unit = 10 ** Math.floor(Math.log10(value));
   return [1, 2, 3, 4, 5, 6, 8, 10].find((step) => step * unit >= value * (1 - 1e-9)) * unit;
 }
 
-/** Height in pixels of a level; nothing above zero vanishes. */
+/**
+ * Height in pixels of a level; nothing above zero vanishes.
+ * @param {number} level
+ */
 function heightOf(level, room) {
   return level > 0 ? Math.max(Math.round(level * room), 1) : 0;
 }
@@ -50,6 +56,7 @@ function heightOf(level, room) {
  *
  * Where bars share a pixel column, it is as high as the highest of them, and each feature has its share of its length:
  * the colours of a place say which features are found there.
+ * @param {CanvasRenderingContext2D | null} context
  */
 export function paintBars(context, bars, { width, base, room, colors }) {
   const { wide, crowded } = sorted(bars);
@@ -80,7 +87,10 @@ export function edges({ from, to }, column) {
   return [start, end - (end - start >= 3 ? Math.max(1, Math.round((end - start) / 12)) : 0)];
 }
 
-/** Paint a row of marks a feature, as the Features page has under its bars: a mark where one of its bins stands. */
+/**
+ * Paint a row of marks a feature, as the Features page has under its bars: a mark where one of its bins stands.
+ * @param {CanvasRenderingContext2D | null} context
+ */
 export function paintRows(context, bars, { width, top, height, gap, colors, rows }) {
   const of = new Map(rows.map((feature, row) => [feature, row]));
   const { wide, crowded } = sorted(bars);

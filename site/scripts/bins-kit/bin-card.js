@@ -5,6 +5,9 @@ import { styleColor } from "../base/theme.js";
 import { figure, grouped } from "../base/words.js";
 import { axisEnd } from "./bin-bars.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+
 const WIDTH = 190;
 const ROW = 16;
 const MOST_ROWS = 20;
@@ -16,7 +19,11 @@ const BESIDE = 24;
 const MARGIN = 8;
 
 export class BinCard {
-  /** `bins` is a Bins, `database` the shapes, whose classes give names and colours. */
+  /**
+   * `bins` is a Bins, `database` the shapes, whose classes give names and colours.
+   * @param {Bins} bins
+   * @param {Database} database
+   */
   constructor(bins, database) {
     this.bins = bins;
     this.database = database;
@@ -42,7 +49,10 @@ export class BinCard {
     this.others = others;
   }
 
-  /** Show the card of a column at its bar: a box in the window, and `free`, the height down to which the card may hang. */
+  /**
+   * Show the card of a column at its bar: a box in the window, and `free`, the height down to which the card may hang.
+   * @param {number} column
+   */
   show(column, box) {
     this.node.replaceChildren(...this.#words(column), this.classes(column));
     this.node.hidden = false;
@@ -53,6 +63,7 @@ export class BinCard {
     this.node.hidden = true;
   }
 
+  /** @param {number} column */
   #words(column) {
     const { bins } = this;
     const feature = bins.features[bins.featureOf(column)];
@@ -80,12 +91,16 @@ export class BinCard {
     ].filter(Boolean);
   }
 
+  /** @param {number} column */
   #rank(column) {
     const better = (score, other) => score > this.scores[column] || (score === this.scores[column] && other < column);
     return this.scores.reduce((rank, score, other) => rank + better(score, other), 1);
   }
 
-  /** A row a class: its shapes as dots on one axis, the middle half of them as a band, the median as a line. */
+  /**
+   * A row a class: its shapes as dots on one axis, the middle half of them as a band, the median as a line.
+   * @param {number} column
+   */
   classes(column) {
     const rows = this.rows(column);
     const shown = rows.slice(0, MOST_ROWS);
@@ -95,6 +110,10 @@ export class BinCard {
     const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest];
     const x = (value) => (most > least ? (WIDTH * (value - least)) / (most - least) : 0);
     const edge = shown.findIndex(({ apart }) => !apart);
+    /**
+     * @param {number} place
+     * @param {...(HTMLElement | string)} content
+     */
     const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null }, content);
     const told = share ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
     return element(
@@ -120,9 +139,19 @@ export class BinCard {
     );
   }
 
-  /** The classes in use with their sorted values, those to be separated first, those with most of the bin on top. */
+  /**
+   * The classes in use with their sorted values, those to be separated first, those with most of the bin on top.
+   * @param {number} column
+   */
   rows(column) {
     const { database, members } = this;
+    /**
+     * @param {boolean} apart
+     * @param {string} name
+     * @param {SVGSVGElement | null} mark
+     * @param {number[]} rows
+     * @param {string} color
+     */
     const row = (rows, apart, name, mark, color) => {
       const values = rows.map((index) => this.bins.share(column, index)).sort((a, b) => a - b);
       return {
@@ -136,6 +165,7 @@ export class BinCard {
       };
     };
     const byHeight = (a, b) => b.median - a.median || b.mean - a.mean;
+    /** @param {boolean} apart */
     const of = (groups, apart) =>
       groups
         .filter((group) => members.has(group))
@@ -179,7 +209,10 @@ export class BinCard {
   }
 }
 
-/** The rows on a canvas, which is filled faster than hundreds of elements are made; their medians stand beside it in words. */
+/**
+ * The rows on a canvas, which is filled faster than hundreds of elements are made; their medians stand beside it in words.
+ * @param {number} edge
+ */
 function strips(rows, edge, x) {
   const density = window.devicePixelRatio;
   const height = ROW * rows.length;
@@ -214,7 +247,11 @@ function strips(rows, edge, x) {
   return canvas;
 }
 
-/** A quantile of sorted values. */
+/**
+ * A quantile of sorted values.
+ * @param {ArrayLike<number>} values
+ * @param {number} share
+ */
 export function quantile(values, share) {
   const place = share * (values.length - 1);
   const below = Math.floor(place);
@@ -222,7 +259,10 @@ export function quantile(values, share) {
   return values[below] + (place - below) * (values[above] - values[below]);
 }
 
-/** A share in percent, short. */
+/**
+ * A share in percent, short.
+ * @param {number} share
+ */
 export function percent(share) {
   const value = 100 * share;
   if (value > 0 && value < 0.05) return "<0.1 %";

@@ -3,6 +3,8 @@
 import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 
+/** @import { Bins } from "../database/bins.js" */
+
 const MOST_ROWS = 100;
 
 /** The columns in use (those with a score), best first; equal ones as they come. */
@@ -12,10 +14,14 @@ export function ranked(scores) {
   return Int32Array.from(columns).sort((a, b) => scores[b] - scores[a] || a - b);
 }
 
-/** Tables of the chosen bins and of the best ones, for the dialog of `watchTables`. */
+/**
+ * Tables of the chosen bins and of the best ones, for the dialog of `watchTables`.
+ * @param {Bins} bins
+ */
 export function binTables(bins, scores, chosen) {
   const ranking = ranked(scores);
   const places = [...ranking.keys()];
+  /** @param {number} place */
   const row = (place) => {
     const column = ranking[place];
     return [

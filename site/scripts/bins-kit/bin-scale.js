@@ -17,7 +17,11 @@ export class BinScale {
   count = 0;
   width = 1;
 
-  /** Lay out bars on so many pixels; `chosen` holds the rising places of the chosen ones. All is shown if it was. */
+  /**
+   * Lay out bars on so many pixels; `chosen` holds the rising places of the chosen ones. All is shown if it was.
+   * @param {number} count
+   * @param {number} width
+   */
   fit(count, chosen, width) {
     const { whole } = this;
     this.#before = new Int32Array(count + 1);
@@ -35,7 +39,11 @@ export class BinScale {
     return this.count === 0 || this.step <= this.least;
   }
 
-  /** Show the bars from a place on with so many pixels each, or as near to that as there are bars. */
+  /**
+   * Show the bars from a place on with so many pixels each, or as near to that as there are bars.
+   * @param {number} left
+   * @param {number} step
+   */
   look(left, step) {
     this.step = Math.min(Math.max(step, this.least), this.most);
     const last = this.#placeAt(this.#lengthTo(this.count) - this.width);
@@ -43,24 +51,37 @@ export class BinScale {
     this.#start = this.#lengthTo(this.left);
   }
 
-  /** Show a place at a point of the screen. */
+  /**
+   * Show a place at a point of the screen.
+   * @param {number} x
+   * @param {number} [step]
+   * @param {number} place
+   */
   hold(place, x, step = this.step) {
     this.step = Math.min(Math.max(step, this.least), this.most);
     this.look(this.#placeAt(this.#lengthTo(place) - x), this.step);
   }
 
-  /** Show what lies between two places; where the zoom ends, one end stays: the first, or with `last` the other. */
+  /**
+   * Show what lies between two places; where the zoom ends, one end stays: the first, or with `last` the other.
+   * @param {number} from
+   * @param {number} to
+   */
   frame(from, to, last) {
     const step = this.#stepFor(from, to);
     if (last) this.hold(to, this.width, step);
     else this.hold(from, 0, step);
   }
 
+  /** @param {number} place */
   xOf(place) {
     return this.#lengthTo(place) - this.#start;
   }
 
-  /** The place at a point of the screen, with its fraction. */
+  /**
+   * The place at a point of the screen, with its fraction.
+   * @param {number} x
+   */
   placeOf(x) {
     return this.#placeAt(this.#start + x);
   }
@@ -70,7 +91,11 @@ export class BinScale {
     return Math.max(this.step, this.kept);
   }
 
-  /** The step at which the bars between two places fill the width. */
+  /**
+   * The step at which the bars between two places fill the width.
+   * @param {number} from
+   * @param {number} to
+   */
   #stepFor(from, to) {
     const chosen = this.#chosenBefore(to) - this.#chosenBefore(from);
     const even = this.width / Math.max(to - from, 1e-6);
@@ -78,17 +103,22 @@ export class BinScale {
     return (this.width - chosen * this.kept) / (to - from - chosen);
   }
 
+  /** @param {number} place */
   #chosenBefore(place) {
     const whole = Math.min(Math.max(Math.floor(place), 0), this.count);
     const chosen = this.#before[whole];
     return whole < this.count ? chosen + (place - whole) * (this.#before[whole + 1] - chosen) : chosen;
   }
 
-  /** Pixels from the first bar to a place. */
+  /**
+   * Pixels from the first bar to a place.
+   * @param {number} place
+   */
   #lengthTo(place) {
     return place * this.step + this.#chosenBefore(place) * (this.chosenWidth - this.step);
   }
 
+  /** @param {number} length */
   #placeAt(length) {
     let [low, high] = [0, this.count];
     while (low < high) {

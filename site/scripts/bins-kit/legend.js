@@ -3,12 +3,17 @@
 import { element } from "../base/dom.js";
 
 export class Legend {
+  /** @param {Chunk.Selection} selection */
   constructor(selection) {
     this.selection = selection;
     this.node = document.getElementById("legend");
   }
 
-  /** `dimension` is one of the chunk's; `place` the bin in it, from 0. */
+  /**
+   * `dimension` is one of the chunk's; `place` the bin in it, from 0.
+   * @param {Chunk.Dimension} dimension
+   * @param {number} place
+   */
   show(dimension, place) {
     const { ramp } = this.selection;
     const { quantity, unit, edges } = dimension;
@@ -39,12 +44,17 @@ export class Legend {
   }
 }
 
-/** What a descriptor measures, with its unit. Sentences go on from it, so that it may end with a comma. */
+/**
+ * What a descriptor measures, with its unit. Sentences go on from it, so that it may end with a comma.
+ * @param {string} quantity
+ * @param {string} unit
+ */
 export function quantityInWords(quantity, unit) {
   const named = quantity.replace(/,$/, "");
   return unit === "" ? named : `${named}, in ${unit}`;
 }
 
+/** @param {number} value */
 function number(value) {
   return String(Number(value.toPrecision(3))).replace("-", "−");
 }

@@ -6,10 +6,20 @@ import { resource } from "../base/place.js";
 import { percent } from "./bin-card.js";
 import { Legend } from "./legend.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { BinCard } from "./bin-card.js" */
+
 const MOST_PICTURED = 4;
 const LONGEST = 32;
 
 export class Look {
+  /**
+   * @param {Database} database
+   * @param {Bins} bins
+   * @param {Chunk.Selection} selection
+   * @param {BinCard} card
+   */
   constructor(database, bins, selection, state, card) {
     this.database = database;
     this.bins = bins;
@@ -52,6 +62,7 @@ export class Look {
   /** The bins of this page in a list: those of each class, and those that separate all. */
   #offer(column) {
     const { database, bins, selection } = this;
+    /** @type {[number, string, number[]][]} */
     const lists = selection.minimal.map(({ group, sets }) => [
       group,
       database.className(group),
@@ -60,6 +71,10 @@ export class Look {
     if (selection.path.length > 0) lists.push([-1, "all classes", selection.path.at(-1).bins]);
     const group = this.state.get("group") ?? -1;
     const known = lists.some(([own, , columns]) => own === group && columns.includes(column));
+    /**
+     * @param {number} value
+     * @param {number} own
+     */
     const option = (value, own) => element("option", { value: `${value} ${own}` }, bins.shortName(value, LONGEST));
     this.choice.replaceChildren(
       ...(known ? [] : [option(column, group)]),
@@ -140,10 +155,14 @@ export class Look {
     ];
   }
 
-  /** For the bin of a class: how it sets this class apart from the others, and from its nearest. */
+  /**
+   * For the bin of a class: how it sets this class apart from the others, and from its nearest.
+   * @param {(share: number) => string} told
+   */
   #contrast(rows, told, name) {
     const own = this.selection.minimal.find(({ group }) => group === this.state.get("group"));
     if (own === undefined) return null;
+    /** @param {number} group */
     const named = (group) => rows.find((row) => row.name === this.database.className(group));
     const [row, rival] = [named(own.group), named(own.other)];
     const rank = rows.indexOf(row);
@@ -228,7 +247,11 @@ export function pictured({ paintings, minimal }, database, column, group) {
   return (contrast.length > 0 ? contrast : own).slice(0, MOST_PICTURED);
 }
 
-/** Class, and how much of the bin: what stands above a picture of a shape. */
+/**
+ * Class, and how much of the bin: what stands above a picture of a shape.
+ * @param {Database} database
+ * @param {Bins} bins
+ */
 export function shapeLine(database, bins, column, shape) {
   const group = database.groups[shape];
   const value = bins.share(column, shape);
@@ -243,7 +266,10 @@ export function shapeLine(database, bins, column, shape) {
   ].filter(Boolean);
 }
 
-/** The number of a column's dimension among those of the descriptors; null for a feature that was brought along. */
+/**
+ * The number of a column's dimension among those of the descriptors; null for a feature that was brought along.
+ * @param {Bins} bins
+ */
 export function dimensionOf(column, bins) {
   if (!bins.isShare(column)) return null;
   let before = 0;
@@ -253,12 +279,17 @@ export function dimensionOf(column, bins) {
   return before + Math.floor((column - start) / width);
 }
 
+/**
+ * @param {Bins} bins
+ * @param {number} column
+ */
 function hue(bins, column) {
   const mark = element("i", { class: "hued" });
   mark.style.background = bins.color(column);
   return mark;
 }
 
+/** @param {string} text */
 function lowered(text) {
   return text.charAt(0).toLocaleLowerCase() + text.slice(1);
 }

@@ -11,6 +11,7 @@ export class Stage {
   /**
    * `load(shape)` gives the bytes of a shape's model; null where the site has none. `keys` is the id of the words that
    * say how a shape is turned.
+   * @param {Found} node
    */
   constructor(node, { database, load, keys }) {
     this.node = node;
@@ -42,6 +43,7 @@ export class Stage {
     return this.capable ? null : "This browser cannot draw in 3D: WebGL 2 is missing or switched off.";
   }
 
+  /** @param {string} text */
   #say(shape, text) {
     this.#clear(this.#picture(shape), element("p", { class: "empty", role: "status" }, text));
   }
@@ -62,6 +64,7 @@ export class Stage {
     return element("img", { src: this.database.picture(shape), alt: "", width: 320, height: 320 });
   }
 
+  /** @param {...(HTMLImageElement | HTMLParagraphElement | HTMLButtonElement)} nodes */
   #clear(...nodes) {
     this.view?.close();
     this.view = null;

@@ -2,9 +2,16 @@
 
 import { element } from "../base/dom.js";
 
+/** @import { BinCard } from "../bins-kit/bin-card.js" */
+/** @import { Bins } from "../database/bins.js" */
+
 const LONGEST = 18;
 
 export class BinChips {
+  /**
+   * @param {Bins} bins
+   * @param {BinCard} card
+   */
   constructor(bins, card, state, { look }) {
     this.bins = bins;
     this.card = card;
@@ -16,11 +23,15 @@ export class BinChips {
     });
   }
 
-  /** A chip; the card sets a class apart from the others where one is named. */
+  /**
+   * A chip; the card sets a class apart from the others where one is named.
+   * @param {number} column
+   */
   chip(column, { group = null, added = false } = {}) {
     const { bins } = this;
     const hue = element("i", { class: "hued" });
     hue.style.background = bins.color(column);
+    /** @param {PointerEvent & Targeted | FocusEvent & Targeted} event */
     const show = (event) => this.#show(column, group, event.currentTarget);
     const chip = element(
       "button",
@@ -41,6 +52,7 @@ export class BinChips {
     return chip;
   }
 
+  /** @param {number} column */
   #show(column, group, node) {
     const { database } = this.card;
     const groups = database.labelled ? [...database.sizes.keys()].sort((a, b) => a - b) : [];
@@ -62,6 +74,7 @@ export class BinChips {
   }
 }
 
+/** @param {Found | HTMLButtonElement} chip */
 function mark(chip, bin) {
   chip.setAttribute("aria-pressed", String(Number(chip.dataset.column) === bin));
 }

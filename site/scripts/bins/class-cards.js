@@ -6,10 +6,18 @@ import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { mapOf, Plot } from "../map/plot.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { BinChips } from "./bin-chip.js" */
+
 /** The share of what NH_c can be, in the space of the bins and on their map, at which a class counts as separated. */
 const SEPARATED = 0.9;
 
 export class ClassCards {
+  /**
+   * @param {Database} database
+   * @param {Chunk.Selection} selection
+   * @param {BinChips} chips
+   */
   constructor(database, selection, state, chips, { open }) {
     this.database = database;
     this.selection = selection;
@@ -32,6 +40,7 @@ export class ClassCards {
     });
   }
 
+  /** @type {Plot[]} */
   plots = [];
 
   render() {
@@ -48,6 +57,11 @@ export class ClassCards {
     );
   }
 
+  /**
+   * @param {number} group
+   * @param {Chunk.BinSet} found
+   * @param {Chunk.SeparatedClass} separated
+   */
   #card(group, found, { highest, byChance }) {
     const random = byChance[found.bins.length - 1];
     const { database, selection } = this;
@@ -107,9 +121,14 @@ export class ClassCards {
   }
 }
 
-/** The set of a size, or the largest below it; or the smallest that separates, else the best. */
+/**
+ * The set of a size, or the largest below it; or the smallest that separates, else the best.
+ * @param {Chunk.SeparatedClass} separated
+ * @param {string} size
+ */
 export function chooseSet({ sets, highest }, size) {
   if (size !== "fewest") return sets[Math.min(Number(size), sets.length) - 1];
+  /** @param {Chunk.BinSet} found */
   const worth = ({ nh, nhSpace }) => Math.min(nh, nhSpace);
   return (
     sets.find((found) => worth(found) >= SEPARATED * highest - 1e-9) ??

@@ -4,12 +4,24 @@ import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
 import { percent } from "../bins-kit/bin-card.js";
 
+/** @import { BinCard } from "../bins-kit/bin-card.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+
 const MOST_ROWS = 500;
 
+/**
+ * @param {Database} database
+ * @param {Bins} bins
+ * @param {Chunk.Selection} selection
+ * @param {BinCard} card
+ */
 export function binsTables(database, bins, selection, state, card) {
+  /** @param {number[]} columns */
   const names = (columns) => columns.map((column) => bins.names[column]).join(", ");
   const bin = state.get("bin");
   const told = bins.isShare(bin) ? percent : (value) => String(Number(value.toPrecision(3)));
+  /** @param {string} kind */
   const fold =
     (kind) =>
     ({ deal, bins: own, shapes, nh, nhAll, recognised, recognisedAll }) => [
@@ -90,7 +102,11 @@ export function binsTables(database, bins, selection, state, card) {
   };
 }
 
-/** The shapes with the most of a bin, first the one with most. */
+/**
+ * The shapes with the most of a bin, first the one with most.
+ * @param {Bins} bins
+ * @param {number} count
+ */
 function most(bins, bin, count) {
   const amounts = Float64Array.from({ length: count }, (_, index) => bins.share(bin, index));
   return [...amounts.keys()].sort((a, b) => amounts[b] - amounts[a] || a - b).slice(0, MOST_ROWS);

@@ -7,6 +7,20 @@ import { varied } from "./contrasts.js";
 import { mean } from "./distribution.js";
 import { binCount, called, meaning, share, statement } from "./words.js";
 
+/** @import { Contrast } from "./contrasts.js" */
+/** @import { Group } from "./groups.js" */
+/** @import { Neighbours } from "./neighbours.js" */
+
+/**
+ * On which side of an edge the groups differ, and by how much.
+ * @typedef {object} SideOfEdge
+ * @property {number} size in standard deviations
+ * @property {{ a: number, b: number }} means
+ * @property {string} where
+ * @property {string} place
+ * @property {boolean} outer
+ */
+
 const MOST_TOLD = 3;
 
 /** Standard deviations by which means must differ to be told. */
@@ -16,6 +30,13 @@ const TELLING = 0.8;
 const CLEARLY = 0.95;
 const WELL = 0.8;
 
+/**
+ * @param {Contrast} contrast
+ * @param {Group} a
+ * @param {Group} b
+ * @param {Chunk.Comparison} data
+ * @param {(string | HTMLElement)[] | null} kin
+ */
 export function answer(contrast, a, b, data, kin) {
   const { apart, beyond, bins } = contrast;
   const deals = `${share(apart.all.chance)} on average, and more than ${share(apart.all.limit)} in one of 100 deals`;
@@ -64,6 +85,11 @@ export function answer(contrast, a, b, data, kin) {
   ].filter(Boolean);
 }
 
+/**
+ * @param {Contrast} contrast
+ * @param {Group} a
+ * @param {Group} b
+ */
 function headline(contrast, a, b) {
   const [best] = contrast.beyond;
   if (best === undefined) return [called(a), " and ", called(b), " differ, but only as wholes."];
@@ -81,6 +107,10 @@ function headline(contrast, a, b) {
 /**
  * What is easiest to picture: of features with one value a point, how much of the surface lies on one side of an edge;
  * the edge at which the groups differ most. Without such a feature, the best bin.
+ * @param {Contrast} contrast
+ * @param {Group} a
+ * @param {Group} b
+ * @param {Chunk.Comparison} data
  */
 function plainest(contrast, a, b, data) {
   const { apart, bins } = contrast;
@@ -101,12 +131,19 @@ function plainest(contrast, a, b, data) {
   return found.map((side) => sentence(side, a, b, data));
 }
 
-/** Where the shares of the surface below an edge differ most, in standard deviations within the groups. */
+/**
+ * Where the shares of the surface below an edge differ most, in standard deviations within the groups.
+ * @param {Contrast} contrast
+ * @param {Chunk.Feature} feature
+ * @param {Chunk.Sides} words
+ * @returns {SideOfEdge | null}
+ */
 function bestSide({ bins, sample }, { start, bins: width, lowMeans, highMeans }, words) {
   const below = { a: new Float64Array(sample.a.length), b: new Float64Array(sample.b.length) };
+  /** @type {SideOfEdge | null} */
   let best = null;
   for (let edge = 0; edge < width - 1; edge += 1) {
-    for (const side of ["a", "b"])
+    for (const side of /** @type {const} */ (["a", "b"]))
       sample[side].forEach((row, place) => (below[side][place] += bins.share(start + edge, row)));
     const means = { a: mean(below.a), b: mean(below.b) };
     const spread = Math.sqrt(
@@ -127,6 +164,12 @@ function bestSide({ bins, sample }, { start, bins: width, lowMeans, highMeans },
   return best;
 }
 
+/**
+ * @param {SideOfEdge} side
+ * @param {Group} a
+ * @param {Group} b
+ * @param {Chunk.Comparison} data
+ */
 function sentence({ means, where, place, outer }, a, b, data) {
   const [more, less] = means.a > means.b ? [a, b] : [b, a];
   const meant = outer && place !== "" ? [" (", place, ")"] : [];
@@ -145,11 +188,21 @@ function sentence({ means, where, place, outer }, a, b, data) {
   ];
 }
 
+/**
+ * @param {Float64Array} values
+ * @param {number} middle
+ */
 function squares(values, middle) {
   return values.reduce((sum, value) => sum + (value - middle) ** 2, 0);
 }
 
-/** What both have in common against the other shapes, by the bin that is easiest to picture; null if nothing. */
+/**
+ * What both have in common against the other shapes, by the bin that is easiest to picture; null if nothing.
+ * @param {Contrast} contrast
+ * @param {Group} a
+ * @param {Group} b
+ * @param {Chunk.Comparison} data
+ */
 function inCommon(contrast, a, b, data) {
   const { bins, sample, shared } = contrast;
   const shares = shared.filter((column) => bins.isShare(column));
@@ -170,18 +223,26 @@ function inCommon(contrast, a, b, data) {
   ];
 }
 
+/** @param {string | null} text */
 function said(text) {
   return text && element("span", { class: "quiet" }, ` ${text}`);
 }
 
+/** @param {Contrast} contrast */
 function tooFew({ sample }) {
   const fewest = Math.min(sample.a.length, sample.b.length);
   return fewest < 5 ? ` With ${count(fewest, "shape")} in a group, only very large differences could show.` : "";
 }
 
-/** How often the shapes of two groups are each other's nearest. */
+/**
+ * How often the shapes of two groups are each other's nearest.
+ * @param {Group} a
+ * @param {Group} b
+ * @param {Neighbours} neighbours
+ */
 export function kinship(a, b, neighbours) {
   const [there, back] = [neighbours.between(a.shapes, b.shapes), neighbours.between(b.shapes, a.shapes)];
+  /** @param {number | null} value */
   const told = (value) => `${Math.round(100 * value)} %`;
   if (there === null) return null;
   if (there === 0 && back === 0)

@@ -47,7 +47,10 @@ export function binCard(column, view, { shared = false } = {}) {
   );
 }
 
-/** What two groups have in common against the rest. */
+/**
+ * What two groups have in common against the rest.
+ * @param {number[]} means
+ */
 function common(column, { a, b, bins, data, rest }, means) {
   const [first, second, others] = means;
   const told = toldAs(bins.isShare(column));

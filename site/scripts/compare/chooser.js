@@ -4,9 +4,19 @@ import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
 import { isSame, nameOf } from "./groups.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { GroupSpec, Side } from "./groups.js" */
+
+/** @typedef {{ spec: GroupSpec, text: string }} Offer */
+
+/** @type {Side[]} */
 const SIDES = ["a", "b"];
 
 export class Chooser {
+  /**
+   * @param {Database} database
+   * @param {Chunk.Clusters | null} clusters
+   */
   constructor(database, clusters, state) {
     this.database = database;
     this.state = state;
@@ -32,11 +42,15 @@ export class Chooser {
     this.shown = new Map();
   }
 
-  /** What every database offers: its classes and clusters with their sizes. */
+  /**
+   * What every database offers: its classes and clusters with their sizes.
+   * @param {Chunk.Clusters | null} clusters
+   * @returns {[string, Offer[]][]}
+   */
   #offers(clusters) {
     const { database } = this;
     const classes = database.classes.map((name, group) => ({
-      spec: { kind: "class", group },
+      spec: { kind: /** @type {const} */ ("class"), group },
       text: `${name} (${database.sizes.get(group) ?? 0})`,
     }));
     const found = clusters === null || clusters.standIn ? [] : clusters.clusters;
@@ -44,13 +58,21 @@ export class Chooser {
       [clusters?.standIn ? "Clusters" : "Classes", classes],
       [
         "Clusters, made from the features alone",
-        found.map(({ name, size }) => ({ spec: { kind: "cluster", name }, text: `${name} (${size})` })),
+        found.map(({ name, size }) => ({
+          spec: { kind: /** @type {const} */ ("cluster"), name },
+          text: `${name} (${size})`,
+        })),
       ],
     ];
   }
 
+  /**
+   * @param {Side} side
+   * @param {GroupSpec | null} spec
+   */
   choose(side, spec) {
     const other = side === "a" ? "b" : "a";
+    /** @type {Partial<Record<Side, GroupSpec | null>>} */
     const patch = { [side]: spec };
     // Two rests are no question; the other side has then to be chosen anew.
     if (spec !== null && isSame(spec, this.state.get(other)))
@@ -62,6 +84,7 @@ export class Chooser {
     for (const side of SIDES) {
       const spec = this.state.get(side);
       const other = this.state.get(side === "a" ? "b" : "a");
+      /** @type {Offer[]} */
       const own = [{ spec: { kind: "rest" }, text: "all other shapes" }];
       // The set of shapes that came along can be chosen on both sides.
       for (const known of [spec, other]) {
@@ -70,7 +93,9 @@ export class Chooser {
             own.push({ spec: known, text: textOf(known, this.database) });
         }
       }
-      const lists = [...this.offers, ["Other groups", own]].filter(([, offers]) => offers.length > 0);
+      /** @type {[string, Offer[]][]} */
+      const groups = [...this.offers, ["Other groups", own]];
+      const lists = groups.filter(([, offers]) => offers.length > 0);
       const flat = lists.flatMap(([, offers]) => offers);
       this.shown.set(
         side,
@@ -94,6 +119,10 @@ export class Chooser {
   }
 }
 
+/**
+ * @param {Database} database
+ * @param {Extract<GroupSpec, { kind: "search" | "shapes" }>} spec
+ */
 function textOf(spec, database) {
   if (spec.kind === "search") return `found by ${nameOf(spec, database)}`;
   return spec.shapes.size === 1 ? nameOf(spec, database) : `${count(spec.shapes.size, "selected shape")}`;

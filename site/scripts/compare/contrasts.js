@@ -3,6 +3,16 @@
 import { sampled } from "../database/sample.js";
 import { startEngine } from "../engine/client.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Engine, Job, Listener } from "../engine/client.js" */
+/** @import { Contrast as Found } from "../engine/contrast.js" */
+
+/**
+ * The rows that speak for both groups, and for all other shapes.
+ * @typedef {{ a: number[], b: number[], rest: number[] }} Sample
+ */
+
 /** Of a larger group a sample speaks: enough to know a share to two parts in a hundred. */
 export const MOST_COMPARED = 500;
 
@@ -13,22 +23,37 @@ const SEED = 0;
 const NO_SPREAD = 50;
 
 export class Contrasts {
+  /** @type {Engine | null} */
   #engine = null;
 
-  /** `bins` is a promise of the Bins, which are loaded when two groups are first compared. */
+  /**
+   * `bins` is a promise of the Bins, which are loaded when two groups are first compared.
+   * @param {Database} database
+   * @param {Chunk.Comparison} data
+   * @param {() => Promise<Bins>} bins
+   */
   constructor(database, data, bins) {
     this.database = database;
     this.data = data;
     this.bins = bins;
   }
 
-  /** The rows of a group that speak for it, rising. */
+  /**
+   * The rows of a group that speak for it, rising.
+   * @param {number[]} shapes
+   */
   #sample(shapes) {
     return [...sampled(Int32Array.from(shapes), this.database.groups, MOST_COMPARED)];
   }
 
-  /** Begin to compare: { done, cancel }. */
+  /**
+   * Begin to compare: { done, cancel }.
+   * @param {number[]} a
+   * @param {number[]} b
+   * @param {Listener} report
+   */
   start(a, b, report) {
+    /** @type {Job<Found[]> | null} */
     let job = null;
     let cancelled = false;
     const done = (async () => {
@@ -37,6 +62,10 @@ export class Contrasts {
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
       const sample = { a: this.#sample(a), b: this.#sample(b), rest: this.#sample(outside) };
       const rows = [...sample.a, ...sample.b, ...sample.rest];
+      /**
+       * @param {number} from
+       * @param {number} count
+       */
       const numbers = (from, count) => Int32Array.from({ length: count }, (_, place) => from + place);
       const own = numbers(0, sample.a.length);
       const others = numbers(own.length, sample.b.length);
@@ -68,7 +97,11 @@ export class Contrasts {
   }
 }
 
-/** The compared values of some rows, column after column. */
+/**
+ * The compared values of some rows, column after column.
+ * @param {Bins} bins
+ * @param {number[]} rows
+ */
 function valuesOf(bins, rows) {
   const values = new Float32Array(bins.count * rows.length);
   for (let column = 0; column < bins.count; column += 1) {
@@ -79,7 +112,13 @@ function valuesOf(bins, rows) {
 }
 
 /** What came out of a comparison. */
-class Contrast {
+export class Contrast {
+  /**
+   * @param {Bins} bins
+   * @param {Sample} sample
+   * @param {{ first: Int32Array, second: Int32Array, shuffles: number }[]} contests
+   * @param {{ apart: Found, both: Found, ownRest: Found, othersRest: Found }} found
+   */
   constructor(bins, sample, contests, { apart, both, ownRest, othersRest }) {
     this.bins = bins;
     this.sample = sample;
@@ -97,7 +136,10 @@ class Contrast {
     };
   }
 
-  /** Whether a bin differs more than shuffled groups let any bin differ, in all but one of a hundred shuffles. */
+  /**
+   * Whether a bin differs more than shuffled groups let any bin differ, in all but one of a hundred shuffles.
+   * @param {number} column
+   */
   isBeyond(column) {
     return Math.abs(this.apart.effect[column]) > this.apart.limit * (1 + 1e-9);
   }
@@ -110,6 +152,9 @@ class Contrast {
   /**
    * Bins that both groups have more of than the other shapes, or both less, beyond chance, and in which they are closer
    * to each other than either is to those; the clearest first.
+   * @param {{ first: Int32Array, second: Int32Array, shuffles: number }[]} contests
+   * @param {Found} ownRest
+   * @param {Found} othersRest
    */
   #findShared(contests, ownRest, othersRest) {
     const { both, difference } = this;
@@ -118,6 +163,7 @@ class Contrast {
       const { effect } = number === 2 ? ownRest : othersRest;
       return Array.from(effect, (value) => standardised(value, first.length, second.length));
     });
+    /** @param {number} column */
     const clear = (column) => Math.min(Math.abs(own[column]), Math.abs(others[column])) - Math.abs(difference[column]);
     this.against = { a: own, b: others };
     return [...difference.keys()]
@@ -145,7 +191,11 @@ class Contrast {
   }
 }
 
-/** A difference of means in standard deviations within the groups, from its share of the spread. */
+/**
+ * A difference of means in standard deviations within the groups, from its share of the spread.
+ * @param {number} first
+ * @param {number} second
+ */
 function standardised(effect, first, second) {
   const share = Math.abs(effect);
   if (share >= 1 - 1e-9) return Math.sign(effect) * NO_SPREAD;
@@ -156,12 +206,18 @@ function standardised(effect, first, second) {
   );
 }
 
-/** Rows by rising distance from the mean of their group: the most central first. */
+/**
+ * Rows by rising distance from the mean of their group: the most central first.
+ * @param {number[]} rows
+ */
 function nearest(rows, away) {
   return [...rows.keys()].sort((one, other) => away[one] - away[other] || one - other).map((place) => rows[place]);
 }
 
-/** How many of rising values are below a value, or up to it. */
+/**
+ * How many of rising values are below a value, or up to it.
+ * @param {boolean} [including]
+ */
 function lower(rising, value, including = false) {
   let [from, to] = [0, rising.length];
   while (from < to) {
@@ -174,6 +230,7 @@ function lower(rising, value, including = false) {
 
 /**
  * The first of some bins that do not say the same: one a dimension, and two a feature at most.
+ * @param {number} most
  */
 export function varied(columns, bins, most) {
   const [dimensions, features] = [new Set(), new Map()];

@@ -47,6 +47,7 @@ function strip({ values, color, at }, place) {
 }
 
 function dots(rising, color, place) {
+  /** @param {number} share */
   const quantile = (share) => rising[Math.round(share * (rising.length - 1))];
   const [low, high] = [place(quantile(0.25)), place(quantile(0.75))];
   const band = svg("rect", {
@@ -76,8 +77,9 @@ function bars(rising, color, place) {
   return group;
 }
 
+/** @param {number[] | Float64Array} values */
 export function mean(values) {
-  return values.reduce((sum, value) => sum + value, 0) / values.length;
+  return Array.from(values).reduce((sum, value) => sum + value, 0) / values.length;
 }
 
 /** How a value is told: a share in percent, any other as a short number. */

@@ -16,12 +16,39 @@ import { Groups } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
 import { called } from "./words.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Standing } from "../engine/inquiry.js" */
+/** @import { Contrast } from "./contrasts.js" */
+/** @import { Group } from "./groups.js" */
+/** @import { Neighbours } from "./neighbours.js" */
+
+/**
+ * Two groups beside each other, as the page shows them.
+ * @typedef {object} View
+ * @property {Contrast} contrast
+ * @property {Group} a
+ * @property {Group} b
+ * @property {Bins} bins
+ * @property {Chunk.Comparison} data
+ * @property {Omit<Group, "spec" | "side" | "shapes" | "mark"> & { side: "rest", mark: () => null }} rest all other shapes
+ * @property {(column: number) => void} look
+ * @property {number} best
+ * @property {number} bin the one that is looked at
+ */
+
 const FIRST = 6;
 const MORE = 12;
 const SHARED = 4;
 const FACES = 5;
 
 export class GroupsView {
+  /**
+   * @param {Database} database
+   * @param {Chunk.Comparison} data
+   * @param {Chunk.Clusters | null} clusters
+   * @param {Neighbours} neighbours
+   */
   constructor(database, data, clusters, neighbours, state, { bins, announce }) {
     this.database = database;
     this.data = data;
@@ -94,6 +121,7 @@ export class GroupsView {
     return null;
   }
 
+  /** @param {(string | HTMLElement)[] | string[]} words */
   #blank(words) {
     this.view = null;
     this.result.hidden = true;
@@ -137,6 +165,7 @@ export class GroupsView {
         : "";
   }
 
+  /** @param {Standing} standing */
   #tell({ kind, progress, message }) {
     const { database, status } = this;
     document.getElementById("groups").setAttribute("aria-busy", String(kind === "working"));
@@ -158,11 +187,16 @@ export class GroupsView {
     else if (kind === "answered") status.replaceChildren();
   }
 
+  /**
+   * @param {Contrast} contrast
+   * @param {{ a: Group, b: Group }} groups
+   */
   #answered(contrast, { a, b }) {
     const { database } = this;
     const { bins } = contrast;
     const named = this.state.get("bin");
     const best = contrast.ranked[0] ?? 0;
+    /** @type {View["rest"]} */
     const rest = { side: "rest", name: "the rest", color: () => "var(--quiet)", mark: () => null };
     const look = (column) => this.state.set({ bin: bins.names[column] });
     this.view = {
@@ -206,9 +240,8 @@ export class GroupsView {
     this.#bins();
     this.#shared();
     document.getElementById("feature-rows").replaceChildren(...featureRows(view));
-    const classes = [a, b].every(({ spec }) => spec.kind === "class")
-      ? [a, b].map(({ spec }) => ["class", this.database.classes[spec.group]])
-      : [];
+    const groups = [a, b].flatMap(({ spec }) => (spec.kind === "class" ? [spec.group] : []));
+    const classes = groups.length === 2 ? groups.map((group) => ["class", this.database.classes[group]]) : [];
     const columns = varied(contrast.ranked, bins, FIRST);
     document.getElementById("to-workbench").href = pageAddress("workbench.html", [
       ...classes,
@@ -270,7 +303,10 @@ export class GroupsView {
   }
 }
 
-/** The best bin of each dimension. */
+/**
+ * The best bin of each dimension.
+ * @param {number} most
+ */
 function oneOfDimension(columns, bins, most) {
   const dimensions = new Set();
   return columns

@@ -4,11 +4,33 @@ import { swatch } from "../base/dom.js";
 import { shortened } from "../base/words.js";
 import { findWords, searchTexts } from "../database/search.js";
 
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * What a group is of: a class, a cluster, what a search finds, some shapes, or all others.
+ * @typedef {{ kind: "class", group: number } | { kind: "cluster", name: string } | { kind: "search", text: string }
+ *   | { kind: "shapes", shapes: Set<number> } | { kind: "rest" }} GroupSpec
+ * ¦ @typedef {"a" | "b"} Side
+ * ¦ How a group is called and marked.
+ * @typedef {object} Look
+ * @property {GroupSpec} spec
+ * @property {Side} side
+ * @property {string} name
+ * @property {() => string} color
+ * @property {() => SVGElement} mark
+ * ¦ @typedef {Look & { shapes: number[] }} Group
+ */
+
 const LONGEST = 40;
 
 export class Groups {
+  /** @type {string[] | null} */
   #texts = null;
 
+  /**
+   * @param {Database} database
+   * @param {Chunk.Clusters | null} clusters
+   */
   constructor(database, clusters) {
     this.database = database;
     // Clusters that stand in for labels are the classes already.
@@ -18,6 +40,9 @@ export class Groups {
   /**
    * Two groups with their shapes: `{ a, b, common }`, where `common` is the number of shapes that both would have had;
    * the smaller group keeps them. A group is null where the address names none.
+   * @param {GroupSpec | null} a
+   * @param {GroupSpec | null} b
+   * @returns {Promise<{ a: Group | null, b: Group | null, common: number }>}
    */
   async resolve(a, b) {
     const [first, second] = await Promise.all([this.#shapes(a), this.#shapes(b)]);
@@ -39,7 +64,11 @@ export class Groups {
     };
   }
 
-  /** The shapes of a group, rising; null for the rest. */
+  /**
+   * The shapes of a group, rising; null for the rest.
+   * @param {GroupSpec | null} spec
+   * @returns {Promise<number[] | null>}
+   */
   async #shapes(spec) {
     const { database } = this;
     const where = (holds) => [...database.ids.keys()].filter(holds);
@@ -60,12 +89,19 @@ export class Groups {
     }
   }
 
+  /** @param {number[] | null} other */
   #rest(other) {
     const taken = new Set(other ?? []);
     return [...this.database.ids.keys()].filter((index) => !taken.has(index));
   }
 
-  /** Name and mark of a group. A class keeps its colour; other groups have that of their side. */
+  /**
+   * Name and mark of a group. A class keeps its colour; other groups have that of their side.
+   * @param {GroupSpec} spec
+   * @param {Side} side
+   * @param {GroupSpec | null} other
+   * @returns {Look}
+   */
   #look(spec, side, other) {
     const { database } = this;
     const own = spec.kind === "class";
@@ -85,6 +121,11 @@ export class Groups {
   }
 }
 
+/**
+ * @param {GroupSpec} spec
+ * @param {Database} database
+ * @param {GroupSpec | null} [other]
+ */
 export function nameOf(spec, database, other = null) {
   if (spec.kind === "class") return shortened(database.className(spec.group), LONGEST);
   if (spec.kind === "cluster") return shortened(spec.name, LONGEST);
@@ -94,13 +135,18 @@ export function nameOf(spec, database, other = null) {
   return other?.kind === "shapes" ? `${spec.shapes.size} selected shapes` : "the selected shapes";
 }
 
-/** Whether two descriptions mean the same group. */
+/**
+ * Whether two descriptions mean the same group.
+ * @param {GroupSpec | null} one
+ * @param {GroupSpec | null} other
+ */
 export function isSame(one, other) {
   return key(one) === key(other);
 }
 
+/** @param {GroupSpec | null} spec */
 function key(spec) {
   return spec === null
     ? ""
-    : JSON.stringify({ ...spec, shapes: spec.shapes && [...spec.shapes].sort((a, b) => a - b) });
+    : JSON.stringify({ ...spec, shapes: "shapes" in spec && [...spec.shapes].sort((a, b) => a - b) });
 }

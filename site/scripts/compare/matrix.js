@@ -50,7 +50,11 @@ export class Matrix {
     this.#behind();
   }
 
-  /** Of the neighbours of a class, the share that belongs to another. */
+  /**
+   * Of the neighbours of a class, the share that belongs to another.
+   * @param {number} row
+   * @param {number} column
+   */
   share(row, column) {
     return this.counts[row][column] / (this.database.sizes.get(row) * this.neighbours.k);
   }
@@ -133,12 +137,12 @@ export class Matrix {
             figures && share > 0 ? Math.round(100 * share) || "<1" : "",
           );
           const much = row === column ? share * 0.35 : share > 0 ? 0.12 + 0.88 * Math.sqrt(share / highest) : 0;
-          cell.style.setProperty("--much", much);
+          cell.style.setProperty("--much", String(much));
           return cell;
         }),
       ),
     );
-    node.style.setProperty("--classes", order.length);
+    node.style.setProperty("--classes", String(order.length));
     node.classList.toggle("many", !figures);
     node.replaceChildren(element("thead", {}, head), element("tbody", {}, rows));
   }
@@ -153,6 +157,10 @@ export class Matrix {
     );
   }
 
+  /**
+   * @param {number} row
+   * @param {number} column
+   */
   #sentence(row, column) {
     const { database, neighbours } = this;
     const names = [row, column].map((group) => database.className(group));
@@ -162,6 +170,7 @@ export class Matrix {
       : `${names[0]} to ${names[1]}: ${percents(this.share(row, column))}, ${this.counts[row][column]} of ${all} neighbours`;
   }
 
+  /** @param {Found | null} cell */
   #point(cell) {
     for (const marked of this.node.querySelectorAll(".lit")) marked.classList.remove("lit");
     if (cell === null) {
@@ -174,6 +183,7 @@ export class Matrix {
     this.node.querySelectorAll("thead th")[this.data.order.indexOf(column)].classList.add("lit");
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     const cell = event.target.closest("[data-row]");
     if (!cell) return;
@@ -197,6 +207,10 @@ export class Matrix {
     next.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
+  /**
+   * @param {number} row
+   * @param {number} column
+   */
   #open(row, column) {
     this.state.set({ row, column });
     document.getElementById("behind").scrollIntoView({ block: "nearest" });
@@ -299,6 +313,7 @@ export class Matrix {
   }
 }
 
+/** @param {number} share */
 function percents(share) {
   const value = 100 * share;
   return value > 0 && value < 0.5 ? "less than 1 %" : `${Math.round(value)} %`;

@@ -1,7 +1,14 @@
 // The nearest neighbours of every shape, in the space of all features and on every map.
 
+/** @import { Database } from "../database/database.js" */
+
 export class Neighbours {
-  /** `data` is the chunk "compare", `bytes` the ArrayBuffer of the chunk "neighbours". */
+  /**
+   * `data` is the chunk "compare", `bytes` the ArrayBuffer of the chunk "neighbours".
+   * @param {Database} database
+   * @param {Chunk.Comparison} comparison
+   * @param {ArrayBuffer} bytes
+   */
   constructor(database, { k, spaces }, bytes) {
     this.database = database;
     this.k = k;
@@ -9,13 +16,20 @@ export class Neighbours {
     this.rows = new Uint32Array(bytes);
   }
 
-  /** Of one shape, nearest first. */
+  /**
+   * Of one shape, nearest first.
+   * @param {any} [space]
+   * @param {number} index
+   */
   of(index, space = this.spaces[0]) {
     const start = (this.spaces.indexOf(space) * this.database.count + index) * this.k;
     return this.rows.subarray(start, start + this.k);
   }
 
-  /** Of the neighbours of some shapes, the share that belongs to others; null without neighbours. */
+  /**
+   * Of the neighbours of some shapes, the share that belongs to others; null without neighbours.
+   * @param {any} [space]
+   */
   between(shapes, others, space = this.spaces[0]) {
     if (this.k === 0 || shapes.length === 0) return null;
     const wanted = new Set(others);
@@ -24,7 +38,10 @@ export class Neighbours {
     return found / (shapes.length * this.k);
   }
 
-  /** How many neighbours of a shape of each class (rows) belong to each class (columns). */
+  /**
+   * How many neighbours of a shape of each class (rows) belong to each class (columns).
+   * @param {string} space
+   */
   matrix(space) {
     const { database } = this;
     const counts = database.classes.map(() => new Array(database.classes.length).fill(0));

@@ -9,10 +9,16 @@ import { dimensionOf } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { View } from "./groups-view.js" */
+/** @import { Side } from "./groups.js" */
+
 const EXAMPLES = 6;
+/** @type {Side[]} */
 const SIDES = ["a", "b"];
 
 export class OnShapes {
+  /** @param {Database} database */
   constructor(database, state, announce) {
     this.database = database;
     this.state = state;
@@ -32,6 +38,7 @@ export class OnShapes {
     });
   }
 
+  /** @param {View} view */
   async show(view) {
     this.view = view;
     this.chosen = Object.fromEntries(SIDES.map((side) => [side, view.contrast.central[side][0]]));
@@ -74,6 +81,10 @@ export class OnShapes {
     );
   }
 
+  /**
+   * @param {Side} side
+   * @param {boolean} share
+   */
   #side(side, share) {
     const { view, database } = this;
     const { bins, bin } = view;
@@ -120,6 +131,11 @@ export class OnShapes {
     this.#stage(side, shape, share);
   }
 
+  /**
+   * @param {Side} side
+   * @param {number} shape
+   * @param {boolean} share
+   */
   #stage(side, shape, share) {
     const { bins, bin } = this.view;
     const stage = this.stages[side];

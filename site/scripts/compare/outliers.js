@@ -7,6 +7,9 @@ import { count, figure } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { distribution, mean, toldAs } from "./distribution.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Neighbours } from "./neighbours.js" */
+
 const PAGE = 12;
 const NEAREST = 5;
 const REASONS = 2;
@@ -23,6 +26,11 @@ const LEAST_SPREAD = 0.2;
 export class Outliers {
   #usual = new Map();
 
+  /**
+   * @param {Database} database
+   * @param {Chunk.Comparison} data
+   * @param {Neighbours} neighbours
+   */
   constructor(database, data, neighbours, state, { bins, announce }) {
     this.database = database;
     this.data = data;
@@ -95,6 +103,7 @@ export class Outliers {
     }
   }
 
+  /** @param {number} index */
   #item(index) {
     const { database, data, neighbours } = this;
     const [own, rival] = [database.groups[index], data.rival[index]];
@@ -192,6 +201,7 @@ export class Outliers {
     );
   }
 
+  /** @param {number[]} near */
   #census(near) {
     const { database } = this;
     const parts = database
@@ -205,7 +215,10 @@ export class Outliers {
     return [`Its ${count(near.length, "nearest neighbour")}: `, parts];
   }
 
-  /** Bins in which a shape is unlike its class and like the other one. */
+  /**
+   * Bins in which a shape is unlike its class and like the other one.
+   * @param {number} index
+   */
   #reasons(index, bins) {
     const { database, data } = this;
     const [group, other] = [database.groups[index], data.rival[index]];
@@ -243,10 +256,17 @@ export class Outliers {
     return chosen.map(([, column]) => this.#reason(index, column, group, other, bins));
   }
 
+  /**
+   * @param {number} column
+   * @param {number} index
+   * @param {number} group
+   * @param {number} other
+   */
   #reason(index, column, group, other, bins) {
     const { database, data } = this;
     const share = bins.isShare(column);
     const told = toldAs(share);
+    /** @param {number} of */
     const row = (of) => {
       const rows = this.#usualOf(of, bins).rows.filter((shape) => shape !== index);
       return {
@@ -283,7 +303,10 @@ export class Outliers {
     );
   }
 
-  /** Means and spreads of a class in every bin. */
+  /**
+   * Means and spreads of a class in every bin.
+   * @param {number} group
+   */
   #usualOf(group, bins) {
     if (this.#usual.has(group)) return this.#usual.get(group);
     const all = [...this.database.ids.keys()].filter((index) => this.database.groups[index] === group);
@@ -307,7 +330,10 @@ export class Outliers {
 
   #spreads = null;
 
-  /** The spread of a bin over some shapes from all over the database. */
+  /**
+   * The spread of a bin over some shapes from all over the database.
+   * @param {number} column
+   */
   #spread(column, bins) {
     if (this.#spreads === null) {
       const step = Math.max(bins.rows / MOST_USUAL, 1);
@@ -322,6 +348,10 @@ export class Outliers {
   }
 }
 
+/**
+ * @param {Database} database
+ * @param {number} group
+ */
 function name(database, group) {
   return element(
     "span",
@@ -331,7 +361,10 @@ function name(database, group) {
   );
 }
 
-/** A fit with its sign. */
+/**
+ * A fit with its sign.
+ * @param {number | null} value
+ */
 export function signed(value) {
   return `${value < 0 ? "−" : ""}${Math.abs(value).toFixed(3)}`;
 }

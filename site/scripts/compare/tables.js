@@ -35,6 +35,7 @@ function ofGroups(view) {
       contrast.isBeyond(column) ? "yes" : "no",
     ];
   };
+  /** @param {string} title */
   const feature = (title, { share: own, chance, limit, exceeding }) => [
     title,
     share(own),

@@ -4,12 +4,26 @@ import { element } from "../base/dom.js";
 import { grouped } from "../base/words.js";
 import { mean, toldAs } from "./distribution.js";
 
-/** The name of a group within a sentence. */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Contrast } from "./contrasts.js" */
+/** @import { Group } from "./groups.js" */
+
+/**
+ * The name of a group within a sentence.
+ * @param {Pick<Group, "mark" | "name">} group
+ */
 export function called(group) {
   return element("b", { class: "called" }, group.mark(), element("bdi", {}, group.name));
 }
 
-/** What a bin says of two groups: the one with more of it, and how much on average. */
+/**
+ * What a bin says of two groups: the one with more of it, and how much on average.
+ * @param {number} column
+ * @param {Contrast} contrast
+ * @param {Group} a
+ * @param {Group} b
+ * @param {Chunk.Comparison} data
+ */
 export function statement(column, contrast, a, b, data) {
   const { bins, sample } = contrast;
   const values = {
@@ -25,7 +39,11 @@ export function statement(column, contrast, a, b, data) {
   return ["In ", called(more), `, more of ${data.whole} lies where ${data.where[column]}: `, ...figures, "."];
 }
 
-/** What low or high values of a feature mean, for a bin near one of its ends; else nothing. */
+/**
+ * What low or high values of a feature mean, for a bin near one of its ends; else nothing.
+ * @param {number} column
+ * @param {Bins} bins
+ */
 export function meaning(column, bins) {
   const feature = bins.features[bins.featureOf(column)];
   if (!bins.isShare(column)) return null;
@@ -35,7 +53,10 @@ export function meaning(column, bins) {
   return null;
 }
 
-/** "in 97 of 100 pairs" */
+/**
+ * "in 97 of 100 pairs"
+ * @param {number} share
+ */
 export function pairs(share) {
   const hundredths = Math.round(100 * share);
   return hundredths === 100
@@ -45,13 +66,20 @@ export function pairs(share) {
       : `in ${hundredths} of 100 pairs`;
 }
 
-/** A share of the differences in percent, short. */
+/**
+ * A share of the differences in percent, short.
+ * @param {number} value
+ */
 export function share(value) {
   const percents = 100 * value;
   return `${percents < 9.95 ? percents.toFixed(1) : percents.toFixed(0)} %`;
 }
 
-/** "412 of 1 870 bins" */
+/**
+ * "412 of 1 870 bins"
+ * @param {number} number
+ * @param {number} all
+ */
 export function binCount(number, all) {
   return `${grouped(number)} of ${grouped(all)} bins`;
 }

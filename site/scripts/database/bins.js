@@ -6,7 +6,10 @@ import { shortened } from "../base/words.js";
 const STEPS = 65535;
 
 export class Bins {
-  /** `data` is the chunk "workbench", `bytes` the ArrayBuffer of the chunk "bins". */
+  /**
+   * @param {Chunk.Workbench} data
+   * @param {ArrayBuffer} bytes the chunk "bins"
+   */
   constructor(data, bytes) {
     this.features = data.features;
     this.sentences = data.sentences;
@@ -21,44 +24,68 @@ export class Bins {
     );
   }
 
+  /** @type {Int32Array} */
   #featureOf;
 
-  /** The index of the feature that a column belongs to. */
+  /**
+   * The index of the feature that a column belongs to.
+   * @param {number} column
+   */
   featureOf(column) {
     return this.#featureOf[column];
   }
 
-  /** A column's name in few letters: of a long one, the feature is cut, not the bin. */
+  /**
+   * A column's name in few letters: of a long one, the feature is cut, not the bin.
+   * @param {number} column
+   * @param {number} length
+   */
   shortName(column, length) {
     const { name } = this.features[this.#featureOf[column]];
     const place = this.names[column].slice(name.length);
     return `${shortened(name, Math.max(length - place.length, 2))}${place}`;
   }
 
-  /** The number of a column's bin within its dimension, from 0. */
+  /**
+   * The number of a column's bin within its dimension, from 0.
+   * @param {number} column
+   */
   binOf(column) {
     const { start, bins } = this.features[this.#featureOf[column]];
     return (column - start) % bins;
   }
 
-  /** Whether a column is a share of the surface; an external feature holds values of its own. */
+  /**
+   * Whether a column is a share of the surface; an external feature holds values of its own.
+   * @param {number} column
+   */
   isShare(column) {
     return this.features[this.#featureOf[column]].bins > 1;
   }
 
-  /** The compared value of a shape: the square root of its share of the surface where features are balanced. */
+  /**
+   * The compared value of a shape: the square root of its share of the surface where features are balanced.
+   * @param {number} column
+   * @param {number} row
+   */
   value(column, row) {
     const { low, high } = this.features[this.#featureOf[column]];
     return low + ((high - low) * this.steps[column * this.rows + row]) / STEPS;
   }
 
-  /** What one step of `steps` is worth in a column. */
+  /**
+   * What one step of `steps` is worth in a column.
+   * @param {number} column
+   */
   stepOf(column) {
     const { low, high } = this.features[this.#featureOf[column]];
     return (high - low) / STEPS;
   }
 
-  /** The compared values of all shapes in one column. */
+  /**
+   * The compared values of all shapes in one column.
+   * @param {number} column
+   */
   column(column) {
     return Float32Array.from({ length: this.rows }, (_, row) => this.value(column, row));
   }
@@ -73,7 +100,11 @@ export class Bins {
     return values;
   }
 
-  /** What a reader can picture: the share of a shape's surface that falls into a bin, in [0, 1]; else the value itself. */
+  /**
+   * What a reader can picture: the share of a shape's surface that falls into a bin, in [0, 1]; else the value itself.
+   * @param {number} column
+   * @param {number} row
+   */
   share(column, row) {
     const value = this.value(column, row);
     return this.balanced && this.isShare(column) ? value * value : value;
@@ -82,11 +113,12 @@ export class Bins {
   /**
    * The columns that a text names, rising: one name, or the beginning of several (`FPFH[14]:3`, `agd`, `PFH[2`), else
    * a part of names or of a feature's title; else all that several such texts name, with spaces or commas between.
+   * @param {string} text
+   * @returns {number[]}
    */
   find(text) {
     const wanted = text.trim().toLowerCase();
     if (wanted === "") return [];
-    this.#searched ??= this.names.map((name) => name.toLowerCase());
     const found = this.#named(wanted);
     if (found.length > 0) return found;
     const parts = wanted.split(/[\s,;]+/).filter(Boolean);
@@ -94,35 +126,52 @@ export class Bins {
     return [...new Set(parts.flatMap((part) => this.#named(part)))].sort((a, b) => a - b);
   }
 
+  /** @type {string[] | null} */
   #searched = null;
 
+  /** @param {string} wanted */
   #named(wanted) {
-    const exact = this.#searched.indexOf(wanted);
+    this.#searched ??= this.names.map((name) => name.toLowerCase());
+    const searched = this.#searched;
+    const exact = searched.indexOf(wanted);
     if (exact >= 0) return [exact];
-    const where = (holds) => this.#searched.flatMap((name, column) => (holds(name, column) ? [column] : []));
+    /** @param {(name: string, column: number) => boolean} holds */
+    const where = (holds) => searched.flatMap((name, column) => (holds(name, column) ? [column] : []));
     const begun = where((name) => name.startsWith(wanted));
     if (begun.length > 0) return begun;
     const titled = this.features.map(({ title }) => title.toLowerCase().includes(wanted));
     return where((name, column) => name.includes(wanted) || titled[this.#featureOf[column]]);
   }
 
-  /** What a bin means, in plain words. */
+  /**
+   * What a bin means, in plain words.
+   * @param {number} column
+   */
   sentence(column) {
     return this.sentences[column];
   }
 
-  /** The colour of a column's feature in the theme in use. */
+  /**
+   * The colour of a column's feature in the theme in use.
+   * @param {number} column
+   */
   color(column) {
     return this.colorOf(this.#featureOf[column]);
   }
 
-  /** The colour of a feature in the theme in use. */
+  /**
+   * The colour of a feature in the theme in use.
+   * @param {number} feature
+   */
   colorOf(feature) {
     return this.marks[currentTheme()].features[this.features[feature].hue];
   }
 }
 
-/** Names as `FeatureBlock.columns` makes them: the dimension from 0, the bin from 1. */
+/**
+ * Names as `FeatureBlock.columns` makes them: the dimension from 0, the bin from 1.
+ * @param {Chunk.Feature} feature
+ */
 function namesOf({ name, dimensions, bins }) {
   return Array.from({ length: dimensions * bins }, (_, place) => {
     const dimension = dimensions === 1 ? "" : `[${Math.floor(place / bins)}]`;

@@ -3,7 +3,34 @@
 import { resource } from "../base/place.js";
 import { reachOf } from "./hit-range.js";
 
+/** @import { Theme } from "../base/theme.js" */
+
+/**
+ * A map of all shapes, with its quality: of a projection, of a subset of the features, or one that was made here. Shapes
+ * that have no place on it have coordinates that are no numbers.
+ * @typedef {object} ShapeMap
+ * @property {string} key
+ * @property {string} title
+ * @property {string} [note]
+ * @property {string[]} [features]
+ * @property {ArrayLike<number>} x
+ * @property {ArrayLike<number>} y
+ * @property {(number | null)[]} hit
+ * @property {number} neighbours
+ * @property {(number | null)[]} [hitOfClass]
+ * @property {number | null} [hitOfAll]
+ * @property {Chunk.WithoutCopies | null} [withoutCopies]
+ * @property {number | null} [chance]
+ * @property {number | null} [chanceSpread]
+ * ¦ @typedef {ShapeMap & { base: number }} Method one that belongs to a projection of all features: itself, or the one it is set beside
+ * @typedef {{ x: number, y: number, width: number, height: number }} Bounds the middle and the size of a rectangle
+ */
+
 export class Database {
+  /**
+   * @param {Chunk.Overview} data
+   * @param {() => Theme} theme
+   */
   constructor(data, theme) {
     this.data = data;
     this.theme = theme;
@@ -12,16 +39,21 @@ export class Database {
     this.names = data.shapes.names;
     this.groups = data.shapes.groups;
     this.classes = data.classes;
-    // `base` is the projection of all features that a map belongs to: itself, or the one a subset's map is set beside.
+    /** @type {Method[]} */
     this.methods = data.methods.map((method, base) => ({ ...method, base }));
     this.indexOfId = new Map(this.ids.map((id, index) => [id, index]));
+    /** @type {Map<number, number>} */
     this.sizes = new Map();
     for (const group of this.groups) this.sizes.set(group, (this.sizes.get(group) ?? 0) + 1);
     this.bounds = this.methods.map(bounds);
     this.revision = 0;
   }
 
-  /** Add the map of a subset of the features beside projection `base`; its index among the methods. */
+  /**
+   * Add the map of a subset of the features beside projection `base`; its index among the methods.
+   * @param {ShapeMap} map
+   * @param {number} base
+   */
   add(map, base) {
     const known = this.methods.findIndex(({ key }) => key === map.key);
     if (known >= 0) return known;
@@ -31,7 +63,10 @@ export class Database {
     return this.methods.length - 1;
   }
 
-  /** Show another map as the only one, for a page whose maps are made while one looks. */
+  /**
+   * Show another map as the only one, for a page whose maps are made while one looks.
+   * @param {ShapeMap} map
+   */
   replace(map) {
     this.methods = [{ ...map, base: 0 }];
     this.bounds = [bounds(map)];
@@ -52,23 +87,31 @@ export class Database {
     return this.classes.length > 1;
   }
 
+  /** @param {number} index */
   picture(index) {
     return resource(`thumbnails/${this.data.shapes.pictures[index]}`);
   }
 
+  /** @param {number} group */
   className(group) {
     return group < 0 ? "no label" : this.classes[group];
   }
 
+  /** @param {number} group */
   color(group) {
     return group < 0 ? this.marks.unlabelled : this.marks.classes[group];
   }
 
+  /** @param {number} group */
   symbol(group) {
     return group < 0 ? this.data.marks.plain : this.data.marks.symbols[group];
   }
 
-  /** Indices of the shapes nearest to one on a map, nearest first; as many as its neighbourhood hit counts. */
+  /**
+   * Indices of the shapes nearest to one on a map, nearest first; as many as its neighbourhood hit counts.
+   * @param {number} index
+   * @param {number} methodIndex
+   */
   neighbours(index, methodIndex) {
     const key = `${index} ${methodIndex} ${this.revision}`;
     if (this.#nearest?.key !== key) this.#nearest = { key, found: this.#findNeighbours(index, methodIndex) };
@@ -76,11 +119,17 @@ export class Database {
   }
 
   // A moving map asks for the neighbours of one shape with every frame.
+  /** @type {{ key: string, found: number[] } | null} */
   #nearest = null;
 
+  /**
+   * @param {number} index
+   * @param {number} methodIndex
+   */
   #findNeighbours(index, methodIndex) {
     const { x, y, neighbours } = this.methods[methodIndex];
     // The nearest so far, nearest first: few, where a sort would go over all shapes.
+    /** @type {{ other: number, distance: number }[]} */
     const found = [];
     for (let other = 0; other < x.length; other += 1) {
       const distance = (x[other] - x[index]) ** 2 + (y[other] - y[index]) ** 2;
@@ -94,8 +143,12 @@ export class Database {
     return found.map(({ other }) => other);
   }
 
-  /** Classes among some shapes with their counts, most frequent first. */
+  /**
+   * Classes among some shapes with their counts, most frequent first.
+   * @param {Iterable<number>} indices
+   */
   census(indices) {
+    /** @type {Map<number, number>} */
     const counts = new Map();
     for (const index of indices) counts.set(this.groups[index], (counts.get(this.groups[index]) ?? 0) + 1);
     return [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
@@ -117,6 +170,8 @@ export class Database {
 /**
  * The rectangle a projection fills; never empty, so that a single shape has a map too. A shape without a place on it
  * has coordinates that are no numbers.
+ * @param {{ x: ArrayLike<number>, y: ArrayLike<number> }} map
+ * @returns {Bounds}
  */
 export function bounds({ x, y }) {
   let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];

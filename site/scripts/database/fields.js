@@ -2,28 +2,50 @@
 
 import { highestOf } from "./hit-range.js";
 
+/** @import { Database } from "./database.js" */
+
+/**
+ * What shapes can be grouped, filtered and sorted by: a field of the database, a tree of folders, or a hit on a map.
+ * @typedef {object} OwnField
+ * @property {FieldTree | null} tree of which it is the finest level
+ * @property {number[]} [groups] the classes that the values of the active labels are
+ * @property {boolean} [hit] whether it is a neighbourhood hit
+ * @property {(row: number) => number | null} [highest] what a hit can be
+ * @property {Map<string, number>} [numberOfName] values by their names in an address
+ * ¦ @typedef {Chunk.Field & OwnField} Field
+ * @typedef {Chunk.Tree & { ways?: string[][] }} FieldTree with the names from the top down to each of its nodes
+ */
+
 const HIT_EDGES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
 
 /** What stands for "no value" among the numbers of values. */
 export const NONE = -1;
 
 export class Fields {
+  /**
+   * @param {Database} database
+   * @param {Chunk.Fields} fields
+   * @param {Chunk.Hierarchy} hierarchy
+   */
   constructor(database, { byName, fields }, { trees }) {
     this.byName = byName;
     // A tree of one level is a list.
+    /** @type {FieldTree[]} */
     const deep = trees.filter(({ key, nodes }) => key === "folders" || nodes.some(({ parent }) => parent >= 0));
+    /** @type {Field[]} */
     const own = fields.map((field) => ({ ...field, tree: deep.find(({ key }) => key === field.key) ?? null }));
     const folders = deep
       .filter(({ key }) => key === "folders")
       .map((tree) => ({ ...NOTHING, key: tree.key, title: tree.title, tree }));
     const measured = own.filter(({ key }) => key.startsWith("fact:"));
     const given = own.filter((field) => !measured.includes(field));
+    /** @type {Field[]} */
     this.all = [...given, ...folders, ...hits(database), ...measured];
     for (const field of this.all) if (field.tree) field.tree.ways = ways(field.tree.nodes);
     this.byKey = new Map(this.all.map((field) => [field.key, field]));
     this.active = this.all.find(({ active }) => active) ?? null;
     // Classes stand in the order that people sort by, and the database numbers them in another.
-    if (this.active) this.active.groups = this.active.names.map((name) => database.classes.indexOf(name));
+    if (this.active) this.active.groups = this.active.names?.map((name) => database.classes.indexOf(name));
   }
 
   /** Those that make groups: few values, or intervals. */
@@ -43,10 +65,16 @@ export class Fields {
   }
 }
 
+/** @param {Field} field */
 const first = ({ active, tree }) => active || tree !== null;
 
+/** @type {Omit<Field, "key" | "title">} */
 const NOTHING = { unit: "", active: false, names: null, of: null, notes: null, numbers: null, edges: null, tree: null };
 
+/**
+ * @param {Database} database
+ * @returns {Field[]}
+ */
 function hits(database) {
   if (!database.separable) return [];
   return database.methods.map((method) => ({
@@ -60,26 +88,42 @@ function hits(database) {
   }));
 }
 
-/** The names from the top of a tree down to each of its nodes. */
+/**
+ * The names from the top of a tree down to each of its nodes.
+ * @param {Chunk.TreeNode[]} nodes
+ */
 function ways(nodes) {
+  /** @type {string[][]} */
   const found = [];
   for (const { name, parent } of nodes) found.push(parent < 0 ? [name] : [...found[parent], name]);
   return found;
 }
 
-/** The words for a value of a field of names. */
+/**
+ * The words for a value of a field of names.
+ * @param {Field} field
+ * @param {number} value
+ */
 export function valueName(field, value) {
-  if (value !== NONE) return field.names[value];
+  if (value !== NONE) return field.names?.[value] ?? "";
   return field.active || field.key.startsWith("label:") ? "no label" : `no ${field.title}`;
 }
 
-/** The class that a value of the active labels is, by which it is marked; null for a value of another field. */
+/**
+ * The class that a value of the active labels is, by which it is marked; null for a value of another field.
+ * @param {Field} field
+ * @param {number} value
+ */
 export function groupOf({ active, groups }, value) {
   if (!active) return null;
-  return value === NONE ? NONE : groups[value];
+  return value === NONE || !groups ? NONE : groups[value];
 }
 
-/** A number with as many digits as tell shapes apart. */
+/**
+ * A number with as many digits as tell shapes apart.
+ * @param {number | null | undefined} number
+ * @param {{ hit?: boolean }} [field]
+ */
 export function numberText(number, { hit = false } = {}) {
   if (number === null || number === undefined) return "–";
   if (hit) return number.toFixed(3);

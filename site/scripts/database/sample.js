@@ -1,15 +1,24 @@
 // A sample of a large database: each class in proportion, always the same shapes.
 
+import { entry } from "../base/entry.js";
+
 /** More shapes than this are too many for a map or a score while one waits; docs/using/workbench.md has the measurements. */
 export const MOST_SHAPES = 3000;
 
-/** As many of `rows` as a browser can take, each class in proportion and none left out; rising. */
+/**
+ * As many of `rows` as a browser can take, each class in proportion and none left out; rising.
+ * @template {number[] | Int32Array} Rows
+ * @param {Rows} rows
+ * @param {ArrayLike<number>} groups
+ * @param {number} [most]
+ * @returns {Rows | Int32Array}
+ */
 export function sampled(rows, groups, most = MOST_SHAPES) {
   if (rows.length <= most) return rows;
+  /** @type {Map<number, number[]>} */
   const members = new Map();
   for (const row of rows) {
-    if (!members.has(groups[row])) members.set(groups[row], []);
-    members.get(groups[row]).push(row);
+    entry(members, groups[row], () => []).push(row);
   }
   const taken = [...members.values()].flatMap((own) =>
     own
@@ -19,7 +28,10 @@ export function sampled(rows, groups, most = MOST_SHAPES) {
   return Int32Array.from(taken).sort();
 }
 
-/** A number for each row that has nothing to do with where it stands. */
+/**
+ * A number for each row that has nothing to do with where it stands.
+ * @param {number} row
+ */
 function scattered(row) {
   let mixed = Math.imul(row + 1, 0x9e3779b1);
   mixed = Math.imul(mixed ^ (mixed >>> 15), 0x85ebca6b);

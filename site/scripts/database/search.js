@@ -3,11 +3,20 @@
 import { chunk } from "../base/chunks.js";
 import { count } from "../base/words.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "./database.js" */
+
 export class Search {
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {(text: string) => void} announce
+   */
   constructor(database, state, announce) {
     this.database = database;
     this.state = state;
     this.announce = announce;
+    /** @type {string[] | null} */
     this.texts = null;
     this.field = document.getElementById("search");
     this.select = document.getElementById("search-select");
@@ -46,7 +55,10 @@ export class Search {
   }
 }
 
-/** One searchable text a shape: its id, name, labels and metadata. */
+/**
+ * One searchable text a shape: its id, name, labels and metadata.
+ * @param {Database} database
+ */
 export async function searchTexts(database) {
   const { shapes } = await chunk("details");
   return shapes.map(({ labels, metadata }, index) =>
@@ -61,15 +73,23 @@ export async function searchTexts(database) {
   );
 }
 
-/** The numbers of the texts that hold all words of a query, parts of words included. */
+/**
+ * The numbers of the texts that hold all words of a query, parts of words included.
+ * @param {string[]} texts
+ * @param {string} query
+ */
 export function findWords(texts, query) {
   const words = plain(query).split(/\s+/);
+  /** @type {number[]} */
   const found = [];
   for (const [index, text] of texts.entries()) if (words.every((word) => text.includes(word))) found.push(index);
   return found;
 }
 
-/** Small letters without accents: who types "munze" means "Münze". */
+/**
+ * Small letters without accents: who types "munze" means "Münze".
+ * @param {string} text
+ */
 function plain(text) {
   return text
     .toLowerCase()

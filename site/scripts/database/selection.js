@@ -1,21 +1,38 @@
 // The selected shapes in an address. Few stand there by name, so that a link stays good when the database grows; many
 // as one bit a shape, with a mark of the database that the bits belong to.
 
+import { entry } from "../base/entry.js";
+
+/** @import { Database } from "./database.js" */
+
 const MOST_NAMED = 40;
 
-/** Whether a parameter of an address belongs to the selection. */
+/**
+ * Whether a parameter of an address belongs to the selection.
+ * @param {string} name
+ */
 export function isSelection(name) {
   return name === "select" || name === "selected";
 }
 
-/** Add a selection to the parameters of an address. */
+/**
+ * Add a selection to the parameters of an address.
+ * @param {URLSearchParams} query
+ * @param {Database} database
+ * @param {Set<number>} selection
+ */
 export function writeSelection(query, database, selection) {
   if (selection.size === 0) return;
   if (selection.size <= MOST_NAMED) for (const index of selection) query.append("select", database.ids[index]);
   else query.set("selected", `${mark(database)}.${packed(database, selection)}`);
 }
 
-/** The selection that an address names; shapes that are no longer there are left out. */
+/**
+ * The selection that an address names; shapes that are no longer there are left out.
+ * @param {URLSearchParams} query
+ * @param {Database} database
+ * @returns {Set<number>}
+ */
 export function readSelection(query, database) {
   const named = query
     .getAll("select")
@@ -25,13 +42,21 @@ export function readSelection(query, database) {
   return new Set(bits !== undefined && whose === mark(database) ? unpacked(database, bits) : named);
 }
 
-/** The selection with one shape more, or less. */
+/**
+ * The selection with one shape more, or less.
+ * @param {Set<number>} selection
+ * @param {number} index
+ */
 export function toggled(selection, index) {
   const next = new Set(selection);
   if (!next.delete(index)) next.add(index);
   return next;
 }
 
+/**
+ * @param {Database} database
+ * @param {Set<number>} selection
+ */
 function packed(database, selection) {
   const bytes = new Uint8Array(Math.ceil(database.count / 8));
   for (const index of selection) bytes[index >> 3] |= 1 << (index & 7);
@@ -41,22 +66,31 @@ function packed(database, selection) {
     .replace(/=+$/, "");
 }
 
+/**
+ * @param {Database} database
+ * @param {string} text
+ */
 function unpacked(database, text) {
   const whole = /^[\w-]*$/.test(text) && text.length % 4 !== 1;
   const bytes = whole ? atob(text.replaceAll("-", "+").replaceAll("_", "/")) : "";
   return [...Array(database.count).keys()].filter((index) => (bytes.charCodeAt(index >> 3) >> (index & 7)) & 1);
 }
 
+/** @type {WeakMap<Database, string>} */
 const marks = new WeakMap();
 
+/** @param {Database} database */
 function mark(database) {
-  if (!marks.has(database)) marks.set(database, hashed(database.ids));
-  return marks.get(database);
+  return entry(marks, database, () => hashed(database.ids));
 }
 
-/** FNV-1a of all ids. */
+/**
+ * FNV-1a of all ids.
+ * @param {string[]} ids
+ */
 function hashed(ids) {
   let hash = 0x811c9dc5;
-  for (const id of ids) for (const letter of `${id}\n`) hash = Math.imul(hash ^ letter.codePointAt(0), 0x01000193);
+  for (const id of ids)
+    for (const letter of `${id}\n`) hash = Math.imul(hash ^ (letter.codePointAt(0) ?? 0), 0x01000193);
   return (hash >>> 0).toString(36);
 }

@@ -2,7 +2,10 @@
 
 import { chunk } from "../base/chunks.js";
 
+/** @import { ShapeMap } from "./database.js" */
+
 export class Subsets {
+  /** @param {Chunk.Search} data */
   constructor(data) {
     this.data = data;
     this.features = data.features;
@@ -12,32 +15,52 @@ export class Subsets {
     this.everything = this.find(this.features);
   }
 
-  /** The place of a subset given by the names of its features; undefined if it was not evaluated. */
+  /**
+   * The place of a subset given by the names of its features; undefined if it was not evaluated.
+   * @param {readonly string[]} names
+   */
   find(names) {
     return this.places.get(this.features.map((name) => (names.includes(name) ? "1" : "0")).join(""));
   }
 
+  /**
+   * @param {number} place
+   * @param {number} feature
+   */
   has(place, feature) {
     return this.data.members[place][feature] === "1";
   }
 
+  /** @param {number} place */
   names(place) {
     return this.features.filter((_, feature) => this.has(place, feature));
   }
 
-  /** The place of the subset that has one feature more, or one less. */
+  /**
+   * The place of the subset that has one feature more, or one less.
+   * @param {number} place
+   * @param {number} feature
+   */
   toggled(place, feature) {
     const names = this.features.filter((_, other) => this.has(place, other) !== (other === feature));
     return this.find(names);
   }
 
-  /** The only feature of a subset, or -1. */
+  /**
+   * The only feature of a subset, or -1.
+   * @param {number} place
+   */
   single(place) {
     const code = this.data.members[place];
     return code.indexOf("1") === code.lastIndexOf("1") ? code.indexOf("1") : -1;
   }
 
-  /** The map of a subset, as the Database has projections; classes are numbered as there. */
+  /**
+   * The map of a subset, as the Database has projections; classes are numbered as there.
+   * @param {number} place
+   * @param {number} classCount
+   * @returns {Promise<ShapeMap & Pick<Chunk.Method, "note" | "features">>}
+   */
   async map(place, classCount) {
     const maps = await chunk("subsets");
     const { data } = this;

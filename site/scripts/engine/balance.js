@@ -6,6 +6,9 @@
  *
  * Returns `{ values, weights, count, hits }`: one column after the other, each over the `count` rows of the contest, of
  * which the first `hits` are the positive group; and the weight of each row.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
  */
 export function standardise(table, { positive, negative }, columns) {
   const rows = Int32Array.from([...positive, ...negative]);

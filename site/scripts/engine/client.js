@@ -1,5 +1,15 @@
 // The page's side of the engine: start the worker, hand it work, hear of progress, cancel.
 
+/**
+ * What a task tells of itself: how far it is, from 0 to 1, and what there is to see already.
+ * @typedef {{ progress: number, partial?: any }} Progress
+ * @typedef {(report: Progress) => void} Listener
+ * @typedef {{ resolve: (result: any) => void, reject: (error: Error) => void, onProgress: Listener }} Waiting
+ * ¦ A task at work; `done` rejects with Cancelled after `cancel()`, else with the error that ended the task.
+ * @template [Result=any]
+ * @typedef {{ done: Promise<Result>, cancel: () => void }} Job
+ */
+
 /** What a job that was cancelled ends with. */
 export class Cancelled extends Error {
   constructor() {
@@ -15,15 +25,18 @@ export class Cancelled extends Error {
  * @returns {Promise<Engine>}
  */
 export async function startEngine(table) {
-  const engine = new Engine(await window.shapeviz.startWorker());
+  const start = /** @type {() => Promise<Worker>} */ (window.shapeviz.startWorker);
+  const engine = new Engine(await start());
   await engine.ready;
   engine.worker.postMessage({ table });
   return engine;
 }
 
-class Engine {
+export class Engine {
+  /** @param {Worker} worker */
   constructor(worker) {
     this.worker = worker;
+    /** @type {Map<number, Waiting>} */
     this.jobs = new Map();
     this.started = 0;
     this.ready = /** @type {Promise<void>} */ (
@@ -43,9 +56,8 @@ class Engine {
    *
    * @param {string} name
    * @param {object} parameters copied to the worker
-   * @param {(report: { progress: number, partial: any }) => void} onProgress called a few dozen times a second at most
-   * @returns {{ done: Promise<any>, cancel: () => void }}
-   *   done rejects with Cancelled after cancel(), else with the error that ended the task
+   * @param {Listener} onProgress called a few dozen times a second at most
+   * @returns {Job}
    */
   run(name, parameters, onProgress = (_) => {}) {
     const id = this.started++;
@@ -54,6 +66,7 @@ class Engine {
     return { done, cancel: () => this.cancel(id) };
   }
 
+  /** @param {number} id */
   cancel(id) {
     if (!this.jobs.has(id)) return;
     this.worker.postMessage({ cancel: id });
@@ -66,20 +79,26 @@ class Engine {
     this.end(() => new Cancelled());
   }
 
+  /** @param {{ id: number, report?: Progress, result?: any, error?: { message: string, stack?: string } }} message */
   receive({ id, report, result, error }) {
     // A cancelled job may have had a message under way.
     if (!this.jobs.has(id)) return;
-    if (report) this.jobs.get(id).onProgress(report);
+    if (report) this.jobs.get(id)?.onProgress(report);
     else if (error) this.settle(id).reject(Object.assign(new Error(error.message), { stack: error.stack }));
     else this.settle(id).resolve(result);
   }
 
+  /**
+   * @param {number} id
+   * @returns {Waiting}
+   */
   settle(id) {
-    const job = this.jobs.get(id);
+    const job = /** @type {Waiting} */ (this.jobs.get(id));
     this.jobs.delete(id);
     return job;
   }
 
+  /** @param {() => Error} reason */
   end(reason) {
     for (const id of [...this.jobs.keys()]) this.settle(id).reject(reason());
   }

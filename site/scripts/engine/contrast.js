@@ -2,6 +2,35 @@
 
 import { Random } from "./random.js";
 
+/**
+ * Two groups of rows without a common one, and how often they are dealt out anew.
+ * @typedef {{ first: Int32Array | number[], second: Int32Array | number[], shuffles: number }} Contest
+ * ¦ The values of a table, and what a squared difference in each feature counts.
+ * @typedef {{ rows: number, values: Float32Array, blocks: Int32Array, weights: number[] }} Given
+ * ¦ The columns of both groups, first group first, and their spread; `totals` by feature, last of all.
+ * @typedef {object} Standard
+ * @property {Float32Array} points
+ * @property {Float64Array} spread
+ * @property {Float64Array} totals
+ * @property {Int32Array} blocks the feature of every column
+ * @property {number} columns
+ * @property {number} count
+ * @property {number} features
+ * ¦ A share of the spread, beside what groups dealt at random have.
+ * @typedef {object} Share
+ * @property {number} share
+ * @property {number} chance mean of the deals
+ * @property {number} limit exceeded in one of a hundred
+ * @property {number} exceeding share of deals, the observed one included, that reach it
+ * ¦ @typedef {object} Contrast
+ * @property {Float64Array} effect a column's share of the spread between the groups, eta squared: (difference of the means)²
+ *   in relation to all squared deviations from the common mean; positive where the first group has more
+ * @property {number} limit what the largest effect of any column exceeds in one of a hundred deals
+ * @property {Share[]} features the same share for the columns of each feature
+ * @property {Share} all and for all columns together
+ * @property {Float64Array} away squared distance of every row from the mean of its group, first group first
+ */
+
 /** The share of shuffles that may reach a difference which still counts as beyond chance. */
 const CHANCE = 0.01;
 
@@ -9,26 +38,18 @@ const CHANCE = 0.01;
 const WORK = 4e6;
 
 /**
- * Contrasts between groups of rows. `values` holds `rows` compared values for every column, one column after the other;
- * `blocks` the feature of every column, `weights` what a squared difference in it counts. Each of `contests` is
- * `{ first, second, shuffles }`: two groups of rows without a common one, and how often they are dealt out anew.
+ * Contrasts between groups of rows, one answer a contest.
  *
- * Returns one answer a contest:
- *
- * - effect: a column's share of the spread between the groups, eta squared: (difference of the means)² in relation to
- *   all squared deviations from the common mean; positive where the first group has more
- * - limit: what the largest effect of any column exceeds in one of a hundred shuffles
- * - features, all: the same share for the columns of a feature and for all columns together, as `{ share, chance,
- *   limit, exceeding }`: observed, mean of the shuffles, exceeded in one of a hundred, share of deals (the observed one
- *   included) that reach it
- * - away: squared distance of every row from the mean of its group, first group first.
+ * @param {FeatureValues} _table
+ * @param {Given & { contests: Contest[], seed: number }} task
+ * @returns {Steps<Contrast[]>}
  */
 export function* contrast(_table, { rows, values, blocks, weights, contests, seed }) {
   const answers = [];
   for (const [number, contest] of contests.entries()) {
     const steps = compare({ rows, values, blocks, weights }, contest, seed);
     let step = steps.next();
-    while (!step.done) {
+    while (step.done !== true) {
       yield { progress: (number + step.value) / contests.length };
       step = steps.next();
     }
@@ -37,6 +58,12 @@ export function* contrast(_table, { rows, values, blocks, weights, contests, see
   return answers;
 }
 
+/**
+ * @param {Given} given
+ * @param {Contest} contest
+ * @param {number} seed
+ * @returns {Generator<number, Contrast, void>}
+ */
 function* compare(given, { first, second, shuffles }, seed) {
   const standard = standardised(given, first, second);
   const { columns, count } = standard;
@@ -50,6 +77,7 @@ function* compare(given, { first, second, shuffles }, seed) {
   const observed = shares(standard, own, effect);
   const sums = columnSums(standard, own);
   const away = distances(standard, first.length);
+  /** @type {Float64Array[]} */
   const dealt = [];
   const highest = new Float64Array(shuffles);
   const random = new Random(seed);
@@ -75,12 +103,18 @@ function* compare(given, { first, second, shuffles }, seed) {
     effect: effect.map((value, column) => Math.sign(sums[column]) * sign * value),
     limit: atLimit(highest),
     features: judged.slice(0, -1),
-    all: judged.at(-1),
+    all: judged[judged.length - 1],
     away,
   };
 }
 
-/** The columns of both groups, first group first, with mean 0 and squares that add up to 1; constant ones are zero. */
+/**
+ * The columns of both groups, first group first, with mean 0 and squares that add up to 1; constant ones are zero.
+ * @param {Given} given
+ * @param {ArrayLike<number> & Iterable<number>} first
+ * @param {ArrayLike<number> & Iterable<number>} second
+ * @returns {Standard}
+ */
 function standardised({ rows, values, blocks, weights }, first, second) {
   const columns = values.length / rows;
   const chosen = [...first, ...second];
@@ -109,6 +143,10 @@ function standardised({ rows, values, blocks, weights }, first, second) {
   return { points, spread, totals, blocks, columns, count, features };
 }
 
+/**
+ * @param {Standard} standard
+ * @param {Int32Array} own
+ */
 function columnSums({ points, columns, count }, own) {
   const sums = new Float64Array(columns);
   for (let column = 0; column < columns; column += 1) {
@@ -119,7 +157,12 @@ function columnSums({ points, columns, count }, own) {
   return sums;
 }
 
-/** Fill `effect`; the shares of all features, and last of all columns. */
+/**
+ * Fill `effect`; the shares of all features, and last of all columns.
+ * @param {Standard} standard
+ * @param {Int32Array} own
+ * @param {Float64Array} effect
+ */
 function shares(standard, own, effect) {
   const { spread, totals, blocks, columns, count, features } = standard;
   const sums = columnSums(standard, own);
@@ -133,7 +176,11 @@ function shares(standard, own, effect) {
   return found.map((between, place) => (totals[place] > 0 ? between / totals[place] : 0));
 }
 
-/** Squared distances from the mean of the own group. */
+/**
+ * Squared distances from the mean of the own group.
+ * @param {Standard} standard
+ * @param {number} firstSize
+ */
 function distances({ points, spread, columns, count }, firstSize) {
   const away = new Float64Array(count);
   for (let column = 0; column < columns; column += 1) {
@@ -151,7 +198,12 @@ function distances({ points, spread, columns, count }, firstSize) {
   return away;
 }
 
-/** Bring a random choice of `size` to the front. */
+/**
+ * Bring a random choice of `size` to the front.
+ * @param {Int32Array} order
+ * @param {number} size
+ * @param {Random} random
+ */
 function deal(order, size, random) {
   for (let place = 0; place < size; place += 1) {
     const other = place + random.below(order.length - place);
@@ -159,6 +211,11 @@ function deal(order, size, random) {
   }
 }
 
+/**
+ * @param {number} share
+ * @param {number[]} dealt
+ * @returns {Share}
+ */
 function judge(share, dealt) {
   const reached = dealt.filter((value) => value >= share * (1 - 1e-9)).length;
   return {
@@ -169,7 +226,10 @@ function judge(share, dealt) {
   };
 }
 
-/** The value that what is beyond chance has to exceed. */
+/**
+ * The value that what is beyond chance has to exceed.
+ * @param {ArrayLike<number>} dealt
+ */
 function atLimit(dealt) {
   const rising = Float64Array.from(dealt).sort();
   return rising[Math.ceil((1 - CHANCE) * (rising.length + 1)) - 1] ?? 1;

@@ -1,5 +1,10 @@
 // Rows as points whose Euclidean distances the layouts compare, and those distances.
 
+/**
+ * Rows as points, one row after the other.
+ * @typedef {{ count: number, width: number, values: Float32Array }} Points
+ */
+
 /** Products between two reports: a few milliseconds of work. */
 const WORK = 4e6;
 
@@ -17,7 +22,7 @@ const NO_SPREAD = 1e-12;
  * @param {Int32Array} rows
  * @param {Int32Array} columns
  * @param {"features"|"bins"} by
- * @returns {{ count: number, width: number, values: Float32Array }} one row after the other
+ * @returns {Points}
  */
 export function scaledPoints(table, rows, columns, by) {
   const width = columns.length;
@@ -32,19 +37,29 @@ export function scaledPoints(table, rows, columns, by) {
   return points;
 }
 
+/**
+ * @param {FeatureValues} table
+ * @param {Int32Array} columns
+ * @param {"features" | "bins"} by
+ */
 function factorsOf(table, columns, by) {
   const variances = Float64Array.from(columns, (column) => variance(table, column));
   if (by === "features") {
+    /** @type {Map<number, number>} */
     const totals = new Map();
     columns.forEach((column, place) => {
       const block = table.blocks[column];
       totals.set(block, (totals.get(block) ?? 0) + variances[place]);
     });
-    columns.forEach((column, place) => (variances[place] = totals.get(table.blocks[column])));
+    columns.forEach((column, place) => (variances[place] = totals.get(table.blocks[column]) ?? 0));
   }
   return variances.map((value) => (Math.sqrt(value) > NO_SPREAD ? 1 / Math.sqrt(value) : 0));
 }
 
+/**
+ * @param {FeatureValues} table
+ * @param {number} column
+ */
 function variance({ rows, values }, column) {
   const start = column * rows;
   let mean = 0,
@@ -54,7 +69,11 @@ function variance({ rows, values }, column) {
   return total / rows;
 }
 
-/** Squared distances of all pairs: Float64Array (n n). */
+/**
+ * Squared distances of all pairs: Float64Array (n n).
+ * @param {Points} points
+ * @returns {Steps<Float64Array>}
+ */
 export function* squaredDistances(points) {
   const { count } = points;
   const squared = new Float64Array(count * count);
@@ -68,11 +87,18 @@ export function* squaredDistances(points) {
 /**
  * The k nearest other rows of every row, nearest first.
  *
+ * @param {Points} points
+ * @param {number} k
  * @returns {Steps<{ k: number, rows: Int32Array, squared: Float64Array }>} k entries for each row
  */
 export function* nearestRows(points, k) {
   const rows = new Int32Array(points.count * k).fill(-1);
   const squared = new Float64Array(points.count * k).fill(Infinity);
+  /**
+   * @param {number} row
+   * @param {number} other
+   * @param {number} distance
+   */
   const offer = (row, other, distance) => {
     const first = row * k;
     let place = first + k - 1;
@@ -91,7 +117,12 @@ export function* nearestRows(points, k) {
   return { k, rows, squared };
 }
 
-/** Hand every pair of rows, `other` before `row`, and their squared distance to `visit`. */
+/**
+ * Hand every pair of rows, `other` before `row`, and their squared distance to `visit`.
+ * @param {Points} points
+ * @param {(row: number, other: number, distance: number) => void} visit
+ * @returns {Steps<void>}
+ */
 function* visitPairs({ count, width, values }, visit) {
   // Two rows against two at a time: every value that is read serves twice, which halves the time.
   let work = 0;

@@ -33,6 +33,13 @@ export function* measureHit(_table, { xy, groups, k }) {
   return { hit, ...means(hit, groups) };
 }
 
+/**
+ * @param {number} row
+ * @param {Float32Array | Float64Array} xy
+ * @param {Int32Array} groups
+ * @param {Float64Array} squared
+ * @param {Float64Array} nearest
+ */
 function hitOfRow(row, xy, groups, squared, nearest) {
   const count = groups.length;
   const k = nearest.length;
@@ -62,13 +69,21 @@ function hitOfRow(row, xy, groups, squared, nearest) {
   return (nearerHits + (tiedHits * (k - nearer)) / tied) / k;
 }
 
-/** Put a value into its place of a rising row, whose last falls out. */
+/**
+ * Put a value into its place of a rising row, whose last falls out.
+ * @param {number} value
+ * @param {Float64Array} rising
+ */
 function insert(rising, value) {
   let place = rising.length - 1;
   for (; place > 0 && rising[place - 1] > value; place--) rising[place] = rising[place - 1];
   rising[place] = value;
 }
 
+/**
+ * @param {Float64Array} hit
+ * @param {Int32Array} groups
+ */
 function means(hit, groups) {
   const classes = groups.reduce((most, group) => Math.max(most, group + 1), 0);
   const totals = new Float64Array(classes);

@@ -2,18 +2,28 @@
 
 import { Cancelled } from "./client.js";
 
+/** @import { Job, Listener } from "./client.js" */
+
+/**
+ * How a question stands.
+ * @typedef {object} Standing
+ * @property {"none" | "working" | "answered" | "stopped" | "failed"} kind
+ * @property {number} [progress] of work, from 0 to 1
+ * @property {string} [message] of a failure
+ */
+
 const MOST_KEPT = 60;
 
 export class Inquiry {
+  /** @type {Map<string, any>} */
   #answers = new Map();
+  /** @type {Job | null} */
   #job = null;
 
-  /**
-   * `tell` hears how the question stands: { kind, progress, message }, where kind is "none", "working", "answered",
-   * "stopped" or "failed".
-   */
+  /** @param {(standing: Standing) => void} tell hears how the question stands */
   constructor(tell) {
     this.tell = tell;
+    /** @type {string | null} */
     this.key = null;
   }
 
@@ -21,6 +31,9 @@ export class Inquiry {
    * Ask. `start` begins the work where no answer is kept, and returns { done, cancel }.
    *
    * `answered` gets the answer, unless another question was asked meanwhile.
+   * @param {string} key
+   * @param {(report: Listener) => Job} start
+   * @param {(answer: any) => void} answered
    */
   async ask(key, start, answered) {
     if (key === this.key && this.#job !== null) return;
@@ -31,13 +44,16 @@ export class Inquiry {
       this.tell({ kind: "answered" });
       return;
     }
-    const report = ({ progress }) => this.#job === job && this.tell({ kind: "working", progress });
+    /** @type {Listener} */
+    const report = ({ progress }) => {
+      if (this.#job === job) this.tell({ kind: "working", progress });
+    };
     const job = start(report);
     this.#job = job;
     this.tell({ kind: "working", progress: 0 });
     const ending = await job.done.then(
-      (answer) => ({ answer }),
-      (error) => ({ error }),
+      (answer) => ({ answer, error: null }),
+      (error) => ({ answer: null, error }),
     );
     if (this.#job !== job) return;
     this.#job = null;
@@ -75,8 +91,12 @@ export class Inquiry {
     job?.cancel();
   }
 
+  /**
+   * @param {string} key
+   * @param {any} answer
+   */
   #keep(key, answer) {
     this.#answers.set(key, answer);
-    if (this.#answers.size > MOST_KEPT) this.#answers.delete(this.#answers.keys().next().value);
+    if (this.#answers.size > MOST_KEPT) this.#answers.delete([...this.#answers.keys()][0]);
   }
 }

@@ -5,6 +5,8 @@ import { classicalScaling, isPlaced, placeLike } from "./placing.js";
 import { layOutByTsne } from "./tsne.js";
 import { layOutByUmap } from "./umap.js";
 
+/** @import { Points } from "./distances.js" */
+
 const METHODS = { tsne: layOutByTsne, umap: layOutByUmap };
 
 /** Fewer rows are laid out by principal components. */
@@ -29,6 +31,7 @@ const ENOUGH = 0.5;
 export function* layOut(table, { method, rows, columns, by, start = null, reference = null, seed }) {
   const began = performance.now();
   const points = scaledPoints(table, rows, columns, by);
+  /** @type {Float32Array | Float64Array | null} */
   let like = [start, reference].find((map) => map?.some(Number.isFinite)) ?? null;
   let xy;
   if (allEqual(points)) {
@@ -38,28 +41,35 @@ export function* layOut(table, { method, rows, columns, by, start = null, refere
   } else {
     const steps = METHODS[method](points, hasEnough(start) ? start : null, seed);
     for (let step = steps.next(); ; step = steps.next()) {
-      if (step.done) {
+      if (step.done === true) {
         xy = step.value;
         break;
       }
       const { progress, partial } = step.value;
       if (partial) like ??= partial.slice();
-      yield partial ? { progress, partial: { xy: placeLike(partial, like) } } : { progress };
+      yield partial ? { progress, partial: { xy: placeLike(partial, like ?? partial) } } : { progress };
     }
   }
   return { xy: placeLike(xy, like ?? xy), seconds: (performance.now() - began) / 1000 };
 }
 
+/** @param {Points} points */
 function allEqual({ count, width, values }) {
   for (let at = width; at < count * width; at++) if (values[at] !== values[at - width]) return false;
   return true;
 }
 
-/** Whether a map has places for enough rows, and not one place for all. */
+/**
+ * Whether a map has places for enough rows, and not one place for all.
+ * @param {Float32Array | null} map
+ * @returns {map is Float32Array}
+ */
 function hasEnough(map) {
   if (!map) return false;
+  /** @type {number[]} */
   const places = [];
   for (let at = 0; at < map.length; at += 2) if (isPlaced(map, at)) places.push(at);
+  /** @param {number} at */
   const differs = (at) => map[at] !== map[places[0]] || map[at + 1] !== map[places[0] + 1];
   return places.length >= (ENOUGH * map.length) / 2 && places.some(differs);
 }

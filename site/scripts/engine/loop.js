@@ -3,6 +3,14 @@
 // A task is a generator function `(table, parameters)` that yields `{ progress, partial }` every few milliseconds and
 // returns its result. It never looks at a clock, so its result does not depend on how its time was cut.
 
+/**
+ * A task at work, and when the page last heard of it.
+ * @typedef {{ id: number, steps: Steps<any>, reported: number }} Running
+ * @typedef {{ id: number, name: string, parameters: object }} Order
+ */
+
+/** @typedef {(table: FeatureValues, parameters: any) => Steps<any>} Task */
+
 /** How long a task runs before messages are let in, in milliseconds. */
 const SLICE = 15;
 
@@ -12,13 +20,15 @@ const REPORT = 30;
 /** Runs several tasks at once, each a slice in turn, and posts what becomes of them. */
 export class TaskLoop {
   /**
-   * @param {Record<string, (table: FeatureValues, parameters: any) => Steps<any>>} tasks generator functions by name
+   * @param {Record<string, Task>} tasks generator functions by name
    * @param {(message: object) => void} post sends a message to the page
    */
   constructor(tasks, post) {
     this.tasks = tasks;
     this.post = post;
+    /** @type {FeatureValues | null} */
     this.table = null;
+    /** @type {Running[]} */
     this.running = [];
     // A message to oneself is the one way to give way without the four milliseconds that timers wait at least.
     const { port1, port2 } = new MessageChannel();
@@ -26,24 +36,33 @@ export class TaskLoop {
     this.continue = () => port2.postMessage(null);
   }
 
-  /** Take a message of the page: the table to work on, a task to run, or one to cancel. */
+  /**
+   * Take a message of the page: the table to work on, a task to run, or one to cancel.
+   * @param {{ table?: FeatureValues, run?: Order, cancel?: number }} message
+   */
   receive({ table, run, cancel }) {
     if (table) this.table = table;
     if (run) this.begin(run);
     if (cancel !== undefined) this.cancel(cancel);
   }
 
+  /** @param {Order} order */
   begin({ id, name, parameters }) {
     const task = this.tasks[name] ?? unknown(name);
-    this.running.push({ id, steps: task(this.table, parameters), reported: performance.now() });
+    this.running.push({
+      id,
+      steps: task(/** @type {FeatureValues} */ (this.table), parameters),
+      reported: performance.now(),
+    });
     if (this.running.length === 1) this.continue();
   }
 
+  /** @param {number} id */
   cancel(id) {
     const place = this.running.findIndex((task) => task.id === id);
     if (place < 0) return;
     const [{ steps }] = this.running.splice(place, 1);
-    steps.return();
+    steps.return(undefined);
   }
 
   /** One slice of the task whose turn it is. */
@@ -54,7 +73,10 @@ export class TaskLoop {
     if (this.running.length) this.continue();
   }
 
-  /** Whether the task has more to do. */
+  /**
+   * Whether the task has more to do.
+   * @param {Running} task
+   */
   advance(task) {
     const { id, steps } = task;
     const start = performance.now();
@@ -71,13 +93,18 @@ export class TaskLoop {
         this.post({ id, report: step.value });
       }
       return true;
-    } catch (error) {
+    } catch (caught) {
+      const error = /** @type {Error} */ (caught);
       this.post({ id, error: { message: error.message, stack: error.stack } });
       return false;
     }
   }
 }
 
+/**
+ * @param {string} name
+ * @returns {Task}
+ */
 function unknown(name) {
   // biome-ignore lint/correctness/useYield: it fails as tasks do, at its first step
   return function* () {
@@ -85,7 +112,10 @@ function unknown(name) {
   };
 }
 
-/** Serve the page that started this worker. */
+/**
+ * Serve the page that started this worker.
+ * @param {Record<string, Task>} tasks
+ */
 export function serve(tasks) {
   const loop = new TaskLoop(tasks, (message) => postMessage(message));
   self.onmessage = (event) => loop.receive(event.data);

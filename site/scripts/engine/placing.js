@@ -2,6 +2,8 @@
 
 import { Random } from "./random.js";
 
+/** @import { Points } from "./distances.js" */
+
 /** Up to this many rows layouts work on the distances of all pairs; their start then comes from these. */
 export const ALL_PAIRS = 300;
 
@@ -38,7 +40,11 @@ export function classicalScaling(squared, count) {
   }
 }
 
-/** As {@link classicalScaling}, from the points of `scaledPoints`, for more rows than have all their distances. */
+/**
+ * As {@link classicalScaling}, from the points of `scaledPoints`, for more rows than have all their distances.
+ * @param {Points} points
+ * @returns {Steps<Float64Array>}
+ */
 export function* principalComponents({ count, width, values }) {
   const axis = new Float64Array(width);
   return yield* principalCoordinates(count, ROUNDS.values, (vector, product) => {
@@ -61,6 +67,7 @@ export function* principalComponents({ count, width, values }) {
  * @param {number} count
  * @param {number} rounds
  * @param {(vector: Float64Array, product: Float64Array) => void} multiply writes the product with a centred vector
+ * @returns {Steps<Float64Array>}
  */
 function* principalCoordinates(count, rounds, multiply) {
   const random = new Random(1);
@@ -93,18 +100,27 @@ function* principalCoordinates(count, rounds, multiply) {
   return xy;
 }
 
+/** @param {Float64Array} vector */
 function centre(vector) {
   const mean = vector.reduce((sum, value) => sum + value, 0) / vector.length;
   for (let row = 0; row < vector.length; row++) vector[row] -= mean;
 }
 
+/**
+ * @param {Float64Array} one
+ * @param {Float64Array} other
+ */
 function product(one, other) {
   let sum = 0;
   for (let row = 0; row < one.length; row++) sum += one[row] * other[row];
   return sum;
 }
 
-/** Make a vector orthogonal to another of length 1 or 0. */
+/**
+ * Make a vector orthogonal to another of length 1 or 0.
+ * @param {Float64Array} vector
+ * @param {Float64Array} other
+ */
 function remove(vector, other) {
   const share = product(vector, other);
   for (let row = 0; row < vector.length; row++) vector[row] -= share * other[row];
@@ -121,6 +137,11 @@ export function placeNewcomers(xy, visitPairs) {
   const placed = Float64Array.from(xy);
   const totals = new Float64Array(xy.length);
   const weights = new Float64Array(xy.length / 2);
+  /**
+   * @param {number} to
+   * @param {number} from
+   * @param {number} weight
+   */
   const lend = (to, from, weight) => {
     if (isPlaced(xy, 2 * to) || !isPlaced(xy, 2 * from)) return;
     weights[to] += weight;
@@ -182,7 +203,10 @@ export function placeLike(xy, reference) {
   return fitSquare(placed);
 }
 
-/** The larger root mean square of the two coordinates. */
+/**
+ * The larger root mean square of the two coordinates.
+ * @param {Float64Array} xy
+ */
 export function extent(xy) {
   let x = 0,
     y = 0;
@@ -193,11 +217,19 @@ export function extent(xy) {
   return Math.sqrt((2 * Math.max(x, y)) / xy.length);
 }
 
-/** Whether the row whose first coordinate stands at `at` has a place. */
+/**
+ * Whether the row whose first coordinate stands at `at` has a place.
+ * @param {Float64Array | Float32Array} xy
+ * @param {number} at
+ */
 export function isPlaced(xy, at) {
   return Number.isFinite(xy[at]) && Number.isFinite(xy[at + 1]);
 }
 
+/**
+ * @param {Float64Array | Float32Array} xy
+ * @param {Float64Array | Float32Array} reference
+ */
 function meansOfPlaced(xy, reference) {
   const sums = [0, 0, 0, 0];
   let count = 0;
@@ -212,7 +244,10 @@ function meansOfPlaced(xy, reference) {
   return sums.map((sum) => sum / Math.max(count, 1));
 }
 
-/** Centre points and scale them by one factor into [-1, 1]. */
+/**
+ * Centre points and scale them by one factor into [-1, 1].
+ * @param {Float64Array} xy
+ */
 function fitSquare(xy) {
   let left = Infinity,
     right = -Infinity,

@@ -11,28 +11,39 @@ export class Quadtree {
   /** @param {number} count number of points */
   constructor(count) {
     this.count = count;
+    this.nodes = 0;
+    this.room = 0;
+    // Four children of each square, 0 for none: the root is nobody's child.
+    this.children = new Int32Array(0);
+    this.mass = new Float64Array(0);
+    this.x = new Float64Array(0);
+    this.y = new Float64Array(0);
+    this.side = new Float64Array(0);
     this.makeRoom(4 * count);
     this.stack = new Int32Array(4 * DEPTH + 4);
   }
 
+  /** @param {number} nodes */
   makeRoom(nodes) {
+    /** @type {<Values extends { set(values: Values): void }>(array: Values, size: number) => Values} */
     const grown = (array, size) => {
-      const next = new array.constructor(size);
+      const next = new /** @type {any} */ (array).constructor(size);
       next.set(array);
       return next;
     };
     this.room = nodes;
-    // Four children of each square, 0 for none: the root is nobody's child.
-    this.children = grown(this.children ?? new Int32Array(0), 4 * nodes);
-    this.mass = grown(this.mass ?? new Float64Array(0), nodes);
-    this.x = grown(this.x ?? new Float64Array(0), nodes);
-    this.y = grown(this.y ?? new Float64Array(0), nodes);
-    this.side = grown(this.side ?? new Float64Array(0), nodes);
+    this.children = grown(this.children, 4 * nodes);
+    this.mass = grown(this.mass, nodes);
+    this.x = grown(this.x, nodes);
+    this.y = grown(this.y, nodes);
+    this.side = grown(this.side, nodes);
   }
 
   /**
    * Write the push on each point, the sum of k² (point - other) over the others with k = 1 / (1 + distance²); returns the
    * sum of k over all pairs, each counted twice.
+   * @param {Float64Array} xy
+   * @param {Float64Array} push
    */
   push(xy, push) {
     this.build(xy);
@@ -74,6 +85,7 @@ export class Quadtree {
     return normaliser;
   }
 
+  /** @param {Float64Array} xy */
   build(xy) {
     let left = Infinity,
       right = -Infinity,
@@ -93,6 +105,10 @@ export class Quadtree {
     }
   }
 
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
   addNode(x, y) {
     if (this.nodes === this.room) this.makeRoom(2 * this.room);
     const node = this.nodes++;
@@ -104,6 +120,14 @@ export class Quadtree {
     return node;
   }
 
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @param {number} node
+   * @param {number} middleX
+   * @param {number} middleY
+   * @param {number} half
+   */
   insert(x, y, node, middleX, middleY, half) {
     for (let depth = 0; ; depth++) {
       if (this.side[node] === 0 && this.x[node] === x && this.y[node] === y) {
@@ -136,6 +160,12 @@ export class Quadtree {
   }
 }
 
+/**
+ * @param {number} x
+ * @param {number} y
+ * @param {number} middleX
+ * @param {number} middleY
+ */
 function quarter(x, y, middleX, middleY) {
   return (x >= middleX ? 1 : 0) + (y >= middleY ? 2 : 0);
 }

@@ -20,7 +20,10 @@ export class Random {
     return this.next() / 4294967296;
   }
 
-  /** A whole number from 0 to count - 1. */
+  /**
+   * A whole number from 0 to count - 1.
+   * @param {number} count
+   */
   below(count) {
     return Math.floor(this.uniform() * count);
   }

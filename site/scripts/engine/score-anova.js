@@ -1,6 +1,12 @@
 // The F statistic of a one-way analysis of variance; shapeviz_report/scorers/anova.py says it in full.
 
-/** Scores of `columns`, all of which vary over the contest's rows. */
+/**
+ * Scores of `columns`, all of which vary over the contest's rows.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ * @returns {Steps<Float64Array>}
+ */
 export function* scoreByAnova(table, contest, columns) {
   const { positive, negative } = contest;
   const count = positive.length + negative.length;
@@ -23,7 +29,12 @@ export function* scoreByAnova(table, contest, columns) {
   return between.map((value, place) => (freedom * value) / Math.max(within[place], floor));
 }
 
-/** Mean and sum of squared deviations from it. */
+/**
+ * Mean and sum of squared deviations from it.
+ * @param {Float32Array} values
+ * @param {number} start
+ * @param {Int32Array} rows
+ */
 function spread(values, start, rows) {
   let mean = 0;
   for (let i = 0; i < rows.length; i += 1) mean += values[start + rows[i]];

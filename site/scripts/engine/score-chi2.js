@@ -1,6 +1,12 @@
 // The chi-squared statistic of a column's sums in the two groups; shapeviz_report/scorers/chi2.py says it in full.
 
-/** Scores of `columns`, all of which vary over the contest's rows. */
+/**
+ * Scores of `columns`, all of which vary over the contest's rows.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ * @returns {Steps<Float64Array>}
+ */
 export function* scoreByChi2(table, contest, columns) {
   const { positive, negative } = contest;
   const share = positive.length / (positive.length + negative.length);

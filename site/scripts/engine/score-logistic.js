@@ -12,7 +12,14 @@ const TOLERANCE = 1e-4;
 const MOST_STEPS = 50;
 const MOST_SWEEPS = 1000;
 
-/** Scores of `columns`, all of which vary over the contest's rows. */
+/**
+ * Scores of `columns`, all of which vary over the contest's rows.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ * @param {number} seed
+ * @returns {Steps<Float64Array>}
+ */
 export function* scoreByLogistic(table, contest, columns, seed) {
   const { values, count, hits } = standardise(table, contest, columns);
   const width = columns.length;
@@ -43,6 +50,10 @@ export function* scoreByLogistic(table, contest, columns, seed) {
   return selected.map((times) => times / (2 * PAIRS * STRENGTHS.length));
 }
 
+/**
+ * @param {Int32Array} order
+ * @param {Random} random
+ */
 function shuffle(order, random) {
   for (let place = 0; place < order.length; place += 1) {
     const pick = place + random.below(order.length - place);
@@ -54,6 +65,16 @@ function shuffle(order, random) {
 
 /** Logistic regressions with a falling L1 penalty on a sample of the rows, each started from the one before. */
 class LassoPath {
+  // What a sample sets: the penalty above which all is zero, the constant column's curvature, the columns in use.
+  highest = 0;
+  bend = 0;
+  size = 0;
+
+  /**
+   * @param {number} width
+   * @param {number} hits
+   * @param {number} misses
+   */
   constructor(width, hits, misses) {
     const count = hits + misses;
     this.width = width;
@@ -73,7 +94,14 @@ class LassoPath {
     this.weights = Float64Array.from({ length: count }, (_, row) => 0.5 / (row < hits ? hits : misses));
   }
 
-  /** Take rows of either group and draw a penalty for each column; all coefficients become zero. */
+  /**
+   * Take rows of either group and draw a penalty for each column; all coefficients become zero.
+   * @param {Float64Array} values
+   * @param {number} rows
+   * @param {Int32Array} first
+   * @param {Int32Array} second
+   * @param {Random} random
+   */
   sample(values, rows, first, second, random) {
     const { hits, count, width, weights, residuals, penalties } = this;
     for (let column = 0; column < width; column += 1) {
@@ -96,7 +124,11 @@ class LassoPath {
     }
   }
 
-  /** Lower the penalty to a part of the least one at which all coefficients are zero. */
+  /**
+   * Lower the penalty to a part of the least one at which all coefficients are zero.
+   * @param {number} strength
+   * @param {number} progress
+   */
   *fit(strength, progress) {
     if (this.highest < 1e-12) return;
     const now = strength * this.highest;
@@ -114,7 +146,11 @@ class LassoPath {
     } while (this.join(now, allowed) > 0);
   }
 
-  /** Let columns have a coefficient whose slope is above their penalty; returns how many. */
+  /**
+   * Let columns have a coefficient whose slope is above their penalty; returns how many.
+   * @param {number} now
+   * @param {number} allowed
+   */
   join(now, allowed) {
     const before = this.size;
     for (let column = 0; column < this.width; column += 1) {
@@ -126,7 +162,10 @@ class LassoPath {
     return this.size - before;
   }
 
-  /** The second-order approximation at the current place; returns by how much the optimum's conditions are violated. */
+  /**
+   * The second-order approximation at the current place; returns by how much the optimum's conditions are violated.
+   * @param {number} now
+   */
   approximate(now) {
     const { count, hits, weights, linear, curvatures, residuals, coefficients, active, penalties } = this;
     let slope = 0;
@@ -154,6 +193,8 @@ class LassoPath {
   /**
    * Coordinate descent on the approximation; `residuals` become those of it. After the first sweep only those go on that
    * have a coefficient; `approximate` checks everyone.
+   * @param {number} now
+   * @param {number} violation
    */
   descend(now, violation) {
     const { count, values, curvatures, residuals, linear, bends, previous, active, coefficients, penalties } = this;
@@ -203,7 +244,10 @@ class LassoPath {
     }
   }
 
-  /** The product of a column and the residuals, in four sums that do not wait for each other. */
+  /**
+   * The product of a column and the residuals, in four sums that do not wait for each other.
+   * @param {number} column
+   */
   slope(column) {
     const { count, values, residuals } = this;
     const start = column * count;

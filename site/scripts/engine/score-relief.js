@@ -1,5 +1,11 @@
 // The weights of iterative Relief; shapeviz_report/scorers/relief.py says in full what they are.
 
+/**
+ * The rows that are compared, one after the other: those of the first group first, `count` in all, then empty ones up to
+ * the `stride`, a multiple of `WIDE`.
+ * @typedef {{ count: number, stride: number, positives: number, values: Float32Array }} Sample
+ */
+
 const KERNEL = 0.1;
 const ROWS = 400;
 const SETTLED = 3e-3;
@@ -9,7 +15,13 @@ const MOST_ROUNDS = 30;
 const TALL = 2;
 const WIDE = 4;
 
-/** Scores of `columns`, all of which vary over the contest's rows. */
+/**
+ * Scores of `columns`, all of which vary over the contest's rows.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ * @returns {Steps<Float64Array>}
+ */
 export function* scoreByRelief(table, contest, columns) {
   const sample = yield* spreadRows(table, contest, columns);
   const width = columns.length;
@@ -19,6 +31,7 @@ export function* scoreByRelief(table, contest, columns) {
   let settled = 0;
   for (let round = 0; round < MOST_ROUNDS; round += 1) {
     // How far the weights still move tells most of the progress; each of a round's two sums over pairs adds a little.
+    /** @param {number} part */
     const report = (part) => ({ progress: settled + (1 - settled) * 0.3 * part });
     const distances = yield* pairDistances(sample, weights, (part) => report(part / 2));
     const shares = pairShares(distances, sample);
@@ -40,14 +53,19 @@ export function* scoreByRelief(table, contest, columns) {
   return weights;
 }
 
+/** @param {Float64Array} vector */
 function norm(vector) {
   return Math.sqrt(vector.reduce((sum, value) => sum + value * value, 0));
 }
 
 /**
- * The rows that are compared, those of the first group first: at most `ROWS`, spread evenly by the sums of their values.
- * `values` are theirs, each column divided by its range over all rows of the contest, one row after the other, followed by
- * empty rows up to a multiple of `WIDE`, the `stride`.
+ * The rows that are compared: at most `ROWS`, spread evenly by the sums of their values, each column divided by its
+ * range over all rows of the contest.
+ *
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ * @returns {Steps<Sample>}
  */
 function* spreadRows({ rows, values }, { positive, negative }, columns) {
   const width = columns.length;
@@ -88,7 +106,14 @@ function* spreadRows({ rows, values }, { positive, negative }, columns) {
   return { count, stride, positives: chosen[0].length, values: scaled };
 }
 
-/** Sums over the columns of weighted absolute differences between all rows; (stride, stride), symmetric. */
+/**
+ * Sums over the columns of weighted absolute differences between all rows; (stride, stride), symmetric.
+ *
+ * @param {Sample} sample
+ * @param {Float64Array} weights
+ * @param {(part: number) => { progress: number }} report
+ * @returns {Steps<Float64Array>}
+ */
 function* pairDistances({ count, stride, values }, weights, report) {
   const used = Int32Array.from(weights.keys()).filter((k) => weights[k] > 0);
   const width = used.length;
@@ -115,6 +140,13 @@ function* pairDistances({ count, stride, values }, weights, report) {
   return distances;
 }
 
+/**
+ * @param {Float64Array} sums
+ * @param {Float32Array} values
+ * @param {number} width
+ * @param {number} row
+ * @param {number} column
+ */
 function addDistances(sums, values, width, row, column) {
   const [i, j] = [row * width, (row + 1) * width];
   const [a, b, c, d] = [column * width, (column + 1) * width, (column + 2) * width, (column + 3) * width];
@@ -145,7 +177,11 @@ function addDistances(sums, values, width, row, column) {
   [sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7]] = [ia, ib, ic, id, ja, jb, jc, jd];
 }
 
-/** What each pair counts, negative for rows of one group; both directions together at [i, j] with j < i. */
+/**
+ * What each pair counts, negative for rows of one group; both directions together at [i, j] with j < i.
+ * @param {Float64Array} distances
+ * @param {Sample} sample
+ */
 function pairShares(distances, { count, stride, positives }) {
   const shares = new Float64Array(stride * stride);
   let mean = 0;
@@ -179,7 +215,14 @@ function pairShares(distances, { count, stride, positives }) {
   return shares;
 }
 
-/** How likely each row of a group is the nearest to row i, up to the factor `total`. */
+/**
+ * How likely each row of a group is the nearest to row i, up to the factor `total`.
+ * @param {Float64Array} distances
+ * @param {number} i
+ * @param {number} stride
+ * @param {number[]} rows from the first up to the last
+ * @param {number} kernel
+ */
 function nearness(distances, i, stride, rows, kernel) {
   const [begin, end] = rows;
   let nearest = Infinity;
@@ -194,7 +237,15 @@ function nearness(distances, i, stride, rows, kernel) {
   return { nearest, likely, total };
 }
 
-/** Sums over all pairs of rows of their absolute differences in each column, each pair with its share. */
+/**
+ * Sums over all pairs of rows of their absolute differences in each column, each pair with its share.
+ *
+ * @param {Sample} sample
+ * @param {number} width
+ * @param {Float64Array} shares
+ * @param {(part: number) => { progress: number }} report
+ * @returns {Steps<Float64Array>}
+ */
 function* pairDifferences({ count, stride, values }, width, shares, report) {
   const total = new Float64Array(width);
   for (let i = 0; i < count; i += TALL) {
@@ -204,6 +255,14 @@ function* pairDifferences({ count, stride, values }, width, shares, report) {
   return total;
 }
 
+/**
+ * @param {Float64Array} total
+ * @param {Float32Array} values
+ * @param {Float64Array} shares
+ * @param {number} stride
+ * @param {number} row
+ * @param {number} column
+ */
 function addDifferences(total, values, shares, stride, row, column) {
   const width = total.length;
   const [i, j] = [row * width, (row + 1) * width];

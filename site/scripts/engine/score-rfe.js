@@ -13,7 +13,13 @@ const PRECISION = 1e-13;
 /** Against running on where rounding allows no better; tens of steps are usual. */
 const MOST_STEPS = 1000;
 
-/** Scores of `columns`, all of which vary over the contest's rows. */
+/**
+ * Scores of `columns`, all of which vary over the contest's rows.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ * @returns {Steps<Float64Array>}
+ */
 export function* scoreByRfe(table, contest, columns) {
   const total = columns.length;
   const classifier = new Ridge(standardise(table, contest, columns), total);
@@ -21,6 +27,7 @@ export function* scoreByRfe(table, contest, columns) {
   let left = Int32Array.from(columns, (_, place) => place);
   while (left.length) {
     yield* classifier.fit(left, 1 - left.length / (total + 1));
+    /** @param {number} index */
     const size = (index) => Math.abs(classifier.coefficients[left[index]]);
     const order = Int32Array.from(left.keys()).sort((one, other) => size(one) - size(other));
     const tie = TIE * size(order[order.length - 1]);
@@ -46,6 +53,10 @@ export function* scoreByRfe(table, contest, columns) {
  * good start for the next.
  */
 class Ridge {
+  /**
+   * @param {ReturnType<typeof standardise>} standard
+   * @param {number} total
+   */
   constructor({ values, weights, count, hits }, total) {
     this.values = values;
     this.count = count;
@@ -68,7 +79,11 @@ class Ridge {
     }
   }
 
-  /** Find the coefficients of the columns `left`. */
+  /**
+   * Find the coefficients of the columns `left`.
+   * @param {Int32Array} left
+   * @param {number} progress
+   */
   *fit(left, progress) {
     const { coefficients, residual, direction, image, aims } = this;
     const penalty = (PENALTY * left.length) / this.count;
@@ -100,7 +115,12 @@ class Ridge {
     yield { progress };
   }
 
-  /** `image` = (X'X + penalty) `vector`, for the columns `left`. */
+  /**
+   * `image` = (X'X + penalty) `vector`, for the columns `left`.
+   * @param {Int32Array} left
+   * @param {Float64Array} vector
+   * @param {number} penalty
+   */
   multiply(left, vector, penalty) {
     const { values, count, ofRows, image } = this;
     ofRows.fill(0);

@@ -5,7 +5,14 @@ import { Random } from "./random.js";
 
 const TREES = 1000;
 
-/** Scores of `columns`, all of which vary over the contest's rows. */
+/**
+ * Scores of `columns`, all of which vary over the contest's rows.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ * @param {number} seed
+ * @returns {Steps<Float64Array>}
+ */
 export function* scoreByTrees(table, contest, columns, seed) {
   const forest = new Forest(table, contest, columns, seed);
   for (let tree = 1; tree <= TREES; tree += 1) {
@@ -16,6 +23,12 @@ export function* scoreByTrees(table, contest, columns, seed) {
 }
 
 class Forest {
+  /**
+   * @param {FeatureValues} table
+   * @param {Contest} contest
+   * @param {Int32Array} columns
+   * @param {number} seed
+   */
   constructor({ rows, values }, { positive, negative }, columns, seed) {
     const count = positive.length + negative.length;
     this.count = count;
@@ -42,8 +55,8 @@ class Forest {
   grow() {
     this.gains.fill(0);
     const nodes = [[0, this.count]];
-    while (nodes.length) {
-      const [begin, end] = nodes.pop();
+    for (let node = nodes.pop(); node !== undefined; node = nodes.pop()) {
+      const [begin, end] = node;
       const middle = this.cut(begin, end);
       if (middle > 0) nodes.push([begin, middle], [middle, end]);
     }
@@ -52,7 +65,11 @@ class Forest {
       for (let place = 0; place < this.width; place += 1) this.total[place] += this.gains[place] / whole / TREES;
   }
 
-  /** Cut a node in two; returns the place in `rows` where the second part begins, 0 if there is nothing to cut. */
+  /**
+   * Cut a node in two; returns the place in `rows` where the second part begins, 0 if there is nothing to cut.
+   * @param {number} begin
+   * @param {number} end
+   */
   cut(begin, end) {
     const { values, rows, order, random, isHit, inside, count, width, candidates } = this;
     const size = end - begin;

@@ -8,10 +8,11 @@ import { scoreByRfe } from "./score-rfe.js";
 import { scoreByTrees } from "./score-trees.js";
 
 /**
- * The methods by their keys. Each is a generator `(table, contest, columns, seed)` that yields `{ progress }` and returns a
- * score for each of the columns, which all vary over the contest's rows.
+ * Scores each of the columns, which all vary over the contest's rows.
+ * @typedef {(table: FeatureValues, contest: Contest, columns: Int32Array, seed: number) => Steps<Float64Array>} Method
  */
-/** @type {Map<string, (table: FeatureValues, contest: { positive: Int32Array, negative: Int32Array }, columns: Int32Array, seed: number) => Steps<Float64Array>>} */
+
+/** @type {Map<string, Method>} the methods by their keys */
 const METHODS = new Map([
   ["chi2", scoreByChi2],
   ["anova", scoreByAnova],
@@ -24,11 +25,12 @@ const METHODS = new Map([
 /**
  * Relative scores: those of each contest divided by their largest, and averaged over the contests.
  *
- * `table` is `{ rows, columns, values }` with compared values one column after the other. `contests` are pairs of groups
- * `{ positive, negative }` of rows. Returns `{ scores }`, one in [0, 1] for each of `columns`.
+ * @param {FeatureValues} table
+ * @param {{ method: string, contests: { positive: Iterable<number>, negative: Iterable<number> }[], columns: Int32Array, seed: number }} task
+ * @returns {Steps<{ scores: Float64Array }>} one in [0, 1] for each of the columns
  */
 export function* score(table, { method, contests, columns, seed }) {
-  const measure = METHODS.get(method);
+  const measure = /** @type {Method} */ (METHODS.get(method));
   const scores = new Float64Array(columns.length);
   for (let number = 0; number < contests.length; number += 1) {
     // In one order, whichever way the reader came to the groups.
@@ -44,10 +46,9 @@ export function* score(table, { method, contests, columns, seed }) {
       places.map((place) => columns[place]),
       seed,
     );
-    /** @type {IteratorResult<any>} */
     let step = steps.next();
     let progress = 0;
-    while (!step.done) {
+    while (step.done !== true) {
       // A method may find that there is more to do than it thought; the reader's bar only moves on.
       progress = Math.max(progress, step.value.progress);
       yield { progress: (number + progress) / contests.length };
@@ -61,11 +62,17 @@ export function* score(table, { method, contests, columns, seed }) {
   return { scores };
 }
 
-/** The places in `columns` of those that are not constant over the contest's rows. */
+/**
+ * The places in `columns` of those that are not constant over the contest's rows.
+ * @param {FeatureValues} table
+ * @param {Contest} contest
+ * @param {Int32Array} columns
+ */
 function varying(table, { positive, negative }, columns) {
   return Int32Array.from(columns.keys()).filter((place) => {
     const start = columns[place] * table.rows;
     const value = table.values[start + positive[0]];
+    /** @param {number} row */
     const differs = (row) => table.values[start + row] !== value;
     return positive.some(differs) || negative.some(differs);
   });

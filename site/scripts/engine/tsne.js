@@ -20,7 +20,12 @@ const EXAGGERATION = { all: 4, nearest: 8 };
  */
 const PLANS = {
   anew: { early: 100, late: 250, size: () => 1e-4 },
-  onwards: { early: 50, late: 200, size: (count) => 0.36 * Math.sqrt(count) },
+  onwards: {
+    early: 50,
+    late: 200 /** @param {number} count */,
+    /** @param {number} count */
+    size: (count) => 0.36 * Math.sqrt(count),
+  },
 };
 
 /** Size of the seeded noise on the start, relative to its extent: what differs between two seeds. */
@@ -36,7 +41,7 @@ const ROWS = 256;
 /**
  * Lay out rows by t-SNE.
  *
- * @param {{ count: number, width: number, values: Float32Array }} points as `scaledPoints` gives them; at least 5, not all
+ * @param {{ count: number, width: number, values: Float32Array }} points as `scaledPoints` gives them, at least 5, not all
  *   equal
  * @param {Float32Array | Float64Array | null} start an earlier map of these rows, NaN where a row had no place; null to start anew
  * @param {number} seed
@@ -65,6 +70,7 @@ export function* layOutByTsne(points, start, seed) {
   return yield* part(descend(forces, xy, forces.exaggeration, plan), 0.4, 1);
 }
 
+/** @param {number} count */
 function perplexityOf(count) {
   return Math.min(PERPLEXITY, (count - 1) / 3);
 }
@@ -114,10 +120,10 @@ function* nearAffinities({ k, rows, squared }, count) {
     if (row % ROWS === 0) yield { progress: row / count };
     shareOut(shares.subarray(row * k, (row + 1) * k), perplexity);
   }
-  const from = [],
-    to = [],
-    share = [];
+  /** @type {{ from: number[], to: number[], share: number[] }} */
+  const { from, to, share } = { from: [], to: [], share: [] };
   const place = new Int32Array(count).fill(-1);
+  /** @type {[number, number][][]} */
   const partners = Array.from({ length: count }, () => []);
   for (let row = 0; row < count; row++) {
     for (let at = row * k; at < (row + 1) * k; at++) {
@@ -144,6 +150,8 @@ function* nearAffinities({ k, rows, squared }, count) {
 /**
  * Turn the squared distances of a row's neighbours into shares: a Gaussian of the width whose entropy is
  * log(perplexity), found by Newton steps on the logarithm of its precision inside a shrinking bracket.
+ * @param {Float64Array} distances
+ * @param {number} perplexity
  */
 function shareOut(distances, perplexity) {
   const size = distances.length;
@@ -194,6 +202,10 @@ function shareOut(distances, perplexity) {
 
 /** The forces between all pairs; every pair has an affinity. */
 class AllPairs {
+  /**
+   * @param {Float64Array} shares
+   * @param {number} count
+   */
   constructor(shares, count) {
     this.shares = shares;
     this.count = count;
@@ -201,13 +213,25 @@ class AllPairs {
     this.work = (count * count) / 2;
   }
 
+  /**
+   * @param {(row: number, other: number, weight: number) => void} visit
+   * @param {(row: number, other: number, weight: number) => void} visit
+   */
   visitPairs(visit) {
     for (let row = 0; row < this.count; row++) {
       for (let other = 0; other < row; other++) visit(row, other, this.shares[row * this.count + other]);
     }
   }
 
-  /** Write what pulls and what pushes each point; returns the sum of the similarities, each pair counted twice. */
+  /**
+   * Write what pulls and what pushes each point; returns the sum of the similarities, each pair counted twice.
+   * @param {Float64Array} xy
+   * @param {Float64Array} pull
+   * @param {Float64Array} push
+   * @param {Float64Array} xy
+   * @param {Float64Array} pull
+   * @param {Float64Array} push
+   */
   measure(xy, pull, push) {
     const { shares, count } = this;
     pull.fill(0);
@@ -247,6 +271,10 @@ class AllPairs {
 
 /** The forces between near pairs, and those of all by a tree. */
 class NearPairs {
+  /**
+   * @param {{ from: Int32Array, to: Int32Array, share: Float64Array }} pairs
+   * @param {number} count
+   */
   constructor(pairs, count) {
     this.pairs = pairs;
     this.tree = new Quadtree(count);
@@ -255,11 +283,17 @@ class NearPairs {
     this.work = 100 * count + pairs.from.length;
   }
 
+  /** @param {(row: number, other: number, weight: number) => void} visit */
   visitPairs(visit) {
     const { from, to, share } = this.pairs;
     share.forEach((weight, pair) => visit(from[pair], to[pair], weight));
   }
 
+  /**
+   * @param {Float64Array} xy
+   * @param {Float64Array} pull
+   * @param {Float64Array} push
+   */
   measure(xy, pull, push) {
     const { from, to, share } = this.pairs;
     pull.fill(0);
@@ -321,6 +355,9 @@ function* descend(forces, xy, exaggeration, { early, late }) {
 /**
  * Exaggeration pulls rows without clear groups together; centre them and keep the size of the start, at which forces are
  * linear and scale means nothing, so that rounding cannot swallow what tells them apart.
+ * @param {Float64Array} xy
+ * @param {Float64Array} speed
+ * @param {number} smallest
  */
 function keepSize(xy, speed, smallest) {
   let x = 0,

@@ -5,6 +5,8 @@ import { ALL_PAIRS, classicalScaling, extent, placeNewcomers, principalComponent
 import { Random } from "./random.js";
 import { part } from "./steps.js";
 
+/** @import { Points } from "./distances.js" */
+
 /** Nearest neighbours of a row, itself among them. */
 const NEIGHBOURS = 15;
 
@@ -33,7 +35,13 @@ const LONGEST = 4;
 /** Pushes between two reports: a few milliseconds of work. */
 const WORK = 1e5;
 
-/** As `layOutByTsne`, by UMAP. */
+/**
+ * As `layOutByTsne`, by UMAP.
+ * @param {Points} points
+ * @param {Float32Array | null} start
+ * @param {number} seed
+ * @returns {Steps<Float64Array>}
+ */
 export function* layOutByUmap(points, start, seed) {
   const { count } = points;
   const nearest = yield* part(nearestRows(points, Math.min(NEIGHBOURS, count - 1) - 1), 0, 0.3);
@@ -49,7 +57,11 @@ export function* layOutByUmap(points, start, seed) {
   return yield* part(descend(edges, xy, start ? PLANS.onwards : PLANS.anew, random), 0.4, 1);
 }
 
-/** How surely each of a row's nearest is its neighbour: 1 for the first, falling off so that they add up to log2(k + 1). */
+/**
+ * How surely each of a row's nearest is its neighbour: 1 for the first, falling off so that they add up to log2(k + 1).
+ * @param {{ k: number, rows: Int32Array, squared: Float64Array }} nearest
+ * @param {number} count
+ */
 function memberships({ k, rows, squared }, count) {
   const weight = new Float64Array(squared.length);
   const distances = squared.map(Math.sqrt);
@@ -75,11 +87,19 @@ function memberships({ k, rows, squared }, count) {
   return { k, rows, weight };
 }
 
+/**
+ * @param {number} excess
+ * @param {number} width
+ */
 function fall(excess, width) {
   return excess > 0 ? Math.exp(-excess / width) : 1;
 }
 
-/** Neighbourhood either way: a + b - a b for every pair, listed from both of its ends. */
+/**
+ * Neighbourhood either way: a + b - a b for every pair, listed from both of its ends.
+ * @param {{ k: number, rows: Int32Array, weight: Float64Array }} memberships
+ * @param {number} count
+ */
 function fuzzyUnion({ k, rows, weight }, count) {
   const pairs = new Map();
   for (let row = 0; row < count; row++) {
@@ -102,11 +122,21 @@ function fuzzyUnion({ k, rows, weight }, count) {
   return { from: Int32Array.from(from), to: Int32Array.from(to), weight: Float64Array.from(sure) };
 }
 
+/**
+ * @param {{ from: Int32Array, to: Int32Array, weight: Float64Array }} parts
+ * @param {(row: number, other: number, weight: number) => void} visit
+ */
 function visitEdges({ from, to, weight }, visit) {
   weight.forEach((value, edge) => visit(from[edge], to[edge], value));
 }
 
-/** Stochastic descent: edges pull their ends together, as often as their weight says, and random points push. */
+/**
+ * Stochastic descent: edges pull their ends together, as often as their weight says, and random points push.
+ * @param {{ from: Int32Array, to: Int32Array, weight: Float64Array }} parts
+ * @param {Float64Array} xy
+ * @param {{ epochs: number, rate: number }} parts
+ * @param {Random} random
+ */
 function* descend({ from, to, weight }, xy, { epochs, rate: first }, random) {
   const count = xy.length / 2;
   const largest = weight.reduce((most, value) => Math.max(most, value), 0);
@@ -154,6 +184,7 @@ function* descend({ from, to, weight }, xy, { epochs, rate: first }, random) {
   return xy;
 }
 
+/** @param {number} step */
 function clip(step) {
   return Math.max(-LONGEST, Math.min(LONGEST, step));
 }

@@ -4,7 +4,14 @@ import { drawChart } from "../base/chart.js";
 import { element, swatch } from "../base/dom.js";
 import { hitRange } from "../database/hit-range.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Subsets } from "../database/subsets.js" */
+
 export class Boxes {
+  /**
+   * @param {Database} database
+   * @param {Subsets} subsets
+   */
   constructor(database, subsets, state, marks) {
     this.database = database;
     this.subsets = subsets;
@@ -25,6 +32,7 @@ export class Boxes {
     for (const [, vega] of this.vegas ?? []) vega.finalize();
     this.vegas = [];
     const { database, subsets } = this;
+    /** @param {number | null} pointedGroup */
     const point = (pointedGroup) => () => this.state.set({ pointedGroup });
     this.list.replaceChildren(
       ...this.order.map((column) => {
@@ -66,6 +74,7 @@ export class Boxes {
       subsets.data.rows === null ? this.database.groups : subsets.data.rows.map((row) => this.database.groups[row]),
       subsets.data.neighbours,
     );
+    /** @param {number} column */
     const most = (column) => highestOfClass.get(subsets.data.classes[column]) ?? null;
     const rows = this.order.map((column, row) => ({
       row,

@@ -1,5 +1,12 @@
 // What the reader sets on the map of the Features page.
 
+/** @import { Gestures } from "../map/gestures.js" */
+/** @import { MapView } from "../map/map.js" */
+
+/**
+ * @param {Gestures} gestures
+ * @param {Found} surface
+ */
 export function watchMapKeys(surface, state, gestures) {
   surface.addEventListener("keydown", (event) => {
     if (event.key === "+" || event.key === "=") gestures.zoom(1.5);
@@ -24,7 +31,10 @@ export function watchDrag(state) {
   document.body.dataset.drag = state.get("drag");
 }
 
-/** Colours of the map: by class or by neighbourhood hit. */
+/**
+ * Colours of the map: by class or by neighbourhood hit.
+ * @param {MapView} map
+ */
 export function watchColors(state, map) {
   const inputs = document.querySelectorAll("#colors input");
   const check = () => {

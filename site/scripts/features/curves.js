@@ -2,12 +2,23 @@
 
 import { element, svg } from "../base/dom.js";
 
+/** @import { Choice } from "./ratings.js" */
+
+/**
+ * A choice with its precision at each level; its kind has a colour of its own where it has none.
+ * @typedef {Choice & { color: string | null, precision: number[] }} Line
+ */
+
 const HEIGHT = 340;
 const MARGIN = { left: 44, right: 12, top: 10, bottom: 40 };
 const TICKS = [0, 0.25, 0.5, 0.75, 1];
 
 export class Curves {
-  /** `point(key)` is told which line the pointer is at, or null. */
+  /**
+   * @param {Found} node
+   * @param {number[]} levels
+   * @param {(key: string | null) => void} point is told which line the pointer is at
+   */
   constructor(node, levels, point) {
     this.node = node;
     this.levels = levels;
@@ -18,14 +29,20 @@ export class Curves {
     new ResizeObserver(() => this.draw()).observe(node);
   }
 
-  /** Show lines: `{ key, kind, color, precision }`, color null where the kind has its own. */
+  /**
+   * Show lines.
+   * @param {Line[]} lines
+   */
   show(lines) {
     this.lines = lines;
     this.pointed = null;
     this.draw();
   }
 
-  /** Bring one line out, or none. */
+  /**
+   * Bring one line out, or none.
+   * @param {string | null | undefined} key
+   */
   point(key) {
     this.pointed = key;
     for (const line of this.plot.querySelectorAll("[data-key]"))
@@ -40,8 +57,11 @@ export class Curves {
     const width = this.node.clientWidth;
     if (!this.lines || width === 0) return;
     const [inner, high] = [width - MARGIN.left - MARGIN.right, HEIGHT - MARGIN.top - MARGIN.bottom];
+    /** @param {number} share */
     const x = (share) => MARGIN.left + share * inner;
+    /** @param {number} share */
     const y = (share) => MARGIN.top + (1 - share) * high;
+    /** @param {number[]} precision */
     const path = (precision) =>
       precision
         .map((value, place) => `${place ? "L" : "M"}${x(this.levels[place]).toFixed(1)} ${y(value).toFixed(1)}`)
@@ -81,7 +101,11 @@ export class Curves {
   }
 }
 
-/** The line of a choice, short, to stand before its name. */
+/**
+ * The line of a choice, short, to stand before its name.
+ * @param {Choice["kind"]} kind
+ * @param {string | null} color
+ */
 export function lineMark(kind, color) {
   return element(
     "span",
@@ -94,6 +118,10 @@ export function lineMark(kind, color) {
   );
 }
 
+/**
+ * @param {SVGPathElement} path
+ * @param {string | null} color
+ */
 function styled(path, color) {
   if (color) path.style.stroke = color;
   return path;

@@ -2,9 +2,14 @@
 
 import { drawChart } from "../base/chart.js";
 
+/** @import { Subsets } from "../database/subsets.js" */
+
 const ROW = 24;
 
-/** The two plots of dots, with as many rows as there is data. */
+/**
+ * The two plots of dots, with as many rows as there is data.
+ * @param {Subsets} subsets
+ */
 export function dotCharts(subsets, marks) {
   const { data } = subsets;
   const effects = data.order
@@ -29,6 +34,11 @@ export function dotCharts(subsets, marks) {
 }
 
 class DotChart {
+  /**
+   * @param {string} id
+   * @param {string} name
+   * @param {number} count
+   */
   constructor(id, spec, name, rows, count, marks) {
     this.node = document.getElementById(id);
     this.spec = spec;

@@ -3,7 +3,10 @@
 import { element, focused } from "../base/dom.js";
 import { figure } from "../base/words.js";
 
+/** @import { Subsets } from "../database/subsets.js" */
+
 export class Panel {
+  /** @param {Subsets} subsets */
   constructor(subsets, state, marks, link) {
     this.subsets = subsets;
     this.state = state;
@@ -50,6 +53,10 @@ export class Panel {
   #headline(place) {
     const { subsets } = this;
     const { hit } = subsets.data;
+    /**
+     * @param {number} other
+     * @param {string} words
+     */
     const against = (other, words) => [element("b", {}, difference(hit[place] - hit[other])), ` against ${words}`];
     return element(
       "p",
@@ -72,6 +79,7 @@ export class Panel {
     );
   }
 
+  /** @param {number} feature */
   #chip(place, feature) {
     const { subsets } = this;
     const name = subsets.features[feature];
@@ -101,6 +109,11 @@ export class Panel {
   }
 
   #moves(place) {
+    /**
+     * @param {string} key
+     * @param {string} words
+     * @param {number} target
+     */
     const move = (key, words, target) =>
       element(
         "button",
@@ -124,7 +137,10 @@ export class Panel {
   }
 }
 
-/** A difference with its sign. */
+/**
+ * A difference with its sign.
+ * @param {number} value
+ */
 function difference(value) {
   return `${value < 0 ? "−" : "+"}${figure(Math.abs(value))}`;
 }

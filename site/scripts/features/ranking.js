@@ -5,6 +5,8 @@ import { element, svg } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 
+/** @import { Subsets } from "../database/subsets.js" */
+
 const BARS = 150;
 const ROW = 15;
 const WIDEST = 36;
@@ -13,6 +15,10 @@ const LEAP = 10;
 const CLOSEST = 10;
 
 export class Ranking {
+  /**
+   * @param {Subsets} subsets
+   * @param {(text: string) => void} announce
+   */
   constructor(subsets, state, marks, announce) {
     this.subsets = subsets;
     this.state = state;
@@ -90,6 +96,7 @@ export class Ranking {
     await this.resize();
   }
 
+  /** @param {number} place */
   #hue(place) {
     const single = this.subsets.single(place);
     return single < 0 ? -1 : this.subsets.data.hues[single];
@@ -119,6 +126,10 @@ export class Ranking {
 
   #level() {
     const { chance, chanceBest, highest } = this.subsets.data;
+    /**
+     * @param {number} value
+     * @param {string} kind
+     */
     const rule = (value, kind) =>
       value !== null && svg("line", { class: kind, x1: 0, x2: this.width, y1: this.#y(value), y2: this.#y(value) });
     if (!this.subsets.labelled) return;
@@ -135,19 +146,23 @@ export class Ranking {
     );
   }
 
+  /** @param {number} place */
   #x(place) {
     return (place + 0.5) * this.step;
   }
 
+  /** @param {number | null} hit */
   #y(hit) {
     return BARS * (1 - hit);
   }
 
+  /** @param {PointerEvent & Targeted} event */
   #at(event) {
     const place = Math.floor((event.clientX - this.surface.getBoundingClientRect().left) / this.step);
     return place >= 0 && place < this.subsets.count ? place : null;
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const steps = { ArrowLeft: -1, ArrowRight: 1, PageUp: -LEAP, PageDown: LEAP, Home: -Infinity, End: Infinity };
@@ -163,11 +178,13 @@ export class Ranking {
     event.preventDefault();
   }
 
+  /** @param {number} place */
   #reveal(place) {
     const [x, left, width] = [this.#x(place), this.scroll.scrollLeft, this.scroll.clientWidth];
     if (x < left + 20 || x > left + width - 20) this.scroll.scrollLeft = x - width / 2;
   }
 
+  /** @param {number} place */
   #words(place) {
     const rank = this.subsets.labelled
       ? `Rank ${place + 1} of ${this.subsets.count}, NH ${figure(this.subsets.data.hit[place])}: `
@@ -210,6 +227,7 @@ export class Ranking {
     );
   }
 
+  /** @param {string} name */
   #member(name) {
     const mark = element("i", { class: "hued" });
     mark.style.background = this.marks().features[this.subsets.data.hues[this.subsets.features.indexOf(name)]];
@@ -258,7 +276,8 @@ export class Ranking {
     const last = greedy.path.at(-1);
     const behind = hit[0] - hit[last];
     words.append(
-      ...[`Greedy search, s = ${s}: `, steps].flat(Infinity).filter(Boolean),
+      `Greedy search, s = ${s}: `,
+      .../** @type {any[]} */ (steps).flat().filter(Boolean),
       ` with ${count(greedy.runs, "map")} of ${this.subsets.count}; ${behind > 0 ? `rank ${last + 1}, ${figure(behind)} below the best.` : "the best of all."}`,
     );
   }

@@ -7,16 +7,22 @@ import { count, figure } from "../base/words.js";
 import { Curves, lineMark } from "./curves.js";
 import { Ratings } from "./ratings.js";
 
+/** @import { Children } from "../base/dom.js" */
+/** @import { Choice } from "./ratings.js" */
+
 export class RetrievalSection {
   /**
-   * `data` is the chunk "retrieval", `classes` the names of the classes. `chosen()` gives the names of the chosen
-   * features, `choose(names)` chooses others; both are null where the page has no choice.
+   * @param {Chunk.Retrieval} data
+   * @param {string[]} classes names
+   * @param {(() => string[]) | null} chosen gives the names of the chosen features; null where the page has no choice
+   * @param {((names: string[]) => void) | null} choose chooses others
    */
   constructor(data, classes, chosen, choose) {
     this.ratings = new Ratings(data);
     this.classes = classes;
     this.chosen = chosen;
     this.choose = choose;
+    /** @type {"shapes" | "classes"} */
     this.over = "shapes";
     this.node = document.getElementById("retrieval");
     this.rows = this.node.querySelector("tbody");
@@ -93,12 +99,14 @@ export class RetrievalSection {
     ];
   }
 
+  /** @param {Choice} choice */
   #color({ kind, feature, row }) {
     const { data } = this.ratings;
     const single = kind === "chosen" ? data.order.find((other) => this.ratings.alone(other) === row) : feature;
     return single === undefined ? null : data.marks[currentTheme()].features[data.hues[single]];
   }
 
+  /** @param {Choice} choice */
   #row(choice) {
     const { ratings } = this;
     const values = ratings.scores(choice.rating, this.over);
@@ -116,7 +124,10 @@ export class RetrievalSection {
     );
   }
 
-  /** What a row compares; a button where it can be chosen. */
+  /**
+   * What a row compares; a button where it can be chosen.
+   * @param {Choice} choice
+   */
   #name(choice) {
     const words = this.#parts(choice);
     if (choice.row === undefined || choice.kind === "chosen" || this.choose === null)
@@ -133,10 +144,14 @@ export class RetrievalSection {
     );
   }
 
-  #parts({ kind, row }) {
+  /**
+   * @param {Choice} choice
+   * @returns {Children}
+   */
+  #parts(choice) {
+    const { kind, row } = choice;
     const { ratings } = this;
-    if (kind === "chance") return "random order";
-    if (kind === "bins") return count(ratings.data.bins.length, "chosen bin");
+    if (row === undefined) return this.#others(choice);
     const names = ratings.names(row);
     const listed = names.flatMap((name, place) => [place > 0 && " ", element("bdi", {}, name)]);
     const notes = [
@@ -152,12 +167,22 @@ export class RetrievalSection {
     ];
   }
 
+  /**
+   * What is no subset, in words.
+   * @param {Choice} choice
+   */
+  #others({ kind }) {
+    return kind === "chance" ? "random order" : count(this.ratings.data.bins?.length ?? 0, "chosen bin");
+  }
+
+  /** @param {Choice} choice */
   #words(choice) {
     const { ratings } = this;
-    if (choice.row === undefined) return this.#parts(choice);
+    if (choice.row === undefined) return this.#others(choice);
     return ratings.names(choice.row).join(", ");
   }
 
+  /** @param {number} place */
   #className(place) {
     return this.classes[this.ratings.data.classes[place]];
   }
@@ -188,6 +213,7 @@ export class RetrievalSection {
     this.byClass.replaceChildren(element("table", {}, element("thead", {}, head), element("tbody", {}, body)));
   }
 
+  /** @param {string | null | undefined} key */
   #point(key) {
     this.curves.point(key);
     for (const row of this.rows.children) row.classList.toggle("pointed", row.dataset.key === key);

@@ -1,9 +1,21 @@
 // The map of a subset among those of the database.
 
-/** The index of a subset's map in the database. Shapes that the search left out have no place on it. */
+/** @import { Database } from "../database/database.js" */
+/** @import { Subsets } from "../database/subsets.js" */
+
+/**
+ * The index of a subset's map in the database. Shapes that the search left out have no place on it.
+ * @param {Database} database
+ * @param {Subsets} subsets
+ * @param {number} place
+ */
 export async function shown(database, subsets, place) {
   const { rows } = subsets.data;
   const map = await subsets.map(place, database.classes.length);
+  /**
+   * @param {number | null} none
+   * @param {ArrayLike<number> | (number | null)[]} values
+   */
   const spread = (values, none) => {
     const all = new Array(database.count).fill(none);
     for (const [index, row] of rows.entries()) all[row] = values[index];

@@ -5,11 +5,19 @@ import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 import { shapesTable } from "../map/tables.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Subsets } from "../database/subsets.js" */
+
 const MOST_ROWS = 300;
 
+/**
+ * @param {Database} database
+ * @param {Subsets} subsets
+ */
 export function subsetTables(database, subsets, state) {
   const { data } = subsets;
   const chosen = state.get("chosen");
+  /** @param {number} place */
   const names = (place) => subsets.names(place).join(", ");
   const places = Array.from({ length: Math.min(subsets.count, MOST_ROWS) }, (_, place) => place);
   const greedy = data.greedy.find(({ s }) => s === state.get("s"));

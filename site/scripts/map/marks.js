@@ -65,8 +65,8 @@ export class Marks {
     Object.assign(pen, { globalAlpha: 0.6, lineWidth: 1, strokeStyle: color });
     pen.beginPath();
     for (const other of others) {
-      pen.moveTo(...from);
-      pen.lineTo(...other);
+      pen.moveTo(from[0], from[1]);
+      pen.lineTo(other[0], other[1]);
     }
     pen.stroke();
   }

@@ -6,11 +6,16 @@ import { FADED, Marks } from "./marks.js";
 
 const DURATION = 450;
 
-/** The map of a step or a class from the chunk "selection": shapes that took no part have no place. */
+/**
+ * The map of a step or a class from the chunk "selection": shapes that took no part have no place.
+ * @param {{ x: number[], y: number[] }} steps
+ * @param {Pick<Chunk.Selection, "rows" | "coordinateSteps">} selection
+ * @param {number} count
+ */
 export function mapOf({ x, y }, { rows, coordinateSteps }, count) {
   const map = { x: new Float64Array(count).fill(NaN), y: new Float64Array(count).fill(NaN) };
   for (let place = 0; place < x.length; place += 1) {
-    const row = rows === null ? place : rows[place];
+    const row = rows ? rows[place] : place;
     map.x[row] = x[place] / coordinateSteps;
     map.y[row] = y[place] / coordinateSteps;
   }

@@ -4,7 +4,7 @@
 export function watchAnchors() {
   document.addEventListener("click", (event) => {
     const link = event.target.closest("a[href^='#']");
-    const place = link && !event.defaultPrevented && document.getElementById(link.getAttribute("href").slice(1));
+    const place = link && !event.defaultPrevented && document.getElementById(link.hash.slice(1));
     if (!place) return;
     event.preventDefault();
     place.scrollIntoView();

@@ -18,14 +18,14 @@ window.addEventListener("hashchange", (event) => {
 });
 
 const pages = new Map([...document.querySelectorAll("head > template")].map((template) => [template.id, template]));
-const template = pages.get(opened) ?? pages.get("index.html");
+const template = /** @type {Found} */ (pages.get(opened) ?? pages.get("index.html"));
 const content = document.importNode(template.content, true);
 const scripts = [...content.querySelectorAll("script")].map((script) => {
   script.remove();
-  return script.getAttribute("src");
+  return script.getAttribute("src") ?? "";
 });
 settle(content);
-document.title = template.dataset.title;
+document.title = template.dataset.title ?? "";
 document.body.className = template.className;
 document.body.replaceChildren(content);
 // Scripts that only hand over data have nothing to run here.
@@ -34,6 +34,6 @@ goToPlace();
 
 /** Scroll to what a link like `about.html#clusters` names, which is a place on the page and no state of a view. */
 function goToPlace() {
-  const [[name, value] = []] = readHash();
+  const [[name, value] = ["", null]] = readHash();
   if (value === "") document.getElementById(name)?.scrollIntoView();
 }

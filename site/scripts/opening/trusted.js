@@ -5,14 +5,16 @@ import { chunk } from "../base/chunks.js";
 const OWN_DATA = /^(assets\/chunk-[a-z-]+\.js\?[0-9a-f]{8}|models\/[0-9a-f]{20}\.js)$/;
 
 /** The address of the one worker that is being started at this moment. */
+/** @type {string | null} */
 let starting = null;
 
 export function trustOnlyOurselves() {
   if (!window.trustedTypes) return;
   window.trustedTypes.createPolicy("default", {
     // Vega empties its container by assigning an empty string.
-    createHTML: (text) => (text === "" ? "" : null),
-    createScriptURL: (address) => (OWN_DATA.test(address) || address === starting ? address : null),
+    createHTML: (/** @type {string} */ text) => (text === "" ? "" : null),
+    createScriptURL: (/** @type {string} */ address) =>
+      OWN_DATA.test(address) || address === starting ? address : null,
   });
 }
 

@@ -2,15 +2,26 @@
 
 import { calm } from "../base/dom.js";
 
+/** @import { Scene } from "../map/scene.js" */
+
 export const VIEWS = ["class", "hit", "thumbnail"];
 
-/** Put one map in the large place; the other two keep their order. */
+/**
+ * Put one map in the large place; the other two keep their order.
+ * @param {Map<string | undefined, Found>} figures
+ * @param {string | null} large
+ */
 export function arrange(figures, large) {
   const slots = ["left", "right"];
   for (const name of VIEWS) figures.get(name).dataset.slot = name === large ? "large" : slots.shift();
 }
 
-/** The same, with a short movement that shows which map went where. */
+/**
+ * The same, with a short movement that shows which map went where.
+ * @param {Map<string | undefined, Found>} figures
+ * @param {string | null} large
+ * @param {Scene} scene
+ */
 export function swap(figures, large, scene) {
   const before = new Map([...figures].map(([name, node]) => [name, node.getBoundingClientRect()]));
   const focused = document.activeElement.classList.contains("surface");

@@ -5,7 +5,10 @@ import { element, focused, swatch } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 
+/** @import { Database, Method } from "../database/database.js" */
+
 export class ClassList {
+  /** @param {Database} database */
   constructor(database, state) {
     this.database = database;
     this.state = state;
@@ -46,12 +49,14 @@ export class ClassList {
     this.#mark();
   }
 
+  /** @param {number} group */
   #button(group) {
     const { database } = this;
     const name = database.className(group);
     const method = database.methods[this.state.get("method")];
     const hit = group < 0 ? null : method.hitOfClass[group];
     const most = hit === null ? "" : ofAtMost(rangeOf(database, method).highestOfClass.get(group));
+    /** @param {number | null} value */
     const point = (value) => () => this.state.set({ pointedGroup: value });
     return element(
       "button",
@@ -70,12 +75,14 @@ export class ClassList {
     );
   }
 
+  /** @param {number} group */
   #toggle(group) {
     const hidden = new Set(this.state.get("hidden"));
     if (!hidden.delete(group)) hidden.add(group);
     this.state.set({ hidden, pointedGroup: null });
   }
 
+  /** @param {number} group */
   #solo(group) {
     const others = [...this.buttons.keys()].filter((other) => other !== group);
     const hidden = this.state.get("hidden");
@@ -108,14 +115,20 @@ export class ClassList {
     if (this.buttons) this.#mark();
   }
 
-  /** That the labels chose a subset, and what the best one reaches by chance. */
+  /**
+   * That the labels chose a subset, and what the best one reaches by chance.
+   * @param {string[]} features
+   */
   #chosen(features) {
     const { best, bestByChance } = this.database.data.subsets ?? {};
     if (!best || best.join() !== features.join()) return "";
     return ` The labels chose them, the best of all subsets; with labels dealt at random the best typically reaches ${figure(bestByChance)}.`;
   }
 
-  /** What the best map would reach. */
+  /**
+   * What the best map would reach.
+   * @param {Method} method
+   */
   #best(method) {
     const { highest } = rangeOf(this.database, method);
     if (!isBelowOne(highest)) return "1 is a map whose classes never mix.";

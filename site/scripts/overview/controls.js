@@ -3,9 +3,16 @@
 import { coarse } from "../base/dom.js";
 import { VIEWS } from "./arrangement.js";
 
+/** @import { Database } from "../database/database.js" */
+
+/** @param {Database} database */
 export function watchControls(database, state, gestures) {
   const methods = document.getElementById("methods");
   const drag = document.getElementById("drag");
+  /**
+   * @param {Found} group
+   * @param {string} value
+   */
   const check = (group, value) => {
     for (const input of group.querySelectorAll("input")) input.checked = input.value === value;
   };
@@ -31,6 +38,7 @@ export function watchControls(database, state, gestures) {
   show();
 }
 
+/** @param {string} how */
 function zoom(how, state, gestures) {
   if (how === "fit") state.set({ camera: null });
   else gestures.get(state.get("view")).zoom(how === "in" ? 1.5 : 1 / 1.5);

@@ -7,7 +7,10 @@ import { count, figure, grouped } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { classLine } from "../map/card.js";
 
+/** @import { Database, Method } from "../database/database.js" */
+
 export class Detail {
+  /** @param {Database} database */
   constructor(database, state, { point }) {
     this.database = database;
     this.point = point;
@@ -37,6 +40,10 @@ export class Detail {
     if (first) this.node.querySelector("button").focus({ preventScroll: true });
   }
 
+  /**
+   * @param {string[]} labelings
+   * @param {Chunk.ShapeDetails} known
+   */
   #content(index, labelings, known) {
     const { database } = this;
     const method = database.methods[this.state.get("method")];
@@ -87,6 +94,7 @@ export class Detail {
     return { id: ids[index], ...(base > 0 && { map: methods[base].key }) };
   }
 
+  /** @param {Method} method */
   #neighbours(index, method) {
     const { database } = this;
     if (database.count === 1) return [];
@@ -131,6 +139,10 @@ export class Detail {
   }
 }
 
+/**
+ * @param {string} title
+ * @param {(string | null)[][] | [string, string][] | string[][]} rows
+ */
 function facts(title, rows) {
   return element(
     "section",

@@ -4,6 +4,8 @@
 import { chunk } from "../base/chunks.js";
 import { Subsets } from "../database/subsets.js";
 
+/** @import { Database } from "../database/database.js" */
+
 const ALL = "all";
 const BEST = "best";
 const CHOSEN = "chosen";
@@ -11,6 +13,7 @@ const CHOSEN = "chosen";
 export class FeatureChoice {
   #chosen = null;
 
+  /** @param {Database} database */
   constructor(database, state) {
     this.database = database;
     this.state = state;
@@ -47,7 +50,11 @@ export class FeatureChoice {
   }
 }
 
-/** The index of a subset's map in the database, where it is added when first asked for; null if it was not evaluated. */
+/**
+ * The index of a subset's map in the database, where it is added when first asked for; null if it was not evaluated.
+ * @param {Database} database
+ * @param {string[] | null} names
+ */
 export async function subsetMethod(database, names) {
   const { method, features, bins } = database.data.subsets;
   const base = database.methods.findIndex(({ key }) => key === method);
@@ -57,6 +64,10 @@ export async function subsetMethod(database, names) {
   return place === undefined ? null : database.add(await subsets.map(place, database.classes.length), base);
 }
 
+/**
+ * @param {string[]} one
+ * @param {string[] | null} other
+ */
 function same(one, other) {
   return other !== null && one.join("\n") === other.join("\n");
 }

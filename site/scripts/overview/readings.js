@@ -2,6 +2,12 @@
 
 import { element } from "../base/dom.js";
 
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * @param {string} name
+ * @param {Database} database
+ */
 export function reading(name, database, state) {
   const method = database.methods[state.get("method")];
   if (name === "class") return [method.note];

@@ -145,7 +145,7 @@ async function main() {
   state.listen((changed) => {
     if (["scores", "bins", "scoresStatus", "separation", "hidden", "scorer"].some((name) => changed.has(name)))
       drawChart();
-    if (changed.has("scoresStatus")) status.show(state.get("scoresStatus"));
+    if (changed.has("scoresStatus")) status.show(/** @type {any} */ (state.get("scoresStatus")));
     if ([...changed].some((name) => name.endsWith("Status"))) content.setAttribute("aria-busy", String(desk.busy));
     if (changed.has("color")) {
       for (const map of maps) {

@@ -14,7 +14,11 @@ import { ValueCard } from "./value-card.js";
 /** How far below the window the features may be when they are loaded. */
 const AHEAD = "200px";
 
-/** The features of all shapes are by far the largest data of a site: they come when a reader gets to them. */
+/**
+ * The features of all shapes are by far the largest data of a site: they come when a reader gets to them.
+ * @param {Found} node
+ * @param {() => Promise<void>} then
+ */
 export function whenSeen(node, then) {
   const observer = new IntersectionObserver(
     ([{ isIntersecting }]) => {

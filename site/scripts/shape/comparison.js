@@ -5,7 +5,11 @@ import { joinNames, splitNames } from "../addresses/names.js";
 import { count } from "../base/words.js";
 
 export class Comparison {
-  /** `data` is the chunk "workbench", `selected` the bins of the site's own search or null. */
+  /**
+   * `data` is the chunk "workbench", `selected` the bins of the site's own search or null.
+   * @param {Chunk.Workbench} data
+   * @param {number[] | null} selected
+   */
   constructor(data, selected, state) {
     this.data = data;
     this.state = state;
@@ -57,6 +61,10 @@ export class Comparison {
     this.#compare("", text === ofMaps ? "" : text);
   }
 
+  /**
+   * @param {string} features
+   * @param {string} bins
+   */
   #compare(features, bins) {
     this.state.set({ features, bins });
   }

@@ -50,8 +50,14 @@ export class Facts {
   }
 }
 
-/** All facts of a shape: `{ title, rows: [[name, value]], note, shapes }` a group, whose it is first; where rows are of other shapes, `shapes` says which. */
+/**
+ * All facts of a shape: `{ title, rows: [[name, value]], note, shapes }` a group, whose it is first; where rows are of other shapes, `shapes` says which.
+ * @param {string[]} labelings
+ * @param {Chunk.ShapeDetails} known
+ * @param {Chunk.Clusters | null} clusters
+ */
 function factGroups(database, shape, labelings, known, clusters) {
+  /** @param {[string, string]} parts */
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
   const labels = labelings
@@ -102,6 +108,7 @@ function linked(value) {
   return element("a", { href: value, rel: "noopener noreferrer external" }, value);
 }
 
+/** @param {number | null} value */
 function measured(value) {
   if (value === null) return "–";
   const rounded = Number(value.toPrecision(DIGITS));

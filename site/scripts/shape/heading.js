@@ -6,7 +6,10 @@ import { grouped } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { findShapes } from "../database/shape-finder.js";
 
+/** @import { Database } from "../database/database.js" */
+
 export class Heading {
+  /** @param {Database} database */
   constructor(database, state, { links, go, site }) {
     this.database = database;
     this.state = state;
@@ -46,6 +49,7 @@ export class Heading {
     nowhere.replaceChildren(...(shape === null ? this.#nowhere(state.get("unknown")) : []));
   }
 
+  /** @param {number} group */
   #group(group) {
     const { database } = this;
     return [swatch(database.symbol(group), database.color(group)), element("bdi", {}, database.className(group))];
@@ -99,6 +103,12 @@ export class Heading {
     const fellows = [...database.groups.keys()].filter((index) => database.groups[index] === own);
     if (fellows.length < 2) return [];
     const place = fellows.indexOf(shape);
+    /**
+     * @param {number} by
+     * @param {string} words
+     * @param {string} rel
+     * @param {string} said
+     */
     const step = (by, words, rel, said) =>
       links.link(fellows.at((place + by) % fellows.length), { rel, "aria-label": said }, words);
     return [

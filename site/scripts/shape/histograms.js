@@ -89,6 +89,10 @@ export class Histograms {
   #key(shape) {
     const { database } = this;
     const group = database.groups[shape];
+    /**
+     * @param {string} name
+     * @param {string} [color]
+     */
     const mark = (name, color) => {
       const node = element("i", { class: `mark ${name}` });
       if (color) node.style.borderColor = color;
@@ -151,6 +155,7 @@ export class Histograms {
     return choice;
   }
 
+  /** @param {number} part */
   #choose(feature, part) {
     const name = joinNames([this.bins.features[feature].name]);
     const others = this.state
@@ -160,6 +165,7 @@ export class Histograms {
     this.state.set({ parts: [...others, `${name}[${part}]`].join(" ") });
   }
 
+  /** @param {number} dimension */
   #quantity(feature, dimension) {
     const { start, bins: width } = this.bins.features[feature];
     const place = dimensionOf(start + dimension * width, this.bins);
@@ -176,7 +182,13 @@ export class Histograms {
       axisEnd(Math.max(...own, ...fellows.map((band) => band?.high ?? 0), ...all.map(({ high }) => high))),
       1,
     );
+    /** @param {number} value */
     const height = (value) => `${Math.min((100 * value) / end, 100)}%`;
+    /**
+     * @param {string} name
+     * @param {{ low: number, high: number }} half
+     * @param {string} [color]
+     */
     const band = (name, { low, high }, color) => {
       const node = element("i", { class: high - low < FLAT * end ? `${name} flat` : name });
       node.style.bottom = height(low);
@@ -221,6 +233,11 @@ export class Histograms {
     const all = spread.all(column);
     const fellows = spread.fellows(column, shape);
     const across = (value) => `${all.most > all.least ? (100 * (value - all.least)) / (all.most - all.least) : 50}%`;
+    /**
+     * @param {string} name
+     * @param {{ low: number, high: number }} half
+     * @param {string} [color]
+     */
     const band = (name, { low, high }, color) => {
       const node = element("i", { class: name });
       node.style.left = across(low);
@@ -254,8 +271,10 @@ export class Histograms {
     ];
   }
 
+  /** @param {boolean} first */
   #button(column, first, shape, content) {
     const { bins } = this;
+    /** @param {PointerEvent & Targeted | FocusEvent & Targeted} event */
     const show = (event) => this.card.show(column, this.tell(column, this.state.get("shape")), event.currentTarget);
     const { own, fellows, all } = this.tell(column, shape);
     const said = [
@@ -291,12 +310,13 @@ export class Histograms {
     for (const other of button.parentElement.querySelectorAll("button")) other.tabIndex = other === button ? 0 : -1;
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #walk(event) {
     const steps = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
     if (!(event.key in steps)) return;
     event.preventDefault();
     const buttons = [...event.currentTarget.querySelectorAll("button")];
-    const next = buttons.indexOf(document.activeElement) + steps[event.key];
+    const next = buttons.indexOf(focused()) + steps[event.key];
     buttons[Math.min(Math.max(next, 0), buttons.length - 1)].focus();
   }
 

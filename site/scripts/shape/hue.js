@@ -2,6 +2,7 @@
 
 import { element } from "../base/dom.js";
 
+/** @param {string} color */
 export function hue(color) {
   const mark = element("i", { class: "hued", "aria-hidden": "true" });
   mark.style.background = color;

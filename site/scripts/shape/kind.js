@@ -1,5 +1,8 @@
 // What the groups of the database are: classes, or the clusters that stand in for them.
 
+/** @import { Database } from "../database/database.js" */
+
+/** @param {Database} database */
 export function kind({ data }) {
   return data.standIn ? "cluster" : "class";
 }

@@ -21,6 +21,10 @@ export class ShapeLinks {
       link.href = shapeAddress(this.database, this.state, Number(link.dataset.shape));
   }
 
+  /**
+   * @param {{ class: string; "aria-label": string, title: string }} attributes
+   * @param {...HTMLImageElement} children
+   */
   link(shape, attributes, ...children) {
     return element(
       "a",

@@ -65,6 +65,7 @@ export class Portrait {
       legend.clear();
       return;
     }
+    /** @param {string} text */
     const action = (text, onclick) => element("button", { type: "button", class: "plain", onclick }, text);
     words.append(
       element(

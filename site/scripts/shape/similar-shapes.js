@@ -8,11 +8,14 @@ import { writeSelection } from "../database/selection.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 
+/** @import { Bins } from "../database/bins.js" */
+
 const FIRST = 12;
 const MOST = 48;
 const MOST_NAMED = 4;
 
 export class SimilarShapes {
+  /** @param {Bins} bins */
   constructor(database, bins, state, { links, comparison, similarity }) {
     this.database = database;
     this.bins = bins;
@@ -92,6 +95,10 @@ export class SimilarShapes {
     return this.buttons;
   }
 
+  /**
+   * @param {string[] | HTMLElement[]} content
+   * @param {string | null} title
+   */
   #chip(content, onclick, title, pressed) {
     return { node: element("button", { type: "button", class: "compared", title, onclick }, content), pressed };
   }
@@ -184,7 +191,10 @@ export class SimilarShapes {
     return words;
   }
 
-  /** This shape and those found, selected on another page. */
+  /**
+   * This shape and those found, selected on another page.
+   * @param {string} file
+   */
   #together(shape, file) {
     const query = new URLSearchParams();
     writeSelection(query, this.database, new Set([shape, ...this.found.map(({ row }) => row)]));

@@ -3,6 +3,8 @@
 // The distance of two shapes is the Euclidean distance of the values that projections compare: every feature divided by
 // its root mean square norm over the database, or every chosen bin by its standard deviation; "plain" tables as they are.
 
+/** @import { Bins } from "../database/bins.js" */
+
 /** Distances whose squares differ by less than this fraction are equal. */
 const TIE = 1e-9;
 
@@ -10,7 +12,10 @@ const TIE = 1e-9;
 const NOTHING = 1e-12;
 
 export class Similarity {
-  /** `bins` is a Bins. */
+  /**
+   * `bins` is a Bins.
+   * @param {Bins} bins
+   */
   constructor(bins) {
     this.bins = bins;
   }
@@ -71,6 +76,7 @@ export class Similarity {
     return this.#last;
   }
 
+  /** @param {number} feature */
   #byFeature(row, feature) {
     const total = new Float64Array(this.bins.rows);
     for (const column of this.#columns(feature)) this.#addSquares(total, row, column, 1);
@@ -78,6 +84,11 @@ export class Similarity {
     return total.map((value) => value * weight);
   }
 
+  /**
+   * @param {number} weight
+   * @param {Float64Array} total
+   * @param {number} column
+   */
   #addSquares(total, row, column, weight) {
     const { steps, rows } = this.bins;
     const start = column * rows;
@@ -89,6 +100,7 @@ export class Similarity {
     }
   }
 
+  /** @param {number} feature */
   #columns(feature) {
     const { start, dimensions, bins } = this.bins.features[feature];
     return Array.from({ length: dimensions * bins }, (_, place) => start + place);
@@ -103,6 +115,7 @@ export class Similarity {
     return this.#columnWeights.get(column);
   }
 
+  /** @param {number} feature */
   #featureWeight(feature) {
     if (!this.bins.balanced) return 1;
     if (!this.#featureWeights.has(feature)) {
@@ -112,11 +125,15 @@ export class Similarity {
     return this.#featureWeights.get(feature);
   }
 
-  /** The mean squared distance of all shapes from their mean in one feature. */
+  /**
+   * The mean squared distance of all shapes from their mean in one feature.
+   * @param {number} feature
+   */
   #size(feature) {
     return this.#columns(feature).reduce((sum, column) => sum + this.#variance(column), 0);
   }
 
+  /** @param {number} column */
   #variance(column) {
     const { steps, rows } = this.bins;
     const start = column * rows;
@@ -138,7 +155,11 @@ function shareFarther(sorted, squared) {
   return (above + (sorted.length - below - above - 1) / 2) / others;
 }
 
-/** How many of some rising values are less than a limit, or at most that. */
+/**
+ * How many of some rising values are less than a limit, or at most that.
+ * @param {number} limit
+ * @param {boolean} included
+ */
 function countBelow(sorted, limit, included) {
   let [low, high] = [0, sorted.length];
   while (low < high) {

@@ -2,9 +2,12 @@
 
 import { quantile } from "../bins-kit/bin-card.js";
 
+/** @import { Bins } from "../database/bins.js" */
+
 const QUARTERS = [0.25, 0.5, 0.75];
 
 export class Spread {
+  /** @param {Bins} bins */
   constructor(database, bins) {
     this.database = database;
     this.bins = bins;
@@ -62,6 +65,7 @@ export class Spread {
 
   #means = new Map();
 
+  /** @param {number} column */
   #mean(column) {
     if (!this.#means.has(column)) {
       const { steps, rows } = this.bins;

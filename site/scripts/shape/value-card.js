@@ -3,10 +3,16 @@
 import { element } from "../base/dom.js";
 import { hue } from "./hue.js";
 
+/** @import { Bins } from "../database/bins.js" */
+
 const GAP = 8;
 
 export class ValueCard {
-  /** `kind` is what the groups are, a class or a cluster. */
+  /**
+   * `kind` is what the groups are, a class or a cluster.
+   * @param {Bins} bins
+   * @param {string} kind
+   */
   constructor(bins, kind) {
     this.bins = bins;
     this.kind = kind;
@@ -18,6 +24,7 @@ export class ValueCard {
   /** `told` is what `Histograms.tell` says of the column. */
   show(column, { own, fellows, all, rank }, bar) {
     const { bins, node } = this;
+    /** @param {string} name */
     const row = (name, value) => value !== null && [element("dt", {}, name), element("dd", {}, value)];
     node.replaceChildren(
       element("p", { class: "name" }, hue(bins.color(column)), element("bdi", {}, bins.names[column])),

@@ -5,7 +5,16 @@ import { pageAddress } from "../base/place.js";
 import { grouped } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 
-/** Watch the buttons above the gallery; returns what brings them up to date after sifting. */
+/** @import { Database } from "../database/database.js" */
+/** @import { Grid } from "./grid.js" */
+/** @import { Sieve } from "./sieve.js" */
+
+/**
+ * Watch the buttons above the gallery; returns what brings them up to date after sifting.
+ * @param {Database} database
+ * @param {Sieve} sieve
+ * @param {Grid} grid
+ */
 export function watchActions(database, sieve, grid, state) {
   const [select, map, compare, fold] = ["select-shown", "on-map", "compare-shown", "fold"].map((id) =>
     document.getElementById(id),
@@ -22,6 +31,10 @@ export function watchActions(database, sieve, grid, state) {
     only.hidden = state.get("only") || state.get("selection").size === 0;
   };
   // Many shapes make long addresses; they are made when they are wanted.
+  /**
+   * @param {Found} link
+   * @param {() => string} address
+   */
   const aim = (link, address) => {
     for (const kind of ["pointerdown", "focus", "click"]) {
       link.addEventListener(kind, () => {

@@ -3,9 +3,16 @@
 import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
 import { interval } from "./sieve.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Field, Fields } from "../database/fields.js" */
+
 export class Arrangement {
   #orders = new Map();
 
+  /**
+   * @param {Database} database
+   * @param {Fields} fields
+   */
   constructor(database, fields) {
     this.database = database;
     this.fields = fields;
@@ -51,6 +58,7 @@ function sorted({ byKey, byName }, sort, down) {
   });
 }
 
+/** @param {Field} field */
 function grouping(field) {
   if (field.names !== null) {
     return {

@@ -6,8 +6,16 @@ import { count } from "../base/words.js";
 import { numberText, valueName } from "../database/fields.js";
 import { ofAtMost } from "../database/hit-range.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Fields } from "../database/fields.js" */
+
 /** Makes the cells; knows what stands below a picture while shapes are grouped and sorted as they are. */
 export class Cells {
+  /**
+   * @param {Database} database
+   * @param {Fields} fields
+   * @param {{ group: string | null, sort: string, down: boolean }} parts
+   */
   constructor(database, fields, { group, sort }) {
     this.database = database;
     this.active = fields.active;
@@ -83,6 +91,10 @@ export class Cells {
   }
 }
 
+/**
+ * @param {string} label
+ * @param {boolean} checked
+ */
 function tick(label, checked) {
   const box = element("input", { type: "checkbox", class: "tick", tabindex: "-1", "aria-label": label });
   box.checked = checked;

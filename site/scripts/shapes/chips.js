@@ -4,10 +4,16 @@ import { element } from "../base/dom.js";
 import { count, grouped, shortened } from "../base/words.js";
 import { numberText, valueName } from "../database/fields.js";
 
+/** @import { Field, Fields } from "../database/fields.js" */
+/** @import { Sieve } from "./sieve.js" */
+
 const MOST_NAMES = 3;
 const LONGEST = 40;
 
-/** The filters in use, in words: `{ key, title, text }`; the search first, then the selection. */
+/**
+ * The filters in use, in words: `{ key, title, text }`; the search first, then the selection.
+ * @param {Fields} fields
+ */
 function activeFilters(fields, state) {
   const query = state.get("query");
   const search = query === "" ? [] : [{ key: "search", title: "Search", text: `“${shortened(query, LONGEST)}”` }];
@@ -19,6 +25,7 @@ function activeFilters(fields, state) {
   ];
 }
 
+/** @param {Field} field */
 function describe(field, key, filter) {
   const title = field.title;
   if (!(filter instanceof Set))
@@ -28,12 +35,19 @@ function describe(field, key, filter) {
   return { key, title, text: names.slice(0, MOST_NAMES).join(", ") + (rest > 0 ? ` and ${rest} more` : "") };
 }
 
-/** The name of a node or a value that is filtered by. */
+/**
+ * The name of a node or a value that is filtered by.
+ * @param {Field} field
+ */
 export function nameOf(field, value) {
   return field.tree === null || value < 0 ? valueName(field, value) : field.tree.ways[value].join(" / ");
 }
 
 export class Chips {
+  /**
+   * @param {Fields} fields
+   * @param {Sieve} sieve
+   */
   constructor(fields, sieve, state) {
     this.fields = fields;
     this.sieve = sieve;

@@ -4,7 +4,14 @@ import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
 import { isBelowOne, rangeOf } from "../database/hit-range.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Field, Fields } from "../database/fields.js" */
+
 export class Controls {
+  /**
+   * @param {Database} database
+   * @param {Fields} fields
+   */
   constructor(database, fields, state) {
     this.database = database;
     this.fields = fields;
@@ -15,6 +22,7 @@ export class Controls {
     this.size = document.getElementById("size");
     this.fold = document.getElementById("fold");
     this.note = document.getElementById("sort-note");
+    /** @param {Field} field */
     const option = (field) => element("option", { value: field.key }, field.title);
     this.group.append(element("option", { value: "" }, "Nothing"), ...fields.groupable.map(option));
     this.sort.append(element("option", { value: "" }, "Name"), ...fields.sortable.map(option));

@@ -1,9 +1,13 @@
 // The filters beside the gallery: trees, values with counts, ranges. Each counts the shapes that all others let pass.
 
-import { element, swatch } from "../base/dom.js";
+import { element, focused, swatch } from "../base/dom.js";
 import { count, grouped } from "../base/words.js";
 import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
 import { Tree } from "./tree.js";
+
+/** @import { Database } from "../database/database.js" */
+/** @import { Field, Fields } from "../database/fields.js" */
+/** @import { Sieve } from "./sieve.js" */
 
 /** Values shown of a long list until one asks for more. */
 const FEW = 8;
@@ -14,6 +18,11 @@ const MOST = 200;
 const OPEN = 3;
 
 export class Facets {
+  /**
+   * @param {Database} database
+   * @param {Fields} fields
+   * @param {Sieve} sieve
+   */
   constructor(database, fields, sieve, state) {
     this.state = state;
     const parts = { database, sieve, state, change: (key, filter) => this.#change(key, filter) };
@@ -41,6 +50,7 @@ export class Facets {
   }
 }
 
+/** @param {Field} field */
 function kind({ tree, edges }) {
   if (tree !== null) return Tree;
   return edges === null ? Choice : Range;
@@ -48,6 +58,7 @@ function kind({ tree, edges }) {
 
 /** What folds a filter away. */
 class Facet {
+  /** @param {Field} field */
   constructor(field, Kind, parts) {
     this.field = field;
     this.state = parts.state;
@@ -106,6 +117,7 @@ class Choice {
     this.show(this.filter);
   }
 
+  /** @param {number} value */
   #toggle(value) {
     const filter = new Set(this.filter);
     if (!filter.delete(value)) filter.add(value);
@@ -124,11 +136,11 @@ class Choice {
     const usual = typed !== "" || field.active ? MOST : FEW;
     const few = this.#all && typed === "" ? Infinity : usual;
     const shown = found.filter((value, place) => place < few || filter?.has(value));
-    const focused = this.list.contains(document.activeElement) ? document.activeElement.value : null;
+    const kept = this.list.contains(focused()) ? focused().value : null;
     this.list.replaceChildren(
       ...shown.map((value) => this.#item(value, counts.at(value), filter?.has(value) ?? false)),
     );
-    if (focused !== null) this.list.querySelector(`input[value="${focused}"]`)?.focus();
+    if (kept !== null) this.list.querySelector(`input[value="${kept}"]`)?.focus();
     this.more.hidden = found.length <= usual || typed !== "";
     this.more.textContent = this.#all ? "Fewer" : `All ${grouped(found.length)}`;
   }
@@ -161,6 +173,7 @@ class Range {
     this.change = change;
     const intervals = field.edges.length - 1;
     const title = field.title;
+    /** @param {string} side */
     const thumb = (side) =>
       element("input", {
         type: "range",
@@ -188,6 +201,7 @@ class Range {
     );
   }
 
+  /** @param {string} side */
   #slide(side) {
     const { edges } = this.field;
     let [low, high] = [Number(this.low.value), Number(this.high.value)];
@@ -198,13 +212,17 @@ class Range {
     this.#place(low, high);
   }
 
+  /**
+   * @param {number} low
+   * @param {number} high
+   */
   #place(low, high) {
     const { field } = this;
-    this.low.value = low;
-    this.high.value = high;
+    this.low.value = String(low);
+    this.high.value = String(high);
     this.low.setAttribute("aria-valuetext", numberText(field.edges[low], field));
     this.high.setAttribute("aria-valuetext", numberText(field.edges[high], field));
-    for (const [place, bar] of [...this.bars.children].entries())
+    for (const [place, bar] of /** @type {HTMLElement[]} */ ([...this.bars.children]).entries())
       bar.classList.toggle("within", place >= low && place < high);
   }
 
@@ -213,7 +231,7 @@ class Range {
     const { edges, unit } = field;
     const counts = this.sieve.countsOfIntervals(field);
     const most = Math.max(...counts, 1);
-    for (const [place, bar] of [...this.bars.children].entries()) {
+    for (const [place, bar] of /** @type {HTMLElement[]} */ ([...this.bars.children]).entries()) {
       // The smallest group is seen too.
       bar.style.height = counts[place] === 0 ? "0" : `${Math.max((counts[place] / most) * 100, 4)}%`;
       bar.title = `${numberText(edges[place], field)} to ${numberText(edges[place + 1], field)}: ${count(counts[place], "shape")}`;

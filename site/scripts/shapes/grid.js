@@ -3,6 +3,8 @@
 import { element } from "../base/dom.js";
 import { layOut, rowAt } from "./layout.js";
 
+/** @import { Database } from "../database/database.js" */
+
 /** Pixels above and below the window that are drawn already. */
 const AHEAD = 500;
 
@@ -21,6 +23,7 @@ export class Grid {
   #top = 0;
   #held = null;
 
+  /** @param {Database} database */
   constructor(database, state) {
     this.database = database;
     this.state = state;
@@ -34,7 +37,10 @@ export class Grid {
     new ResizeObserver(() => this.#resize()).observe(this.node);
   }
 
-  /** Show groups of shapes as cells; what is at the top stays there if it can, unless `fromTop`. */
+  /**
+   * Show groups of shapes as cells; what is at the top stays there if it can, unless `fromTop`.
+   * @param {boolean} fromTop
+   */
   show(groups, cells, fromTop) {
     const anchor = fromTop ? null : this.#anchor();
     const focused = this.node.contains(document.activeElement);
@@ -85,7 +91,7 @@ export class Grid {
     const { height, columns, cell, gap, captioned, rows } = this.layout;
     this.node.replaceChildren();
     this.node.style.height = `${height}px`;
-    this.node.style.setProperty("--columns", columns);
+    this.node.style.setProperty("--columns", String(columns));
     this.node.style.setProperty("--cell", `${cell}px`);
     this.node.style.setProperty("--gap", `${gap}px`);
     this.node.classList.toggle("captioned", captioned);
@@ -111,6 +117,7 @@ export class Grid {
     return parseFloat(getComputedStyle(this.node).getPropertyValue("--covered-above")) || 0;
   }
 
+  /** @param {number} distance */
   #scrollBy(distance) {
     (this.#framed() ? this.scroller : window).scrollBy({ top: distance, behavior: "instant" });
   }
@@ -177,6 +184,7 @@ export class Grid {
     this.#top = top;
   }
 
+  /** @param {boolean} rushing */
   #showPictures(rushing) {
     clearTimeout(this.calming);
     if (rushing) {
@@ -277,6 +285,10 @@ export class Grid {
   }
 
   // While the focus is elsewhere, the Tab key leads to what is in sight.
+  /**
+   * @param {number} top
+   * @param {number} bottom
+   */
   #moveTabStop(top, bottom) {
     const { rows, sequence } = this.layout;
     const row = this.#rowOfActive();
@@ -323,7 +335,10 @@ export class Grid {
     else if (end > bottom) this.#scrollBy(end - bottom);
   }
 
-  /** Begin at a shape: it is in the middle of the window, and the Tab key leads to it. */
+  /**
+   * Begin at a shape: it is in the middle of the window, and the Tab key leads to it.
+   * @param {number | null} shape
+   */
   start(shape) {
     this.active = { shape, head: null };
     this.reveal();

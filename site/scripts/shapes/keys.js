@@ -2,10 +2,13 @@
 
 import { rowAt } from "./layout.js";
 
+/** @import { Grid } from "./grid.js" */
+
 export class Keys {
   /** Where a range of selected shapes starts. */
   #start = null;
 
+  /** @param {Grid} grid */
   constructor(grid, state, { leave }) {
     this.grid = grid;
     this.state = state;
@@ -15,6 +18,7 @@ export class Keys {
     grid.node.addEventListener("focusin", (event) => this.#follow(event.target));
   }
 
+  /** @param {PointerEvent & Targeted} event */
   #click(event) {
     const cell = event.target.closest(".cell");
     const shape = cell === null ? null : Number(cell.dataset.row);
@@ -29,6 +33,10 @@ export class Keys {
     else if (event.target.closest(".fold")) this.#fold(event.target.closest(".fold").dataset.group);
   }
 
+  /**
+   * @param {number} shape
+   * @param {boolean} extend
+   */
   #toggle(shape, extend) {
     const selection = new Set(this.state.get("selection"));
     const { placeOf, layout } = this.grid;
@@ -52,6 +60,7 @@ export class Keys {
     this.state.set({ selection });
   }
 
+  /** @param {string} key */
   #fold(key) {
     const closed = new Set(this.state.get("closed"));
     if (!closed.delete(key)) closed.add(key);
@@ -70,6 +79,7 @@ export class Keys {
     this.grid.draw();
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     const { grid } = this;
     if (event.altKey) return;
@@ -101,7 +111,10 @@ export class Keys {
     } else grid.go(next);
   }
 
-  /** Where a key leads; null for nowhere, undefined for a key that does not move. */
+  /**
+   * Where a key leads; null for nowhere, undefined for a key that does not move.
+   * @param {string} key
+   */
   #next(key) {
     const { grid } = this;
     const { layout, placeOf } = grid;
@@ -127,11 +140,16 @@ export class Keys {
     return undefined;
   }
 
+  /** @param {number} place */
   #at(place) {
     const { sequence } = this.grid.layout;
     return place < 0 || place >= sequence.length ? null : { shape: sequence[place], head: null };
   }
 
+  /**
+   * @param {number} index
+   * @param {number} column
+   */
   #inRow(index, column) {
     const { rows, sequence } = this.grid.layout;
     const row = rows[Math.min(Math.max(index, 0), rows.length - 1)];

@@ -55,7 +55,10 @@ export function layOut(groups, closed, { width, size, lines, text }) {
   };
 }
 
-/** The first row that ends below a place. */
+/**
+ * The first row that ends below a place.
+ * @param {number} place
+ */
 export function rowAt(rows, place) {
   let [low, high] = [0, rows.length];
   while (low < high) {

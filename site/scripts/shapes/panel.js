@@ -2,7 +2,10 @@
 
 import { count } from "../base/words.js";
 
+/** @import { Sieve } from "./sieve.js" */
+
 export class Panel {
+  /** @param {Sieve} sieve */
   constructor(sieve, state) {
     this.sieve = sieve;
     this.state = state;
@@ -36,6 +39,7 @@ export class Panel {
     this.opener.focus();
   }
 
+  /** @param {boolean} shown */
   #cover(shown) {
     this.node.classList.toggle("shown", shown);
     this.opener.setAttribute("aria-expanded", String(shown));

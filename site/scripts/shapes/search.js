@@ -2,10 +2,15 @@
 
 import { findWords, searchTexts } from "../database/search.js";
 
+/** @import { Database } from "../database/database.js" */
+
 /** What the search looks through, made with the first search. */
 let texts = null;
 
-/** The shapes that the words of the search find; null without words. */
+/**
+ * The shapes that the words of the search find; null without words.
+ * @param {Database} database
+ */
 export async function search(database, state) {
   const query = state.get("query");
   if (query === "") {

@@ -2,9 +2,16 @@
 
 import { NONE } from "../database/fields.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Field, Fields } from "../database/fields.js" */
+
 export class Sieve {
   #failing = new WeakMap();
 
+  /**
+   * @param {Database} database
+   * @param {Fields} fields
+   */
   constructor(database, fields) {
     this.database = database;
     this.fields = fields;
@@ -17,6 +24,7 @@ export class Sieve {
   /**
    * Sift the shapes: `matches` (of the search) and `only` are sets of shapes or null, `filters` a map from the key of a field to a set of values
    * (or nodes), or to a range `{ low, high }`. Both are never changed, only replaced.
+   * @param {Set<number> | null} only
    */
   sift(matches, only, filters) {
     this.conditions = new Map();
@@ -56,6 +64,7 @@ export class Sieve {
     return this.#failing.get(filter);
   }
 
+  /** @param {number} row */
   passes(row) {
     return this.failures[row] === 0;
   }
@@ -65,6 +74,7 @@ export class Sieve {
     return this.#remaining(this.conditions.get(key) ?? this.everything);
   }
 
+  /** @param {Uint8Array} own */
   #remaining(own) {
     let size = 0;
     for (let row = 0; row < own.length; row += 1) size += this.failures[row] === own[row] ? 1 : 0;
@@ -88,7 +98,10 @@ export class Sieve {
     return counts;
   }
 
-  /** The same for the intervals of a field of numbers. */
+  /**
+   * The same for the intervals of a field of numbers.
+   * @param {Field} field
+   */
   countsOfIntervals({ key, numbers, edges }) {
     const counts = new Int32Array(edges.length - 1);
     this.#each(key, (row) => {
@@ -97,13 +110,18 @@ export class Sieve {
     return counts;
   }
 
+  /** @param {string} key */
   #each(key, visit) {
     const own = this.conditions.get(key) ?? this.everything;
     for (let row = 0; row < own.length; row += 1) if (this.failures[row] === own[row]) visit(row);
   }
 }
 
-/** The interval that a number lies in; the last one holds its upper edge too. */
+/**
+ * The interval that a number lies in; the last one holds its upper edge too.
+ * @param {number[] | null} edges
+ * @param {number} number
+ */
 export function interval(edges, number) {
   let [low, high] = [0, edges.length - 2];
   while (low < high) {

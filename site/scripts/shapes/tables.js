@@ -4,9 +4,18 @@ import { table } from "../base/tables.js";
 import { count, grouped } from "../base/words.js";
 import { NONE, numberText, valueName } from "../database/fields.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Field, Fields } from "../database/fields.js" */
+/** @import { Sieve } from "./sieve.js" */
+
 const MOST_SHAPES = 200;
 const MOST_VALUES = 100;
 
+/**
+ * @param {Database} database
+ * @param {Fields} fields
+ * @param {Sieve} sieve
+ */
 export function galleryTables(database, fields, sieve, groups) {
   const rows = groups.flatMap((group) => [...group.rows]);
   const title = rows.length > MOST_SHAPES ? `The first ${MOST_SHAPES} of ${count(rows.length, "shape")}` : "Shapes";
@@ -25,11 +34,16 @@ export function galleryTables(database, fields, sieve, groups) {
   };
 }
 
+/** @param {Field} field */
 function cell(field, row) {
   if (field.numbers !== null) return numberText(field.numbers[row], field);
   return field.of[row] === NONE ? "–" : field.names[field.of[row]];
 }
 
+/**
+ * @param {Field} field
+ * @param {Sieve} sieve
+ */
 function counted(field, sieve) {
   if (field.edges !== null) {
     const counts = sieve.countsOfIntervals(field);

@@ -33,10 +33,12 @@ export class Tree {
     });
   }
 
+  /** @param {number} node */
   #parent(node) {
     return node === NONE ? undefined : this.field.tree.nodes[node].parent;
   }
 
+  /** @param {number} node */
   #above(node) {
     const found = [];
     for (let above = this.#parent(node); above >= 0; above = this.#parent(above)) found.push(above);
@@ -62,6 +64,10 @@ export class Tree {
     if (focused) this.#items.get(this.active).focus();
   }
 
+  /**
+   * @param {number} node
+   * @param {number} level
+   */
   #item(node, level) {
     const children = this.children.get(node);
     const open = this.#open.has(node);
@@ -104,13 +110,17 @@ export class Tree {
     return this.field.names === null ? "no folder" : valueName(this.field, NONE);
   }
 
+  /** @param {number} node */
   #checked(node) {
     if (!this.filter) return "false";
     if (this.filter.has(node) || this.#above(node).some((above) => this.filter.has(above))) return "true";
     return [...this.filter].some((other) => this.#above(other).includes(node)) ? "mixed" : "false";
   }
 
-  /** Filter by a node: in place of all below it; of a class that was taken as a whole, by this part alone. */
+  /**
+   * Filter by a node: in place of all below it; of a class that was taken as a whole, by this part alone.
+   * @param {number} node
+   */
   #toggle(node) {
     const filter = new Set(this.filter);
     if (!filter.delete(node)) {
@@ -123,6 +133,10 @@ export class Tree {
     this.change(this.field.key, filter.size > 0 ? filter : null);
   }
 
+  /**
+   * @param {number} node
+   * @param {boolean} open
+   */
   #fold(node, open) {
     if (open) this.#open.add(node);
     else this.#open.delete(node);
@@ -130,6 +144,7 @@ export class Tree {
     this.#draw();
   }
 
+  /** @param {PointerEvent & Targeted} event */
   #click(event) {
     const item = event.target.closest("[role=treeitem]");
     if (!item) return;
@@ -138,6 +153,7 @@ export class Tree {
     else this.#toggle(node);
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const node = this.active;
@@ -158,6 +174,7 @@ export class Tree {
     event.preventDefault();
   }
 
+  /** @param {number} node */
   #go(node) {
     if (!this.#items.has(node)) return;
     this.#items.get(this.active).tabIndex = -1;

@@ -4,7 +4,12 @@ import { element } from "../base/dom.js";
 import { linkedPage, pageAddress, readHash } from "../base/place.js";
 import { isSelection, writeSelection } from "../database/selection.js";
 
-/** Let all links of a page carry the selection in its state. */
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * Let all links of a page carry the selection in its state.
+ * @param {Database} database
+ */
 export function carrySelection(database, state) {
   carry(() => {
     const query = new URLSearchParams();
@@ -18,7 +23,10 @@ export function carryAddress() {
   carry(() => new URLSearchParams([...readHash()].filter(([name]) => isSelection(name))));
 }
 
-/** Go to a page of the site as if a link had been followed. */
+/**
+ * Go to a page of the site as if a link had been followed.
+ * @param {string} address
+ */
 export function follow(address) {
   const link = element("a", { href: address, hidden: true });
   document.body.append(link);
@@ -26,6 +34,7 @@ export function follow(address) {
   link.remove();
 }
 
+/** @param {() => URLSearchParams} selection */
 function carry(selection) {
   /** Addresses that were written here, by link: any other selection in a link is the link's own business. */
   const written = new WeakMap();

@@ -24,7 +24,10 @@ export function saveJson(database, chosen) {
   saveText("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
 }
 
-/** Rows as lines of comma-separated values. */
+/**
+ * Rows as lines of comma-separated values.
+ * @param {(string | number)[][]} rows
+ */
 export function csvText(rows) {
   return `${rows.map((row) => row.map(quoted).join(",")).join("\n")}\n`;
 }
@@ -32,14 +35,22 @@ export function csvText(rows) {
 const NUMBER = /^[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?$/i;
 const FORMULA = /^'*[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]/;
 
-/** A cell; text that a spreadsheet program would take for a formula has an apostrophe before it, as cells.py writes it. */
+/**
+ * A cell; text that a spreadsheet program would take for a formula has an apostrophe before it, as cells.py writes it.
+ * @param {string | number} value
+ */
 function quoted(value) {
   const plain = String(value);
   const text = typeof value === "string" && FORMULA.test(plain) && !NUMBER.test(plain) ? `'${plain}` : plain;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
-/** Hand a text to the reader as a file. */
+/**
+ * Hand a text to the reader as a file.
+ * @param {string} name
+ * @param {string} type
+ * @param {string} text
+ */
 export function saveText(name, type, text) {
   const address = URL.createObjectURL(new Blob([text], { type }));
   const link = document.createElement("a");

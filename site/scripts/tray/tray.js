@@ -2,11 +2,13 @@
 
 import { compareAddress } from "../addresses/compare.js";
 import { galleryOf } from "../addresses/shapes.js";
-import { element, picture, swatch } from "../base/dom.js";
+import { element, focused, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, shortened } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { saveCsv, saveJson } from "./export.js";
+
+/** @import { Database } from "../database/database.js" */
 
 const PAGE = 200;
 const MOST_CLASSES = 8;
@@ -16,6 +18,7 @@ export class Tray {
    * `open` is called with the shape whose picture is clicked, `point` with the one under the pointer, or null. `hint` is
    * said while nothing is selected; without one the tray is then not there. `cover` is told how many pixels of what is
    * above it the tray covers.
+   * @param {Database} database
    */
   constructor(database, state, { open, point = (_) => {}, hint = null, cover = (_) => {} }) {
     this.database = database;
@@ -69,6 +72,7 @@ export class Tray {
   #head(selection) {
     const { database } = this;
     const census = database.census(selection);
+    /** @param {string} name */
     const save = (name, to) =>
       element(
         "button",
@@ -152,7 +156,7 @@ export class Tray {
     more.addEventListener("click", extend);
     strip.append(more);
     extend();
-    strip.firstElementChild.tabIndex = 0;
+    /** @type {HTMLElement} */ (strip.firstElementChild).tabIndex = 0;
     return strip;
   }
 
@@ -178,12 +182,13 @@ export class Tray {
     );
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     const steps = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
     if (!(event.key in steps)) return;
     event.preventDefault();
     const items = [...event.currentTarget.querySelectorAll(".shape")];
-    const here = items.indexOf(document.activeElement);
+    const here = items.indexOf(focused());
     const next = Math.min(Math.max(here + steps[event.key], 0), items.length - 1);
     for (const item of items) item.tabIndex = -1;
     items[next].tabIndex = 0;

@@ -1,10 +1,17 @@
 // The 3D model of a shape, from the bytes that shapeviz_report/models.py packs.
 
+/**
+ * A shape as it is drawn.
+ * @typedef {ReturnType<typeof unpackModel>} Model
+ */
+
 const POSITION_STEPS = 8191;
 
+/** @param {ArrayBuffer} buffer */
 export function unpackModel(buffer) {
   const [vertexCount, faceCount, dimensions] = new Uint32Array(buffer, 0, 3);
   let at = 12;
+  /** @type {<Part extends { byteLength: number }>(Kind: { new (bytes: ArrayBuffer): Part, BYTES_PER_ELEMENT: number }, length: number) => Part} */
   const take = (Kind, length) => {
     // Parts follow each other without gaps, so that not every one starts where its kind may.
     const part = new Kind(buffer.slice(at, at + length * Kind.BYTES_PER_ELEMENT));
@@ -36,7 +43,10 @@ export function unpackModel(buffer) {
     view,
     positions,
     faces,
-    /** The bin from 0 of every vertex in one dimension of the descriptors. */
+    /**
+     * The bin from 0 of every vertex in one dimension of the descriptors.
+     * @param {number} dimension
+     */
     bins(dimension) {
       const row = nibbles.subarray(dimension * Math.ceil(vertexCount / 2));
       return Uint8Array.from({ length: vertexCount }, (_, vertex) => (row[vertex >> 1] >> (4 * (vertex & 1))) & 15);

@@ -1,29 +1,45 @@
 // Colours of a model's vertices, in linear light: plain clay, the values of a descriptor, what falls into one bin.
 
+/** @import { Model } from "./model.js" */
+
 export class Paint {
-  /** `ramp` has a colour a bin, "#rrggbb"; `clay` and `marked` are colours in linear light: the chunk "selection". */
+  /** @param {Pick<Chunk.Selection, "ramp" | "clay" | "marked">} selection */
   constructor({ ramp, clay, marked }) {
     this.ramp = ramp.map(linear);
     this.clay = clay;
     this.marked = marked;
   }
 
+  /** @param {Model} solid */
   plain(solid) {
     return this.#fill(solid, () => this.clay);
   }
 
-  /** The bins of one dimension of the descriptors, from low to high values. */
+  /**
+   * The bins of one dimension of the descriptors, from low to high values.
+   * @param {Model} solid
+   * @param {number} dimension
+   */
   values(solid, dimension) {
     const bins = solid.bins(dimension);
     return this.#fill(solid, (vertex) => this.ramp[bins[vertex]]);
   }
 
-  /** What falls into bin `place`, from 0, of a dimension. */
+  /**
+   * What falls into bin `place`, from 0, of a dimension.
+   * @param {Model} solid
+   * @param {number} dimension
+   * @param {number} place
+   */
   inside(solid, dimension, place) {
     const bins = solid.bins(dimension);
     return this.#fill(solid, (vertex) => (bins[vertex] === place ? this.marked : this.clay));
   }
 
+  /**
+   * @param {Model} solid
+   * @param {(vertex: number) => number[]} colorOf
+   */
   #fill({ vertexCount }, colorOf) {
     const colors = new Float32Array(3 * vertexCount);
     for (let vertex = 0; vertex < vertexCount; vertex += 1) colors.set(colorOf(vertex), 3 * vertex);
@@ -31,6 +47,7 @@ export class Paint {
   }
 }
 
+/** @param {string} code */
 function linear(code) {
   return [1, 3, 5].map((at) => {
     const value = Number.parseInt(code.slice(at, at + 2), 16) / 255;

@@ -1,8 +1,19 @@
 // The corners of a model's faces with the normals they are lit by: smooth over curved parts, split at creases.
 
+/** @import { Model } from "./model.js" */
+
+/**
+ * Corners, three numbers each, and the vertex of each.
+ * @typedef {{ positions: Float32Array, normals: Float32Array, source: Uint32Array }} Corners
+ */
+
 const CREASE_COSINE = Math.cos((40 * Math.PI) / 180);
 
-/** `positions` and `normals` of all corners, three numbers each, and the `source` vertex of each. */
+/**
+ * `positions` and `normals` of all corners, three numbers each, and the `source` vertex of each.
+ * @param {Pick<Model, "positions" | "faces" | "vertexCount">} model
+ * @returns {Corners}
+ */
 export function cornersOf({ positions, faces, vertexCount }) {
   const faceCount = faces.length / 3;
   const planes = new Float32Array(faces.length);
@@ -46,24 +57,44 @@ export function cornersOf({ positions, faces, vertexCount }) {
   return corners;
 }
 
+/**
+ * @param {Float32Array} positions
+ * @param {number} vertex
+ */
 function point(positions, vertex) {
   return positions.subarray(3 * vertex, 3 * vertex + 3);
 }
 
+/**
+ * @param {ArrayLike<number>} a
+ * @param {ArrayLike<number>} b
+ */
 function minus(a, b) {
   return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 }
 
+/**
+ * @param {number[]} a
+ * @param {number[]} b
+ */
 function cross(a, b) {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
-/** Of length 1; a vector without a direction stays zero. */
+/**
+ * Of length 1; a vector without a direction stays zero.
+ * @param {number[]} vector
+ */
 function unit(vector) {
   const length = Math.hypot(...vector) || 1;
   return vector.map((value) => value / length);
 }
 
+/**
+ * @param {ArrayLike<number>} corner
+ * @param {ArrayLike<number>} one
+ * @param {ArrayLike<number>} other
+ */
 function angleAt(corner, one, other) {
   const [a, b] = [unit(minus(one, corner)), unit(minus(other, corner))];
   return Math.acos(Math.min(Math.max(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -1), 1));

@@ -2,6 +2,9 @@
 
 import { cornersOf } from "./surface.js";
 
+/** @import { Model } from "./model.js" */
+/** @import { Corners } from "./surface.js" */
+
 // The eye's distance in radii of the shape, as in its picture: a long lens, mild perspective.
 const DISTANCE = 5;
 const MARGIN = 0.04;
@@ -57,10 +60,39 @@ export function canDraw() {
 }
 
 export class View {
-  /** `turned` is called after the reader turned or scaled the shape. */
+  // What the graphics card has: made anew whenever it was taken away.
+  /** @type {WebGL2RenderingContext} */
+  gl;
+  /** @type {WebGLProgram} */
+  program;
+  /** @type {WebGLVertexArrayObject} */
+  array;
+  /** @type {Record<string, WebGLBuffer>} */
+  buffers;
+
+  // What is shown: colours a vertex, the corners' ball, and how the reader turned it.
+  /** @type {Model | null} */
+  model = null;
+  /** @type {Float32Array} */
+  colors;
+  /** @type {Corners} */
+  corners;
+  middle = [0, 0, 0];
+  radius = 1;
+  /** @type {number[]} */
+  turn;
+  zoom = 1;
+  /** @type {number | null} */
+  #asked = null;
+
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {{ turned?: () => void }} [options] called after the reader turned or scaled the shape
+   */
   constructor(canvas, { turned = () => {} } = {}) {
     this.canvas = canvas;
     this.turned = turned;
+    /** @type {Map<number, [number, number]>} */
     this.pointers = new Map();
     this.#prepare();
     // A browser may take the graphics card away at any time, and give it back.
@@ -77,13 +109,16 @@ export class View {
   /**
    * Show a model (see model.js) in linear colours, three numbers a vertex; in the view of its picture, unless the
    * view of the model before is to be kept.
+   * @param {Model} model
+   * @param {Float32Array} colors
+   * @param {{ keep?: boolean }} [options]
    */
   show(model, colors, { keep = false } = {}) {
     const { gl } = this;
     if (model !== this.model || keep) {
       this.model = model;
       this.corners = cornersOf(model);
-      this.#measure();
+      this.#measure(model.positions);
       this.#fill("position", this.corners.positions);
       this.#fill("normal", this.corners.normals);
     }
@@ -92,7 +127,10 @@ export class View {
     gl.bindVertexArray(this.array);
   }
 
-  /** Give the same shape other colours. */
+  /**
+   * Give the same shape other colours.
+   * @param {Float32Array} colors
+   */
   paint(colors) {
     this.colors = colors;
     const { source } = this.corners;
@@ -106,13 +144,18 @@ export class View {
   }
 
   reset() {
+    if (!this.model) return;
     this.turn = Array.from(this.model.view);
     this.zoom = 1;
     this.draw();
     this.turned();
   }
 
-  /** Turn by angles to the right and upwards, in radians. */
+  /**
+   * Turn by angles to the right and upwards, in radians.
+   * @param {number} right
+   * @param {number} up
+   */
   rotate(right, up) {
     const [c, s, d, t] = [Math.cos(right), Math.sin(right), Math.cos(up), Math.sin(up)];
     const step = [c, 0, s, -t * -s, d, -t * c, -s * d, t, c * d];
@@ -125,6 +168,7 @@ export class View {
     this.turned();
   }
 
+  /** @param {number} factor */
   scale(factor) {
     this.zoom = Math.min(Math.max(this.zoom * factor, FARTHEST), CLOSEST);
     this.draw();
@@ -133,9 +177,9 @@ export class View {
 
   /** Draw before the browser paints next. */
   draw() {
-    if (!this.model || this.asked) return;
-    this.asked = requestAnimationFrame(() => {
-      this.asked = null;
+    if (!this.model || this.#asked) return;
+    this.#asked = requestAnimationFrame(() => {
+      this.#asked = null;
       this.#drawNow();
     });
   }
@@ -146,14 +190,15 @@ export class View {
   }
 
   #prepare() {
-    const gl = this.canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
+    const context = this.canvas.getContext("webgl2", { antialias: true, alpha: true, premultipliedAlpha: true });
+    const gl = /** @type {WebGL2RenderingContext} */ (context);
     this.gl = gl;
     this.program = gl.createProgram();
-    for (const [kind, source] of [
+    for (const [kind, source] of /** @type {[number, string][]} */ ([
       [gl.VERTEX_SHADER, VERTICES],
       [gl.FRAGMENT_SHADER, FRAGMENTS],
-    ]) {
-      const shader = gl.createShader(kind);
+    ])) {
+      const shader = /** @type {WebGLShader} */ (gl.createShader(kind));
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
       gl.attachShader(this.program, shader);
@@ -166,6 +211,10 @@ export class View {
     this.buffers = { position: gl.createBuffer(), normal: gl.createBuffer(), color: gl.createBuffer() };
   }
 
+  /**
+   * @param {string} name
+   * @param {Float32Array} values
+   */
   #fill(name, values) {
     const { gl } = this;
     const place = gl.getAttribLocation(this.program, name);
@@ -176,9 +225,11 @@ export class View {
     gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
   }
 
-  /** The ball around the shape: turning about its middle keeps the shape in sight. */
-  #measure() {
-    const { positions } = this.model;
+  /**
+   * The ball around the shape: turning about its middle keeps the shape in sight.
+   * @param {Float32Array} positions
+   */
+  #measure(positions) {
     const [low, high] = [
       [Infinity, Infinity, Infinity],
       [-Infinity, -Infinity, -Infinity],
@@ -208,6 +259,7 @@ export class View {
     const side = Math.min(width, height);
     // The ball, seen from the eye, fills the shorter side.
     const lens = Math.sqrt(DISTANCE ** 2 - 1) * (1 - 2 * MARGIN) * this.zoom;
+    /** @param {string} name */
     const at = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, width, height);
     gl.clearColor(0, 0, 0, 0);
@@ -240,7 +292,7 @@ export class View {
       const turn = Math.PI / Math.max(Math.min(canvas.clientWidth, canvas.clientHeight), 1);
       this.rotate((event.clientX - before[0]) * turn, (event.clientY - before[1]) * turn);
     });
-    for (const name of ["pointerup", "pointercancel"]) {
+    for (const name of /** @type {const} */ (["pointerup", "pointercancel"])) {
       canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
     }
     canvas.addEventListener("dblclick", () => this.reset());
@@ -257,6 +309,7 @@ export class View {
     canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || !this.model) return;
       const step = Math.PI / 18;
+      /** @type {Record<string, [number, number]>} */
       const turns = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
       if (event.key in turns) this.rotate(...turns[event.key]);
       else if (event.key === "+" || event.key === "=") this.scale(1.2);

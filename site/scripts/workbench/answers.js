@@ -7,6 +7,10 @@ import { Subsets } from "../database/subsets.js";
 import { startEngine } from "../engine/client.js";
 import { contests } from "./separation.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Listener } from "../engine/client.js" */
+
 const SCORE_STEPS = 65535;
 
 /** As many engines score at once, beside the one that lays out; each holds the whole table. */
@@ -18,6 +22,11 @@ export class Answers {
   #engines = [];
   #contests = new Map();
 
+  /**
+   * @param {Database} database
+   * @param {Chunk.Workbench} data
+   * @param {Bins} bins
+   */
   constructor(database, data, bins) {
     this.database = database;
     this.data = data;
@@ -25,7 +34,10 @@ export class Answers {
     this.titles = new Map(database.data.methods.map(({ key, title, note }) => [key, { title, note }]));
   }
 
-  /** An engine by its number, started when first needed, and again after it could not be started. */
+  /**
+   * An engine by its number, started when first needed, and again after it could not be started.
+   * @param {number} number
+   */
   #engine(number) {
     this.#engines[number] ??= this.#start().catch((error) => {
       delete this.#engines[number];
@@ -57,7 +69,10 @@ export class Answers {
     return sample ? sampled(rows, groups) : rows;
   }
 
-  /** Whether a map of all shapes that answers the question travels with the site. */
+  /**
+   * Whether a map of all shapes that answers the question travels with the site.
+   * @param {string} which
+   */
   hasMap(which, projection, { hidden, sample, features, bins }) {
     const { database, data } = this;
     if (hidden.size > 0 || sample) return false;
@@ -93,7 +108,10 @@ export class Answers {
     return this.#chain(async (run) => offline ?? this.#layout(run, asked, report, partial));
   }
 
-  /** Relative scores of all columns; no numbers for those of features that are not in use. */
+  /**
+   * Relative scores of all columns; no numbers for those of features that are not in use.
+   * @param {Listener} report
+   */
   scores(scorer, separation, step, report) {
     const { hidden, features } = step;
     const offline = this.#offlineScores(scorer, separation, hidden, features);
@@ -101,9 +119,14 @@ export class Answers {
     const columns = this.columns(features);
     const groups = this.groups(hidden);
     const rows = this.rows(step);
+    /** @param {number[]} chosen */
     const rowsOf = (chosen) => rows.filter((row) => chosen.includes(this.database.groups[row]));
     const asked = contests(separation, groups);
     const done = new Array(asked.length).fill(0);
+    /**
+     * @param {number} number
+     * @param {number} progress
+     */
     const tell = (number, progress) => {
       done[number] = progress;
       report({ progress: done.reduce((sum, share) => sum + share, 0) / asked.length });
@@ -112,6 +135,7 @@ export class Answers {
       const found = [];
       let next = 0;
       // Contests know nothing of each other, so several engines share them.
+      /** @param {number} engine */
       const lane = async (engine) => {
         for (let number = next++; number < asked.length; number = next++) {
           const { positive, negative } = asked[number];
@@ -135,6 +159,7 @@ export class Answers {
     });
   }
 
+  /** @param {string} key */
   #remember(key, scores) {
     this.#contests.set(key, scores);
     if (this.#contests.size > MOST_CONTESTS) this.#contests.delete(this.#contests.keys().next().value);
@@ -152,7 +177,10 @@ export class Answers {
     return all.map((value) => value / most);
   }
 
-  /** Classes in use that have a shape. */
+  /**
+   * Classes in use that have a shape.
+   * @param {Set<number>} hidden
+   */
   groups(hidden) {
     return this.database.classes.map((_, group) => group).filter((group) => !hidden.has(group));
   }
@@ -188,6 +216,10 @@ export class Answers {
     );
   }
 
+  /**
+   * @param {number} method
+   * @param {number[]} groups
+   */
   async #meanOfClasses(method, groups) {
     const steps = new Uint16Array(await chunk("scores"));
     const { count } = this.bins;
@@ -210,6 +242,7 @@ export class Answers {
       { length: 2 * rows.length },
       (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]],
     );
+    /** @param {number} place */
     const spread = (xy, place) => {
       const all = new Array(database.count).fill(NaN);
       rows.forEach((row, index) => (all[row] = xy[2 * index + place]));
@@ -243,6 +276,7 @@ export class Answers {
   #chain(work) {
     const running = new Set();
     let cancelled = false;
+    /** @param {number} [number] */
     const run = async (name, parameters, report, number = 0) => {
       const job = (await this.#engine(number)).run(name, parameters, report);
       if (cancelled) job.cancel();
@@ -263,7 +297,10 @@ function known(value) {
   return value === undefined || Number.isNaN(value) ? null : value;
 }
 
-/** The neighbourhood hit that labels dealt at random have on average, whatever the map. */
+/**
+ * The neighbourhood hit that labels dealt at random have on average, whatever the map.
+ * @param {Int32Array} groups
+ */
 function chance(groups) {
   const sizes = new Map();
   for (const group of groups) if (group >= 0) sizes.set(group, (sizes.get(group) ?? 0) + 1);

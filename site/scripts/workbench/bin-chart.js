@@ -128,7 +128,7 @@ export class BinChart {
           "data-number": number,
           "aria-label": `${number} bins`,
           onclick: () => {
-            this.number.value = number;
+            this.number.value = String(number);
             this.#offer();
           },
         },

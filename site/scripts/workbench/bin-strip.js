@@ -46,7 +46,11 @@ export class BinStrip {
       context.fillRect(first * step, height - line, Math.max((last + 1 - first) * step, line), line);
   }
 
-  /** Mark what is shown, as shares of the whole. */
+  /**
+   * Mark what is shown, as shares of the whole.
+   * @param {number} from
+   * @param {number} to
+   */
   show(from, to) {
     this.from = from;
     this.to = to;
@@ -56,11 +60,13 @@ export class BinStrip {
     this.window.classList.toggle("narrow", (to - from) * this.node.clientWidth < NARROW);
   }
 
+  /** @param {PointerEvent} event */
   #share(event) {
     const box = this.node.getBoundingClientRect();
     return (event.clientX - box.left) / box.width;
   }
 
+  /** @param {PointerEvent & Targeted} event */
   #down(event) {
     if (event.button !== 0) return;
     event.preventDefault();
@@ -70,12 +76,13 @@ export class BinStrip {
     const grip = event.target.closest(".grip");
     if (grip) this.#drag = { kind: grip.classList.contains("from") ? "from" : "to" };
     else {
-      const inside = event.target === this.window;
+      const inside = this.window.isSameNode(event.target);
       this.#drag = { kind: "move", offset: inside ? share - this.from : width / 2 };
       if (!inside) this.#move(event);
     }
   }
 
+  /** @param {PointerEvent} event */
   #move(event) {
     const drag = this.#drag;
     if (!drag) return;

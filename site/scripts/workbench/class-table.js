@@ -5,8 +5,13 @@ import { difference } from "../base/figures.js";
 import { figure } from "../base/words.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
 
+/** @import { Database } from "../database/database.js" */
+
 export class ClassTable {
-  /** `change(hidden)` takes other classes into use, `separate(part, groups)` ticks others: part "from" or "against". */
+  /**
+   * `change(hidden)` takes other classes into use, `separate(part, groups)` ticks others: part "from" or "against".
+   * @param {Database} database
+   */
   constructor(database, state, { change, separate }) {
     this.database = database;
     this.state = state;
@@ -39,6 +44,7 @@ export class ClassTable {
     if (kept !== undefined) this.body.querySelector(`[data-key="${kept}"]`)?.focus({ preventScroll: true });
   }
 
+  /** @param {number} group */
   #row(group) {
     const { database, state } = this;
     const name = database.className(group);
@@ -71,6 +77,7 @@ export class ClassTable {
       "only",
     );
     const ticks = new Map(["from", "against"].map((part) => [part, group >= 0 && this.#tick(part, group, name)]));
+    /** @param {number | null} value */
     const point = (value) => () => state.set({ pointedGroup: value });
     const node = element(
       "tr",
@@ -98,6 +105,11 @@ export class ClassTable {
     return { node, use, only, ticks };
   }
 
+  /**
+   * @param {string} part
+   * @param {string} name
+   * @param {number} group
+   */
   #tick(part, group, name) {
     const label = part === "from" ? `Separate ${name}` : `Separate from ${name}`;
     const input = element("input", {
@@ -114,16 +126,19 @@ export class ClassTable {
     return input;
   }
 
+  /** @param {string} part */
   #ticked(part) {
     return new Set(this.state.get("separation")[part] ?? (part === "from" ? this.database.classes.keys() : []));
   }
 
+  /** @param {number} group */
   #toggle(group) {
     const hidden = new Set(this.state.get("hidden"));
     if (!hidden.delete(group)) hidden.add(group);
     this.change(hidden);
   }
 
+  /** @param {number} group */
   #only(group) {
     this.change(new Set(this.groups.filter((other) => other !== group)));
   }
@@ -150,7 +165,10 @@ export class ClassTable {
 /** A change of NH that fills its bar. */
 const LARGE = 0.5;
 
-/** A change as a bar from the middle and a number. */
+/**
+ * A change as a bar from the middle and a number.
+ * @param {number} value
+ */
 function change(value) {
   const bar = element("i", { class: value < 0 ? "worse" : "better" });
   bar.style.setProperty("--length", String(Math.min(Math.abs(value) / LARGE, 1)));

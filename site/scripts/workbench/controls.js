@@ -5,7 +5,22 @@ import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { contests, separationWords } from "./separation.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Gestures } from "../map/gestures.js" */
+/** @import { Desk } from "./desk.js" */
+/** @import { Separation } from "./separation.js" */
+
+/**
+ * @param {Database} database
+ * @param {Chunk.Workbench} data
+ * @param {Desk} desk
+ */
 export function watchControls(database, data, state, desk) {
+  /**
+   * @param {string} id
+   * @param {string} name
+   * @param {(value: any) => any} [changed]
+   */
   const radios = (id, name, changed = (value) => state.set({ [name]: value })) => {
     const node = document.getElementById(id);
     if (node === null) return;
@@ -31,7 +46,10 @@ export function watchControls(database, data, state, desk) {
   }
 }
 
-/** What the colours of NH mean, while the maps have them. */
+/**
+ * What the colours of NH mean, while the maps have them.
+ * @param {Database} database
+ */
 function watchRamp(database, state) {
   const node = document.getElementById("hit-key");
   const show = () => {
@@ -42,6 +60,10 @@ function watchRamp(database, state) {
   show();
 }
 
+/**
+ * @param {Chunk.Workbench} data
+ * @param {Desk} desk
+ */
 function watchScorer(data, state, desk) {
   const select = document.getElementById("scorer");
   const words = document.getElementById("scorer-words");
@@ -57,6 +79,10 @@ function watchScorer(data, state, desk) {
   show();
 }
 
+/**
+ * @param {Database} database
+ * @param {Desk} desk
+ */
 function watchSeparation(database, state, desk) {
   const words = document.getElementById("separation-words");
   const [against, each] = ["against", "each"].map((id) => document.getElementById(id));
@@ -83,7 +109,11 @@ function watchSeparation(database, state, desk) {
   show();
 }
 
-/** Why there is nothing to score. */
+/**
+ * Why there is nothing to score.
+ * @param {Separation} separation
+ * @param {number[]} groups
+ */
 function missing({ from, against, each }, groups) {
   if (groups.length < 2) return "needs two classes in use";
   if (from !== null && !groups.some((group) => from.has(group))) return "which? Tick classes under “separate”";
@@ -91,7 +121,10 @@ function missing({ from, against, each }, groups) {
   return each ? "from which? Tick another class" : "from which? All are on one side";
 }
 
-/** How many shapes the brush has so far, before the tray shows them; else whether the maps are those of a sample. */
+/**
+ * How many shapes the brush has so far, before the tray shows them; else whether the maps are those of a sample.
+ * @param {Desk} desk
+ */
 function watchPicked(state, desk) {
   const node = document.getElementById("picked");
   const show = () => {
@@ -112,6 +145,10 @@ function watchPicked(state, desk) {
   show();
 }
 
+/**
+ * @param {Desk} desk
+ * @param {Map<Found, Gestures>} gestures
+ */
 export function watchKeys(state, desk, gestures) {
   document.addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]") || event.altKey) return;

@@ -9,10 +9,24 @@ import { Inquiry } from "../engine/inquiry.js";
 import { alike, History } from "./history.js";
 import { contests, separationWords } from "./separation.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Listener } from "../engine/client.js" */
+/** @import { LiveScene } from "../map/live-scene.js" */
+/** @import { Answers } from "./answers.js" */
+
 /** Fewer shapes have no map worth the name. */
 export const FEWEST_SHAPES = 3;
 
 export class Desk {
+  /**
+   * @param {Database} database
+   * @param {Chunk.Workbench} data
+   * @param {Bins} bins
+   * @param {Answers} answers
+   * @param {{ [k: string]: LiveScene }} scenes
+   * @param {(text: string) => void} announce
+   */
   constructor(database, data, bins, state, answers, scenes, announce) {
     this.database = database;
     this.data = data;
@@ -24,6 +38,7 @@ export class Desk {
     this.history = new History();
     this.history.push(this.#step());
     this.arriving = false;
+    /** @param {string} name */
     const tell = (name) => (status) => state.set({ [`${name}Status`]: status });
     this.inquiries = Object.fromEntries(
       ["original", "refined", "scores"].map((name) => [name, new Inquiry(tell(name))]),
@@ -35,6 +50,7 @@ export class Desk {
   /**
    * Take other classes, features or bins into use, and ask other questions with it. Bins of a feature that is not in use
    * go with it.
+   * @param {{}} [questions]
    */
   use(patch, questions = {}) {
     this.state.set(questions);
@@ -46,6 +62,7 @@ export class Desk {
     this.#show(next);
   }
 
+  /** @param {number[]} columns */
   add(columns) {
     this.use({ bins: new Set([...this.state.get("bins"), ...columns]) });
   }
@@ -62,18 +79,27 @@ export class Desk {
     this.use({ bins });
   }
 
-  /** Choose the bins with the highest scores, and no others. */
+  /**
+   * Choose the bins with the highest scores, and no others.
+   * @param {number} number
+   */
   takeBest(number) {
     this.use({ bins: new Set(ranked(this.state.get("scores")).slice(0, number)) });
   }
 
-  /** Choose as many more, those with the highest scores. */
+  /**
+   * Choose as many more, those with the highest scores.
+   * @param {number} number
+   */
   addBest(number) {
     const chosen = this.state.get("bins");
     this.add([...ranked(this.state.get("scores"))].filter((column) => !chosen.has(column)).slice(0, number));
   }
 
-  /** Go to another step. */
+  /**
+   * Go to another step.
+   * @param {number} place
+   */
   go(place) {
     if (place < 0 || place >= this.history.steps.length || place === this.history.at) return;
     this.history.at = place;
@@ -136,6 +162,7 @@ export class Desk {
     return Object.keys(this.inquiries).some((name) => this.state.get(`${name}Status`).kind === "working");
   }
 
+  /** @param {string} name */
   stop(name) {
     const stopped = this.inquiries[name].stop();
     if (stopped) this.scenes[name]?.rest();
@@ -149,6 +176,7 @@ export class Desk {
       .some(Boolean);
   }
 
+  /** @param {string} which */
   #askMap(which) {
     const { state, answers, history } = this;
     const inquiry = this.inquiries[which];
@@ -165,6 +193,7 @@ export class Desk {
     const members = which === "original" ? step.features : step.bins;
     const key = [projection, asked.sample, sorted(step.hidden), sorted(members)].join("|");
     const scene = this.scenes[which];
+    /** @param {Listener} report */
     const start = (report) =>
       answers[which](
         projection,
@@ -181,6 +210,7 @@ export class Desk {
     });
   }
 
+  /** @param {string} which */
   #say(which, map) {
     if (map.hitOfAll === null) {
       this.announce(`The ${which} map is ready.`);

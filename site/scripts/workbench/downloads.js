@@ -6,9 +6,16 @@ import { ranked } from "../bins-kit/bin-list.js";
 import { highestOf, rangeOf } from "../database/hit-range.js";
 import { csvText, saveText } from "../tray/export.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+
 const FILE = "bins.txt";
 
-/** Open the dialog of downloads; `work` says what there is at this moment. */
+/**
+ * Open the dialog of downloads; `work` says what there is at this moment.
+ * @param {Database} database
+ * @param {Bins} bins
+ */
 export function watchDownloads(database, bins, work) {
   const dialog = document.getElementById("export");
   document.getElementById("open-export").addEventListener("click", () => {
@@ -28,8 +35,18 @@ export function watchDownloads(database, bins, work) {
   });
 }
 
+/**
+ * @param {Database} database
+ * @param {Bins} bins
+ */
 function content(database, bins, work) {
   const { chosen, originalMap, refinedMap, scores } = work;
+  /**
+   * @param {string} words
+   * @param {string} name
+   * @param {string} type
+   * @param {() => string} text
+   */
   const save = (words, name, type, text) =>
     element(
       "button",
@@ -64,7 +81,10 @@ function content(database, bins, work) {
   ].filter(Boolean);
 }
 
-/** One name a line, best first, under a header that says where they come from. */
+/**
+ * One name a line, best first, under a header that says where they come from.
+ * @param {Bins} bins
+ */
 function binsText(bins, { chosen, scores, words, refinedMap, address }) {
   const order =
     scores === null ? [...chosen].sort((a, b) => a - b) : [...ranked(scores)].filter((column) => chosen.has(column));
@@ -77,6 +97,7 @@ function binsText(bins, { chosen, scores, words, refinedMap, address }) {
   return `${header.map((line) => `# ${line.replace(/\s+/g, " ")}`).join("\n")}\n${order.map((column) => bins.names[column]).join("\n")}\n`;
 }
 
+/** @param {Database} database */
 function mapsCsv(database, original, refined) {
   const maps = [
     ["original", original],
@@ -87,6 +108,7 @@ function mapsCsv(database, original, refined) {
     "class",
     ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`, `${name}:nh_max`]),
   ];
+  /** @param {number | null} value */
   const number = (value) => (value === null || Number.isNaN(value) ? "" : value);
   const rows = database.ids.map((id, index) => [
     id,
@@ -101,6 +123,7 @@ function mapsCsv(database, original, refined) {
   return csvText([header, ...rows]);
 }
 
+/** @param {Bins} bins */
 function scoresCsv(bins, scores, chosen) {
   const rows = [...ranked(scores)].map((column, place) => [
     bins.names[column],
@@ -111,6 +134,10 @@ function scoresCsv(bins, scores, chosen) {
   return csvText([["bin", "rank", "score", "chosen"], ...rows]);
 }
 
+/**
+ * @param {Database} database
+ * @param {Bins} bins
+ */
 function allJson(database, bins, { chosen, scores, words, originalMap, refinedMap }) {
   const number = (value) => (value === null || Number.isNaN(value) ? null : value);
   const map = (one) =>

@@ -5,9 +5,17 @@ import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { FEWEST_SHAPES } from "./desk.js";
 
+/** @import { Answers } from "./answers.js" */
+/** @import { Desk } from "./desk.js" */
+
 const BEST = 10;
 
-/** Why there is no map, and what to do next. */
+/**
+ * Why there is no map, and what to do next.
+ * @param {string} which
+ * @param {Answers} answers
+ * @param {Desk} desk
+ */
 export function emptyMap(which, state, answers, desk) {
   const rows = answers.rows({ hidden: state.get("hidden"), sample: state.get("sample") }).length;
   if (rows < FEWEST_SHAPES) {

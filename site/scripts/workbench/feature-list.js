@@ -2,8 +2,14 @@
 
 import { element, focused } from "../base/dom.js";
 
+/** @import { Bins } from "../database/bins.js" */
+
 export class FeatureList {
-  /** `change(features)` takes others into use. */
+  /**
+   * `change(features)` takes others into use.
+   * @param {Bins} bins
+   * @param {() => Chunk.FeatureMarks} marks
+   */
   constructor(bins, state, marks, change) {
     this.bins = bins;
     this.state = state;
@@ -28,6 +34,10 @@ export class FeatureList {
     if (kept !== undefined) this.list.querySelector(`[data-key="${kept}"]`)?.focus({ preventScroll: true });
   }
 
+  /**
+   * @param {Chunk.Feature} feature
+   * @param {number} index
+   */
   #button({ name, title, start, dimensions, bins, hue }, index) {
     const used = this.state.get("features");
     const last = used.has(index) && used.size === 1;
@@ -58,6 +68,10 @@ export class FeatureList {
     );
   }
 
+  /**
+   * @param {Chunk.Feature} feature
+   * @param {number} index
+   */
   #only({ name }, index) {
     const used = this.state.get("features");
     const attributes = {
@@ -73,6 +87,7 @@ export class FeatureList {
     );
   }
 
+  /** @param {number} index */
   #toggle(index, last) {
     if (last) return;
     const features = new Set(this.state.get("features"));

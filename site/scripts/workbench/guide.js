@@ -7,6 +7,10 @@ import { readHash } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Desk } from "./desk.js" */
+
 const KEY = "shapeviz-guide";
 const FEW = 10;
 const MANY = 40;
@@ -15,7 +19,13 @@ const MANY = 40;
 const LEAST = 0.0005;
 
 export class Guide {
-  /** `act` are the same actions that the controls of the page do. */
+  /**
+   * `act` are the same actions that the controls of the page do.
+   * @param {Database} database
+   * @param {Chunk.Workbench} data
+   * @param {Bins} bins
+   * @param {Desk} act
+   */
   constructor(database, data, bins, state, act) {
     this.database = database;
     this.data = data;
@@ -48,6 +58,7 @@ export class Guide {
     else this.#open(0);
   }
 
+  /** @param {number} step */
   #open(step) {
     this.step = step;
     this.node.hidden = false;
@@ -117,8 +128,14 @@ export class Guide {
     const [one, other] = this.example.classes;
     const pair = [this.#name(one), " and ", this.#name(other)];
     const others = [...this.database.sizes.keys()].filter((group) => group !== one && group !== other);
+    /** @param {string} name */
     const kind = (name) => state.get(`${name}Status`).kind;
+    /** @param {...string} names */
     const settled = (...names) => names.every((name) => kind(name) === "answered");
+    /**
+     * @param {string} name
+     * @param {string} words
+     */
     const waiting = (name, words) =>
       kind(name) === "working" ? words : "This was stopped or did not work; start it again where it says so.";
     return [
@@ -186,7 +203,10 @@ export class Guide {
     ];
   }
 
-  /** What the data says, whichever way it went. */
+  /**
+   * What the data says, whichever way it went.
+   * @param {(string | HTMLSpanElement)[]} pair
+   */
   #resultOfTwo(pair) {
     const result = this.#result();
     if (result === null) return "No bins are chosen: take the best to see their map.";
@@ -200,6 +220,7 @@ export class Guide {
     return ["On the refined map of ", ...pair, ...words, `: ${verdict}. But what does it do to the other classes?`];
   }
 
+  /** @param {string} next */
   #resultOfAll(next) {
     const result = this.#result();
     if (result === null) return ["No bins are chosen.", next];
@@ -221,6 +242,7 @@ export class Guide {
     };
   }
 
+  /** @param {number} group */
   #name(group) {
     const { database } = this;
     return element(

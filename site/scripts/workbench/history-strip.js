@@ -5,9 +5,16 @@ import { count, figure } from "../base/words.js";
 import { bounds } from "../database/database.js";
 import { changes } from "./history.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { History, Step } from "./history.js" */
+
 const SIZE = 56;
 
 export class HistoryStrip {
+  /**
+   * @param {Database} database
+   * @param {History} history
+   */
   constructor(database, state, history, { go }) {
     this.database = database;
     this.state = state;
@@ -40,13 +47,17 @@ export class HistoryStrip {
       (this.list.querySelector(`[data-step="${kept}"]`) ?? current).focus({ preventScroll: true });
   }
 
-  /** Scroll the strip to a step, and nothing but the strip: on a phone it lies far below what one looks at. */
+  /**
+   * Scroll the strip to a step, and nothing but the strip: on a phone it lies far below what one looks at.
+   * @param {Element | null} step
+   */
   #reveal(step) {
     const [strip, box] = [this.list.getBoundingClientRect(), step.getBoundingClientRect()];
     if (box.left < strip.left) this.list.scrollLeft -= strip.left - box.left;
     else if (box.right > strip.right) this.list.scrollLeft += box.right - strip.right;
   }
 
+  /** @param {number} place */
   #step(place) {
     const { history } = this;
     const step = history.steps[place];
@@ -113,6 +124,7 @@ export class HistoryStrip {
     return canvas;
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     const steps = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity };
     if (!(event.key in steps)) return;
@@ -123,16 +135,24 @@ export class HistoryStrip {
   }
 }
 
-/** The map that a step stands for. */
+/**
+ * The map that a step stands for.
+ * @param {Step} step
+ */
 function mapOf(step) {
   return step.bins.size > 0 ? step.refinedMap : step.originalMap;
 }
 
+/** @param {string} word */
 function many(word) {
   return word === "class" ? "classes" : `${word}s`;
 }
 
-/** "10 bins added", "1 class removed". */
+/**
+ * "10 bins added", "1 class removed".
+ * @param {number} number
+ * @param {string} word
+ */
 function changeOf(number, word) {
   return `${count(Math.abs(number), word, many(word))} ${number < 0 ? "removed" : "added"}`;
 }

@@ -1,6 +1,17 @@
 // The steps of the work, for undo, redo and the strip of small maps. A step is what undo takes back: the classes, the
 // features and the bins in use. It keeps the maps that were made for it.
 
+/** @import { ShapeMap } from "../database/database.js" */
+
+/**
+ * What is in use at a step, and the maps of it as far as they are made.
+ * @typedef {object} Use
+ * @property {Set<number>} hidden classes that are not
+ * @property {Set<number>} features
+ * @property {Set<number>} bins
+ * ¦ @typedef {Use & { originalMap: ShapeMap | null, refinedMap: ShapeMap | null }} Step
+ */
+
 const MOST_STEPS = 200;
 
 export class History {

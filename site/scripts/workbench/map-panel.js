@@ -6,10 +6,16 @@ import { count, figure } from "../base/words.js";
 import { isBelowOne, rangeOf } from "../database/hit-range.js";
 import { StatusLine } from "./status-line.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+
 export class MapPanel {
   /**
    * `other` names the state's map that this one is compared with, or is null; `again` restarts work that was stopped,
    * `empty` says what to show, as elements, where there is no map and none is being made.
+   * @param {string} which
+   * @param {Database} database
+   * @param {Bins} bins
    */
   constructor(which, database, state, bins, { other, again, stop, empty }) {
     this.which = which;
@@ -101,7 +107,10 @@ function chosenWords({ size }) {
   return size === 0 ? "" : count(size, "bin");
 }
 
-/** "all 8 features", "Agd, Sc". */
+/**
+ * "all 8 features", "Agd, Sc".
+ * @param {Chunk.Feature[]} all
+ */
 function featureWords(features, all) {
   if (features.size === all.length) return all.length === 1 ? all[0].name : `all ${all.length} features`;
   if (features.size <= 3)

@@ -5,9 +5,20 @@
 
 import { shortened } from "../base/words.js";
 
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * What is to be separated: the classes `from` in use, all where it is null, `against` others or the rest; each, or together.
+ * @typedef {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} Separation
+ */
+
 const MOST_NAMED = 3;
 
-/** The classes of a separation among those in use. */
+/**
+ * The classes of a separation among those in use.
+ * @param {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} parts
+ * @param {number[]} groups
+ */
 export function sides({ from, against }, groups) {
   return {
     positive: groups.filter((group) => from === null || from.has(group)),
@@ -19,9 +30,15 @@ export function sides({ from, against }, groups) {
  * What the scorers are asked: every contest is one group of classes against another, `positive` and `negative`.
  *
  * A contest and its mirror image are one; none has an empty side.
+ * @param {number[]} groups
+ * @param {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} separation
  */
 export function contests(separation, groups) {
   const { positive, negative } = sides(separation, groups);
+  /**
+   * @param {number[]} others
+   * @param {number[]} own
+   */
   const without = (others, own) => others.filter((group) => !own.includes(group));
   let pairs;
   if (!separation.each) pairs = [[positive, without(negative ?? groups, positive)]];
@@ -38,9 +55,15 @@ export function contests(separation, groups) {
     .map(([own, others]) => ({ positive: own, negative: others }));
 }
 
-/** A separation in words: "bird and airplane, each from the rest". */
+/**
+ * A separation in words: "bird and airplane, each from the rest".
+ * @param {Database} database
+ * @param {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} separation
+ * @param {number[]} groups
+ */
 export function separationWords(separation, groups, database) {
   const { positive, negative } = sides(separation, groups);
+  /** @param {number[]} chosen */
   const names = (chosen) => {
     if (chosen.length === groups.length && chosen.length > 2) return `all ${chosen.length} classes`;
     if (chosen.length > MOST_NAMED) return `${chosen.length} classes`;
@@ -59,6 +82,7 @@ export function separationWords(separation, groups, database) {
   return `${names(positive)}${manner} from ${negative === null ? "the rest" : names(negative)}`;
 }
 
+/** @param {string[]} words */
 function list(words) {
   return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
 }

@@ -2,12 +2,19 @@
 
 import { element } from "../base/dom.js";
 
+/** @import { Standing } from "../engine/inquiry.js" */
+
 /** What is done sooner shows no progress. */
 const PATIENCE = 300;
 
 export class StatusLine {
-  #waiting = null;
+  /** @type {number | undefined} */
+  #waiting;
 
+  /**
+   * @param {Found} node
+   * @param {{ again: () => void, stop: () => void }} ways
+   */
   constructor(node, { again, stop }) {
     this.node = node;
     this.bar = element("progress", { max: 1, "aria-label": "Progress" });
@@ -18,6 +25,7 @@ export class StatusLine {
     this.again = (words) => element("button", { type: "button", class: "plain", onclick: again }, words);
   }
 
+  /** @param {Standing} standing */
   show({ kind, progress, message }) {
     if (kind === "working") {
       this.bar.value = progress;
@@ -25,13 +33,14 @@ export class StatusLine {
       return;
     }
     clearTimeout(this.#waiting);
-    this.#waiting = null;
+    this.#waiting = undefined;
     if (kind === "stopped") this.#put("Stopped.", this.again("Continue"));
     else if (kind === "failed")
       this.#put(element("span", { role: "alert" }, `That did not work: ${message}`), this.again("Try again"));
     else this.#put();
   }
 
+  /** @param {...(string | HTMLButtonElement | HTMLSpanElement)} children */
   #put(...children) {
     this.node.hidden = children.length === 0;
     this.node.replaceChildren(...children);

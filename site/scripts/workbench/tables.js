@@ -5,14 +5,23 @@ import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
 import { binTables } from "../bins-kit/bin-list.js";
 
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+
 const MOST_ROWS = 500;
 
+/**
+ * @param {Database} database
+ * @param {Bins} bins
+ */
 export function workTables(database, bins, state) {
   const [original, refined] = [state.get("originalMap"), state.get("refinedMap")];
   const hidden = state.get("hidden");
   const groups = [...database.classes.keys()].filter((group) => !hidden.has(group));
   const change = (before, after) => (before === null || after === null ? "–" : difference(after - before));
+  /** @param {string} name */
   const row = (name, before, after) => [name, figure(before), figure(after), change(before, after)];
+  /** @param {number} group */
   const hits = (group) =>
     row(database.className(group), original?.hitOfClass[group] ?? null, refined?.hitOfClass[group] ?? null);
   const scores = state.get("scores");
@@ -20,6 +29,7 @@ export function workTables(database, bins, state) {
     .map((_, index) => index)
     .filter((index) => !hidden.has(database.groups[index]))
     .slice(0, MOST_ROWS);
+  /** @param {number} index */
   const place = (map, index) => (map === null ? ["–", "–"] : [figure(map.x[index]), figure(map.y[index])]);
   return {
     title: "The Workbench in figures",
