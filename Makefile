@@ -17,7 +17,7 @@ demo: drawing-library $(INSTALLED) ## build the demo site in demo-site/
 	$(BIN)/shapeviz-report demo -o demo-site
 
 .PHONY: test
-test: style browser ## run every check and every test
+test: style browsers ## run every check and every test
 	$(BIN)/pytest --numprocesses 2 --dist loadfile --durations 25
 
 .PHONY: check
@@ -88,12 +88,12 @@ $(SCRIPT_TOOLS): package.json $(INSTALLED)
 drawing-library:
 	@PATH="$$PATH:/sbin:/usr/sbin" ldconfig -p | grep -q 'libOSMesa\.so' || $(call apt_install,libosmesa6)
 
-.PHONY: browser
-browser:
-	@for name in chromium-headless-shell chromium chromium-browser google-chrome; do \
-	  command -v $$name >/dev/null && exit 0; done; $(call apt_install,chromium-headless-shell)
+# Chromium, Firefox and WebKit, what drives them, and a screen in memory that they are drawn on.
+.PHONY: browsers
+browsers: $(INSTALLED)
+	@missing=$$($(BIN)/python tests/browsers.py); [ -z "$$missing" ] || $(call apt_install,$$missing)
 
-# Install a Debian package. As a user without sudo, say what to ask for.
+# Install Debian packages. As a user without sudo, say what to ask for.
 define apt_install
 { \
   sudo=env; [ "$$(id -u)" = 0 ] || sudo=sudo; \

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import functools
 import http.server
-import shutil
 import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
+from browsers import program
 from engine_page import EnginePage
 from playwright.sync_api import Browser, Page, sync_playwright
 from reports import (
@@ -146,12 +146,10 @@ def watched(page: Page) -> Page:
 
 @pytest.fixture(scope="session")
 def browser() -> Iterator[Browser]:
-    # The same engine without a desktop's windows opens a page in less than half the time.
-    names = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-    executable = next(filter(None, map(shutil.which, names)), None)
-    assert executable, "the browser tests need Chromium: apt-get install chromium-headless-shell"
     with sync_playwright() as playwright:
-        yield playwright.chromium.launch(executable_path=executable, args=["--no-sandbox"])
+        yield playwright.chromium.launch(
+            executable_path=program("chromium-headless-shell"), args=["--no-sandbox"]
+        )
 
 
 @pytest.fixture(scope="session")
