@@ -22,6 +22,9 @@ LAYERS = (
 #: Any room may use these; they import nothing of the others.
 APART = ("engine", "viewer")
 
+#: Lines of a script that starts a page.
+LONGEST_ENTRY = 80
+
 _IMPORT = re.compile(r'^import \{[^}]*\} from "([^"]+)";$', re.MULTILINE)
 
 
@@ -60,6 +63,15 @@ def test_every_script_has_a_room():
 def test_every_page_has_one_script_that_starts_it():
     entries = {path.stem for path in (_scripts() / "pages").glob("*.js")}
     assert entries == {page.name for page in PAGES}
+
+
+def test_what_starts_a_page_only_wires():
+    long = {
+        path.name: lines
+        for path in (_scripts() / "pages").glob("*.js")
+        if (lines := len(path.read_text(encoding="utf-8").splitlines())) >= LONGEST_ENTRY
+    }
+    assert long == {}, f"under {LONGEST_ENTRY} lines: move what a page does into a class of its room, site/scripts/PAGE/"
 
 
 def test_no_script_is_left_over():

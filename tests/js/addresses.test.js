@@ -1,9 +1,16 @@
-// Bins and features as words of an address.
+// The state of each page in its address, and bins and features as words of it.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { readShortNames, shortNames } from "../../site/scripts/addresses/bin-names.js";
+import { binsAddress } from "../../site/scripts/addresses/bins.js";
+import { comparePageAddress } from "../../site/scripts/addresses/compare.js";
+import { featuresAddress } from "../../site/scripts/addresses/features.js";
 import { joinNames, splitNames } from "../../site/scripts/addresses/names.js";
+import { overviewAddress } from "../../site/scripts/addresses/overview.js";
+import { shapePageAddress } from "../../site/scripts/addresses/shape.js";
+import { galleryAddress } from "../../site/scripts/addresses/shapes.js";
+import { workAddress } from "../../site/scripts/addresses/workbench.js";
 
 const FEATURES = [
   { name: "Gc", start: 0, dimensions: 1, bins: 10 },
@@ -42,7 +49,181 @@ test("any choice of bins survives an address", () => {
 });
 
 test("words that name no bin are passed over", () => {
-  for (const text of [null, "", "Gc:0", "Gc:11", "Gc:3-2", "FPFH[33]", "FPFH:3", "Xy", "Gc:1;"]) {
+  for (const text of [
+    null,
+    "",
+    "Gc:NaN",
+    "FPFH[Infinity]:1-1",
+    "FPFH[0x1]",
+    `Gc:${"9".repeat(400)}`,
+    "Gc:0",
+    "Gc:11",
+    "Gc:3-2",
+    "FPFH[33]",
+    "FPFH:3",
+    "Xy",
+    "Gc:1;",
+  ]) {
     assert.equal(readShortNames(text, FEATURES).size, 0, String(text));
   }
+});
+
+// The tables of the pages, on a database of three classes.
+
+const IDS = ["ant/1", "ant/2", "bee/1", "cup & plate/1", "lost"];
+const CLASSES = ["ant", "bee", "cup & plate"];
+
+const database = {
+  ids: IDS,
+  count: IDS.length,
+  indexOfId: new Map(IDS.map((id, index) => [id, index])),
+  classes: CLASSES,
+  sizes: new Map([
+    [0, 2],
+    [1, 1],
+    [2, 1],
+    [-1, 1],
+  ]),
+  labelled: true,
+  separable: true,
+  methods: [
+    { key: "tsne", base: 0 },
+    { key: "pca", base: 1 },
+    { key: "tsne Gc", base: 0, features: ["Gc"] },
+  ],
+  data: { subsets: { features: ["Gc", "FPFH"] } },
+};
+
+const field = (key, more) => ({ key, names: null, edges: null, tree: null, ...more });
+const kind = field("kind", { names: ["flying", "not/flying"] });
+const faces = field("faces", { edges: [0, 10] });
+const folders = field("folders", { tree: { nodes: [{}, {}], ways: [["a"], ["a", "b/c"]] } });
+const fields = {
+  active: kind,
+  groupable: [kind, faces],
+  sortable: [faces],
+  filters: [kind, faces, folders],
+  byKey: new Map([kind, faces, folders].map((each) => [each.key, each])),
+};
+
+const search = { greedy: [{ s: 1 }, { s: 3 }] };
+const SUBSETS = [["Gc", "FPFH"], ["Gc"], ["FPFH"]];
+const subsets = {
+  labelled: true,
+  everything: 0,
+  features: ["Gc", "FPFH"],
+  data: search,
+  names: (place) => SUBSETS[place],
+  find: (names) => [0, 1, 2].find((place) => SUBSETS[place].join() === names.join()),
+};
+
+const work = {
+  features: FEATURES,
+  bins: [3, 11],
+  method: "pca",
+  scorers: [{ key: "rfe" }, { key: "anova" }],
+};
+const bins = { names: Array.from({ length: COLUMNS }, (_, column) => `bin ${column}`) };
+const selection = { path: [{}, {}, {}] };
+const spaces = { spaces: ["features", "tsne"] };
+const neighbours = { likest: () => [{ group: 1, other: 2 }] };
+
+/** Each page's address, and what may stand in it, in the form that it has had in links since. */
+const PAGES = {
+  overview: [
+    overviewAddress(database),
+    [
+      "",
+      "map=pca&view=hit&hide=ant&hide=cup+%26+plate&hide-unlabelled=",
+      "select=ant%2F1&select=lost&open=bee%2F1&find=two+words&at=0.5%2C-12.25%2C3",
+    ],
+  ],
+  features: [
+    featuresAddress(subsets, database),
+    ["features=Gc+FPFH", "features=Gc&s=3&color=hit&select=lost", "features=FPFH&s=none"],
+  ],
+  bins: [
+    binsAddress(database, bins, selection, { bin: 5, group: 1 }),
+    ["", "size=2&step=1&bin=bin+7&of=bee&shape=least&reading=inside", "bin=bin+5&id=cup+%26+plate%2F1&select=ant%2F2"],
+  ],
+  shape: [
+    shapePageAddress(database),
+    ["", "id=ant%2F2&map=pca&features=Gc&bins=Gc%3A1-3&bin=Gc%3A2&parts=FPFH%5B3%5D&select=lost", "id=nobody"],
+  ],
+  shapes: [
+    galleryAddress(database, fields),
+    [
+      "",
+      "find=a+b&only=&is.kind=flying&is.kind=not%2Fflying&range.faces=2..7.5&select=ant%2F1&at=bee%2F1",
+      "lacks.kind=&is.folders=a%2Fb%252Fc&group=faces&sort=faces&down=&size=200&closed=x&closed=y",
+      "group=",
+    ],
+  ],
+  compare: [
+    comparePageAddress(database, spaces, neighbours),
+    [
+      "a=class%3Abee&b=class%3Acup+%26+plate",
+      "view=outliers&a=shapes&a-select=ant%2F1&b=rest&bin=Gc%3A3&reading=inside&of=ant&by=tsne",
+      "view=classes&a=cluster%3Aone%3Atwo&b=search%3Aa+%26+b&row=ant&column=bee&select=lost",
+    ],
+  ],
+  workbench: [
+    workAddress(database, work),
+    [
+      "",
+      "hide=ant&features=FPFH+50%2520%2525%2520of%2520it&bins=FPFH%5B1%5D%3A2&map=umap&scorer=anova",
+      "class=bee&bins=&separate=ant&separate=bee&from=cup+%26+plate&together=&sample=&color=hit&select=ant%2F1",
+      "class=&separate=&from=",
+      "unlabelled=",
+      "hide-unlabelled=",
+    ],
+  ],
+};
+
+/** What stands nowhere for a number, a place among others, or a range. */
+const NONSENSE = [
+  ...["NaN", "Infinity", "-Infinity", "9".repeat(400), "0x", "%00", "constructor"],
+  ...["NaN,0,1", "0,0", "0,0,Infinity", "NaN..1", "1..Infinity", "..2..", "-"],
+];
+
+for (const [page, [address, queries]] of Object.entries(PAGES)) {
+  const writtenAgain = (query) => {
+    const values = address.read(new URLSearchParams(query));
+    return address.write(new Map(Object.entries(values))).toString();
+  };
+
+  test(`what stands in the address of ${page} is written as it was read`, () => {
+    for (const query of queries) assert.equal(writtenAgain(query), query);
+  });
+
+  test(`${page} passes over what it cannot read`, () => {
+    const usual = writtenAgain("");
+    const prefixed = ["range.faces", "is.kind", "is.folders", "hide", "a", "select", "selected"];
+    const keys = new Set([...address.rows.flatMap(({ key }) => key ?? []), ...prefixed]);
+    // Any text is valid there.
+    for (const key of ["find", "bin", "parts", "closed", "down", "sample"]) keys.delete(key);
+    if (page === "shape") for (const key of ["features", "bins"]) keys.delete(key);
+    for (const key of keys)
+      for (const word of NONSENSE) assert.equal(writtenAgain([[key, word]]), usual, `${key}=${word}`);
+  });
+}
+
+test("the selection of another page is compared with the rest", () => {
+  const [address] = PAGES.compare;
+  const { a, b } = address.read(new URLSearchParams("select=bee/1"));
+  assert.deepEqual([a, b], [{ kind: "shapes", shapes: new Set([2]) }, { kind: "rest" }]);
+});
+
+test("bins of features that are not in use are none", () => {
+  const [address] = PAGES.workbench;
+  assert.deepEqual(address.read(new URLSearchParams("features=FPFH&bins=Gc:1 FPFH[0]:2")).bins, new Set([11]));
+});
+
+test("a row says which values of the state it has", () => {
+  const [address] = PAGES.workbench;
+  const isPlace = ({ place }) => place;
+  assert.ok(address.has(new Set(["bins"]), isPlace));
+  assert.ok(!address.has(new Set(["scorer", "theme"]), isPlace));
+  assert.ok(address.has(new Set(["scorer"])));
+  assert.ok(!address.has(new Set(["theme"])));
 });

@@ -1,7 +1,27 @@
-// The two groups of the Compare page in its address, each by name: a link stays good when the database grows.
+// The two groups of the Compare page, and what is looked at of them, in its address.
 
-import { pageAddress, readHash, replaceHash } from "../base/place.js";
+import { Address, choice, named, text } from "../base/address.js";
+import { pageAddress } from "../base/place.js";
 import { readSelection, writeSelection } from "../database/selection.js";
+import { selected } from "./selected.js";
+
+const VIEWS = ["groups", "outliers", "classes"];
+const READINGS = ["value", "inside"];
+
+export function comparePageAddress(database, data, neighbours) {
+  const ofClass = named(database.classes);
+  return new Address([
+    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0] },
+    { names: ["a", "b"], ...twoGroups(database, neighbours) },
+    { name: "bin", key: "bin", kind: text, standard: null },
+    { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
+    { name: "of", key: "of", kind: ofClass, standard: null },
+    { name: "row", key: "row", kind: ofClass, standard: null },
+    { name: "column", key: "column", kind: ofClass, standard: null },
+    { name: "space", key: "by", kind: choice(data.spaces), standard: data.spaces[0] },
+    selected(database),
+  ]);
+}
 
 /**
  * The address of the Compare page with two groups beside each other. A group is one of
@@ -14,23 +34,29 @@ import { readSelection, writeSelection } from "../database/selection.js";
  */
 export function compareAddress(database, a, b) {
   const query = new URLSearchParams();
-  writeGroups(query, database, a, b);
+  writeGroup(query, database, "a", a);
+  writeGroup(query, database, "b", b);
   return pageAddress("compare.html", query);
 }
 
-/** Add two groups to the parameters of an address. */
-function writeGroups(query, database, a, b) {
-  writeGroup(query, database, "a", a);
-  writeGroup(query, database, "b", b);
-}
-
-/** The groups that an address names, `{ a, b }`; null for one that it does not name, or that is no longer there. */
-function readCompareAddress(query, database) {
-  const [a, b] = [readGroup(query, database, "a"), readGroup(query, database, "b")];
-  if (a !== null || query.has("a")) return { a, b };
-  // The selection that came along from another page.
-  const shapes = readSelection(query, database);
-  return { a: shapes.size > 0 ? { kind: "shapes", shapes } : null, b };
+function twoGroups(database, neighbours) {
+  return {
+    read(query) {
+      let a = readGroup(query, database, "a");
+      const b = readGroup(query, database, "b");
+      if (a === null && !query.has("a")) {
+        // The selection that came along from another page.
+        const shapes = readSelection(query, database);
+        if (shapes.size > 0) a = { kind: "shapes", shapes };
+      }
+      return a === null && b === null ? firstGroups(database, neighbours) : { a, b: b ?? { kind: "rest" } };
+    },
+    write(query, { a, b }) {
+      if (a === null || b === null) return;
+      writeGroup(query, database, "a", a);
+      writeGroup(query, database, "b", b);
+    },
+  };
 }
 
 function writeGroup(query, database, name, group) {
@@ -44,9 +70,10 @@ function writeGroup(query, database, name, group) {
   for (const [key, value] of own) query.append(`${name}-${key}`, value);
 }
 
+/** The group that an address names; null where it names none, or one that is no longer there. */
 function readGroup(query, database, name) {
-  const text = query.get(name) ?? "";
-  const [kind, rest] = [text.split(":", 1)[0], text.slice(text.indexOf(":") + 1)];
+  const word = query.get(name) ?? "";
+  const [kind, rest] = [word.split(":", 1)[0], word.slice(word.indexOf(":") + 1)];
   if (kind === "rest") return { kind };
   if (kind === "shapes") {
     const own = new URLSearchParams();
@@ -60,46 +87,6 @@ function readGroup(query, database, name) {
   }
   if (kind === "cluster") return { kind, name: rest };
   return kind === "search" && rest !== "" ? { kind, text: rest } : null;
-}
-
-const VIEWS = ["groups", "outliers", "classes"];
-const READINGS = ["value", "inside"];
-
-/** What the page shows: the two groups and what is looked at. */
-export function readView(database, data, neighbours) {
-  const query = readHash();
-  const groups = readCompareAddress(query, database);
-  const group = (name) => {
-    const place = database.classes.indexOf(query.get(name));
-    return place < 0 ? null : place;
-  };
-  return {
-    view: VIEWS.includes(query.get("view")) ? query.get("view") : VIEWS[0],
-    ...(groups.a === null && groups.b === null
-      ? firstGroups(database, neighbours)
-      : { a: groups.a, b: groups.b ?? { kind: "rest" } }),
-    bin: query.get("bin"),
-    reading: READINGS.includes(query.get("reading")) ? query.get("reading") : READINGS[0],
-    of: group("of"),
-    space: data.spaces.includes(query.get("by")) ? query.get("by") : data.spaces[0],
-    row: group("row"),
-    column: group("column"),
-    selection: readSelection(query, database),
-  };
-}
-
-export function writeView(database, state) {
-  const query = new URLSearchParams();
-  if (state.get("view") !== VIEWS[0]) query.set("view", state.get("view"));
-  const [a, b] = [state.get("a"), state.get("b")];
-  if (a !== null && b !== null) writeGroups(query, database, a, b);
-  if (state.get("bin") !== null) query.set("bin", state.get("bin"));
-  if (state.get("reading") !== READINGS[0]) query.set("reading", state.get("reading"));
-  for (const name of ["of", "row", "column"])
-    if (state.get(name) !== null) query.set(name, database.classes[state.get(name)]);
-  if (state.get("space") !== "features") query.set("by", state.get("space"));
-  writeSelection(query, database, state.get("selection"));
-  replaceHash(query);
 }
 
 /** The groups that a page opens with: the two classes that are most alike, which are the hardest to tell apart. */

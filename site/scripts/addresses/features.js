@@ -1,29 +1,30 @@
-// The state of the Features page in its address.
+// The state of the Features page in its address: the chosen subset, the greedy path, and the colours of the map.
 
-import { readHash, replaceHash } from "../base/place.js";
-import { readSelection, writeSelection } from "../database/selection.js";
+import { Address, choice } from "../base/address.js";
 import { joinNames, splitNames } from "./names.js";
+import { brushed } from "./selected.js";
 
-/** The chosen subset, the greedy path, the colours of the map, and the selection. */
-export function readFeaturesAddress(subsets, database) {
-  const query = readHash();
-  const sizes = subsets.data.greedy.map(({ s }) => s);
-  const s = Number(query.get("s"));
-  return {
-    chosen:
-      subsets.find(splitNames(query.get("features"), subsets.features)) ?? (subsets.labelled ? 0 : subsets.everything),
-    s: query.get("s") === "none" ? null : sizes.includes(s) ? s : (sizes[0] ?? null),
-    color: subsets.labelled && query.get("color") === "hit" ? "hit" : "class",
-    selection: readSelection(query, database),
-  };
-}
+const COLORS = ["class", "hit"];
 
-export function writeFeaturesAddress(subsets, database, state) {
-  const query = new URLSearchParams();
-  query.set("features", joinNames(subsets.names(state.get("chosen"))));
+export function featuresAddress(subsets, database) {
+  const everyone = subsets.labelled ? 0 : subsets.everything;
   const sizes = subsets.data.greedy.map(({ s }) => s);
-  if (state.get("s") !== (sizes[0] ?? null)) query.set("s", state.get("s") ?? "none");
-  if (state.get("color") !== "class") query.set("color", state.get("color"));
-  writeSelection(query, database, state.get("selection"));
-  replaceHash(query);
+  return new Address([
+    {
+      name: "chosen",
+      read: (query) => subsets.find(splitNames(query.get("features"), subsets.features)) ?? everyone,
+      write: (query, chosen) => query.set("features", joinNames(subsets.names(chosen))),
+    },
+    {
+      name: "s",
+      key: "s",
+      kind: {
+        read: ([word]) => (word === "none" ? null : sizes.find((s) => s === Number(word))),
+        write: (s) => [String(s ?? "none")],
+      },
+      standard: sizes[0] ?? null,
+    },
+    { name: "color", key: "color", kind: choice(subsets.labelled ? COLORS : COLORS.slice(0, 1)), standard: COLORS[0] },
+    brushed(database),
+  ]);
 }

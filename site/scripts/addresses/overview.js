@@ -1,59 +1,72 @@
-// The state of the Overview in its address. Shapes and classes by name, not by number: a link stays good when the
-// database grows.
+// The state of the Overview in its address.
 
-import { pageAddress, readHash, replaceHash } from "../base/place.js";
-import { readSelection, writeSelection } from "../database/selection.js";
+import { Address, choice, named, text } from "../base/address.js";
+import { pageAddress } from "../base/place.js";
 import { joinNames, splitNames } from "./names.js";
+import { brushed } from "./selected.js";
 
-export function readAddress(database) {
-  const query = readHash();
-  const method = database.methods.findIndex(({ key }) => key === query.get("map"));
-  const known = (name) =>
-    query
-      .getAll(name)
-      .map((id) => database.indexOfId.get(id))
-      .filter((index) => index !== undefined);
-  const groups = new Map(database.classes.map((name, group) => [name, group]));
-  const hidden = query
-    .getAll("hide")
-    .map((name) => groups.get(name))
-    .filter((group) => group !== undefined);
-  if (query.has("hide-unlabelled")) hidden.push(-1);
-  const camera = (query.get("at") ?? "").split(",").map(Number);
-  const { subsets } = database.data;
-  return {
-    method: Math.max(method, 0),
-    // A subset is one of the maps that were searched, whatever else the address says.
-    features: subsets ? splitNames(query.get("features"), subsets.features) : [],
-    view: ["class", "hit", "thumbnail"].includes(query.get("view")) ? query.get("view") : "class",
-    hidden: new Set(hidden),
-    selection: readSelection(query, database),
-    opened: known("open")[0] ?? null,
-    query: query.get("find") ?? "",
-    camera:
-      camera.length === 3 && camera.every(Number.isFinite) ? { x: camera[0], y: camera[1], zoom: camera[2] } : null,
-  };
-}
+const VIEWS = ["class", "hit", "thumbnail"];
 
-export function writeAddress(database, state) {
-  const query = new URLSearchParams();
-  const { base, features } = database.methods[state.get("method")];
-  if (base !== 0) query.set("map", database.methods[base].key);
-  if (base !== state.get("method")) query.set("features", joinNames(features));
-  if (state.get("view") !== "class") query.set("view", state.get("view"));
-  for (const group of state.get("hidden")) {
-    if (group < 0) query.set("hide-unlabelled", "");
-    else query.append("hide", database.classes[group]);
-  }
-  writeSelection(query, database, state.get("selection"));
-  if (state.get("opened") !== null) query.set("open", database.ids[state.get("opened")]);
-  if (state.get("query") !== "") query.set("find", state.get("query"));
-  const camera = state.get("camera");
-  if (camera) query.set("at", [camera.x, camera.y, camera.zoom].map((value) => Number(value.toPrecision(5))).join(","));
-  replaceHash(query);
+export function overviewAddress(database) {
+  return new Address([
+    { names: ["method", "features"], ...mapOfFeatures(database) },
+    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0] },
+    { name: "hidden", ...hiddenClasses(database) },
+    brushed(database),
+    { name: "opened", key: "open", kind: named(database.ids), standard: null },
+    { name: "query", key: "find", kind: text, standard: "", often: true },
+    { name: "camera", key: "at", kind: camera, standard: null, often: true },
+  ]);
 }
 
 /** The address of a subset's map on the Overview. */
-export function overviewAddress(names) {
+export function subsetAddress(names) {
   return pageAddress("index.html", { features: joinNames(names) });
 }
+
+/** A map, and the features that it is of where these are a subset: one that was searched, whatever else is said. */
+function mapOfFeatures(database) {
+  const { subsets } = database.data;
+  return {
+    read: (query) => ({
+      method: Math.max(
+        database.methods.findIndex(({ key }) => key === query.get("map")),
+        0,
+      ),
+      features: subsets ? splitNames(query.get("features"), subsets.features) : [],
+    }),
+    write(query, { method }) {
+      const { base, features } = database.methods[method];
+      if (base !== 0) query.set("map", database.methods[base].key);
+      if (base !== method) query.set("features", joinNames(features));
+    },
+  };
+}
+
+function hiddenClasses({ classes }) {
+  return {
+    read: (query) => {
+      const hidden = query
+        .getAll("hide")
+        .map((name) => classes.indexOf(name))
+        .filter((group) => group >= 0);
+      return new Set(query.has("hide-unlabelled") ? [...hidden, -1] : hidden);
+    },
+    write(query, hidden) {
+      for (const group of hidden) {
+        if (group < 0) query.set("hide-unlabelled", "");
+        else query.append("hide", classes[group]);
+      }
+    },
+  };
+}
+
+const camera = {
+  read([word = ""]) {
+    const numbers = word.split(",").map(Number);
+    if (numbers.length !== 3 || !numbers.every(Number.isFinite)) return undefined;
+    const [x, y, zoom] = numbers;
+    return { x, y, zoom };
+  },
+  write: ({ x, y, zoom }) => [[x, y, zoom].map((value) => Number(value.toPrecision(5))).join(",")],
+};

@@ -1,79 +1,71 @@
-// The state of the gallery in its address: filters and groups by name, so that a link stays good when the database grows.
+// The state of the gallery in its address.
 
-import { pageAddress, readHash, replaceHash } from "../base/place.js";
+import { Address, choice, flag, named, text, texts, within } from "../base/address.js";
+import { pageAddress } from "../base/place.js";
 import { NONE } from "../database/fields.js";
 import { readSelection, writeSelection } from "../database/selection.js";
+import { brushed } from "./selected.js";
 
 export const SIZES = { least: 56, usual: 148, most: 320 };
 
 /** What each filter's parameter starts with; the key of its field follows. */
 const [IS, LACKS, RANGE] = ["is.", "lacks.", "range."];
 
-/** How the gallery is arranged where the address says nothing. */
-function usual(database, fields) {
-  return { group: database.separable ? (fields.active?.key ?? "") : "", sort: "", size: SIZES.usual };
+export function galleryAddress(database, fields) {
+  const keys = (some) => some.map(({ key }) => key);
+  const usualGroup = database.separable ? (fields.active?.key ?? "") : "";
+  return new Address([
+    { name: "query", key: "find", kind: text, standard: "", often: true },
+    { name: "only", ...onlySelected(database), standard: false },
+    { name: "filters", ...filters(fields), often: true },
+    { name: "group", key: "group", kind: choice(["", ...keys(fields.groupable)]), standard: usualGroup },
+    { name: "sort", key: "sort", kind: choice(keys(fields.sortable)), standard: "" },
+    { name: "down", key: "down", kind: flag, standard: false },
+    { name: "size", key: "size", kind: within(SIZES.least, SIZES.most), standard: SIZES.usual, often: true },
+    { name: "closed", key: "closed", kind: texts },
+    brushed(database),
+    { name: "at", key: "at", kind: named(database.ids), standard: null },
+  ]);
 }
 
-export function readGalleryAddress(database, fields) {
-  const query = readHash();
-  const standard = usual(database, fields);
-  const group = query.get("group");
-  const sort = query.get("sort") ?? "";
-  const selection = readSelection(query, database);
-  const size = Number(query.get("size") ?? standard.size);
+/** The address of the gallery with some shapes selected, and none but these shown. */
+export function galleryOf(database, shapes) {
+  const query = new URLSearchParams([["only", ""]]);
+  writeSelection(query, database, shapes);
+  return pageAddress("shapes.html", query);
+}
+
+/** None but the selected shapes, where there are some. */
+function onlySelected(database) {
   return {
-    query: query.get("find") ?? "",
-    only: query.has("only") && selection.size > 0,
-    filters: readFilters(query, fields),
-    group: group === "" || fields.groupable.some(({ key }) => key === group) ? group : standard.group,
-    sort: fields.sortable.some(({ key }) => key === sort) ? sort : standard.sort,
-    down: query.has("down"),
-    size: size >= SIZES.least && size <= SIZES.most ? size : standard.size,
-    closed: new Set(query.getAll("closed")),
-    selection,
-    at: database.indexOfId.get(query.get("at")) ?? null,
+    read: (query) => query.has("only") && readSelection(query, database).size > 0,
+    write: (query) => query.set("only", ""),
   };
 }
 
-export function writeGalleryAddress(database, fields, state) {
-  replaceHash(galleryQuery(database, fields, state));
+function filters(fields) {
+  return {
+    read(query) {
+      const found = fields.filters.map((field) => [field.key, readFilter(query, field)]);
+      return new Map(found.filter(([, filter]) => filter !== null));
+    },
+    write(query, all) {
+      for (const [key, filter] of all) writeFilter(query, fields.byKey.get(key), filter);
+    },
+  };
 }
 
-function galleryQuery(database, fields, state) {
-  const query = new URLSearchParams();
-  const standard = usual(database, fields);
-  if (state.get("query") !== "") query.set("find", state.get("query"));
-  if (state.get("only")) query.set("only", "");
-  for (const [key, filter] of state.get("filters")) writeFilter(query, fields.byKey.get(key), filter);
-  if (state.get("group") !== standard.group) query.set("group", state.get("group"));
-  if (state.get("sort") !== standard.sort) query.set("sort", state.get("sort"));
-  if (state.get("down")) query.set("down", "");
-  if (state.get("size") !== standard.size) query.set("size", state.get("size"));
-  for (const key of state.get("closed")) query.append("closed", key);
-  writeSelection(query, database, state.get("selection"));
-  if (state.get("at") !== null) query.set("at", database.ids[state.get("at")]);
-  return query;
-}
-
-function readFilters(query, fields) {
-  const filters = new Map();
-  for (const field of fields.filters) {
-    const range = query
-      .get(RANGE + field.key)
-      ?.split("..")
-      .map(Number);
-    if (field.edges !== null && range?.length === 2 && range.every(Number.isFinite)) {
-      filters.set(field.key, { low: range[0], high: range[1] });
-      continue;
-    }
-    const values = query
-      .getAll(IS + field.key)
-      .map((name) => namedValue(field, name))
-      .filter((value) => value !== undefined && value !== NONE);
-    if (query.has(LACKS + field.key)) values.push(NONE);
-    if (values.length > 0 && (field.names !== null || field.tree !== null)) filters.set(field.key, new Set(values));
-  }
-  return filters;
+function readFilter(query, field) {
+  const range = (query.get(RANGE + field.key) ?? "").split("..").map(Number);
+  if (field.edges !== null && range.length === 2 && range.every(Number.isFinite))
+    return { low: range[0], high: range[1] };
+  if (field.names === null && field.tree === null) return null;
+  const values = query
+    .getAll(IS + field.key)
+    .map((name) => namedValue(field, name))
+    .filter((value) => value !== undefined && value !== NONE);
+  if (query.has(LACKS + field.key)) values.push(NONE);
+  return values.length > 0 ? new Set(values) : null;
 }
 
 function writeFilter(query, field, filter) {
@@ -97,11 +89,4 @@ function namedValue(field, name) {
     (field.tree?.nodes ?? field.names ?? []).map((_, value) => [nameInAddress(field, value), value]),
   );
   return field.numberOfName.get(name);
-}
-
-/** The address of the gallery with some shapes selected, and none but these shown. */
-export function galleryOf(database, shapes) {
-  const query = new URLSearchParams([["only", ""]]);
-  writeSelection(query, database, shapes);
-  return pageAddress("shapes.html", query);
 }

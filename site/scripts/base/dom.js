@@ -105,3 +105,9 @@ export function focused() {
 export function coarse() {
   return window.matchMedia("(pointer: coarse)").matches;
 }
+
+/** Do `work` at once, and whenever one of some elements has another size. */
+export function watchSize(nodes, work) {
+  const observer = new ResizeObserver(work);
+  for (const node of nodes) observer.observe(node);
+}

@@ -1,5 +1,7 @@
-// What all pages of shapes begin and end with: a state that follows the address and the theme, and a voice.
+// What all pages begin and end with: a state that follows the address and the theme, and a voice.
 
+import { Address } from "./address.js";
+import { pushHash, readHash, replaceHash } from "./place.js";
 import { State } from "./state.js";
 import { currentTheme, watchTheme } from "./theme.js";
 
@@ -15,17 +17,26 @@ import { currentTheme, watchTheme } from "./theme.js";
 /**
  * Open a page.
  *
- * `read()` gives the state that the address holds, or a promise of it; `values` is what else the state has at first.
- * @template {Record<string, any>} Read
- * @template {Record<string, any>} [Values={}]
- * @param {{ read: () => Read | Promise<Read>, values?: Values }} page
+ * The state has the values of the `address`, whose changes are written there, and `values` at first. `settle` makes
+ * values of the state of what the address holds, where more has to be known for it.
+ * @param {{
+ *   address?: Address,
+ *   settle?: (found: Record<string, any>) => Record<string, any> | Promise<Record<string, any>>,
+ *   values?: Record<string, any>,
+ * }} [page]
  */
-export async function openPage({ read, values }) {
-  /** @type {State<Read & Values & Shown>} */
-  const state = new State(
-    /** @type {any} */ ({ brushing: false, ...values, ...(await read()), theme: currentTheme() }),
-  );
-  const live = document.getElementById("live");
+export async function openPage({ address = new Address([]), settle = (found) => found, values = {} } = {}) {
+  const read = () => settle(address.read(readHash()));
+  /** @type {State<Shown & Record<string, any>>} */
+  const state = new State({ brushing: false, ...values, ...(await read()), theme: currentTheme() });
+  let arriving = false;
+  const replace = () => replaceHash(address.write(state));
+  const replaceLater = delayed(replace);
+  state.listen((changed) => {
+    if (!arriving && address.has(changed, ({ place }) => place)) pushHash(address.write(state));
+    else if (address.has(changed, ({ often }) => !often)) replace();
+    else if (address.has(changed)) replaceLater();
+  });
   return {
     state,
     /**
@@ -33,18 +44,23 @@ export async function openPage({ read, values }) {
      * @param {string} text
      */
     announce(text) {
-      live.textContent = text;
+      document.getElementById("live").textContent = text;
     },
     /**
      * The page is drawn: from here on it follows the address, whose new values `arrive` takes, and the theme, for which
      * `redraw` does what listening to the state does not.
-     * @param {{ arrive?: (found: Read) => void, redraw?: () => void }} [how]
+     * @param {{ arrive?: (found: Record<string, any>) => void, redraw?: () => void }} [how]
      */
-    ready({ arrive = (found) => state.set(/** @type {any} */ (found)), redraw = () => {} } = {}) {
-      window.addEventListener("hashchange", async () => arrive(await read()));
+    ready({ arrive = (found) => state.set(found), redraw = () => {} } = {}) {
+      window.addEventListener("hashchange", async () => {
+        const found = await read();
+        arriving = true;
+        arrive(found);
+        arriving = false;
+      });
       watchTheme(() => {
         redraw();
-        state.set(/** @type {any} */ ({ theme: currentTheme() }));
+        state.set({ theme: currentTheme() });
       });
       document.documentElement.dataset.ready = "";
     },

@@ -4,12 +4,13 @@
 // the page before the state of its view: `#/shapes?find=x` where a folder has `shapes.html#find=x`. Only this module
 // knows the difference.
 
-const singleFile = document.documentElement.hasAttribute("data-single-file");
+// Tests read addresses where there is no document.
+const singleFile = globalThis.document?.documentElement.hasAttribute("data-single-file") ?? false;
 const PAGE = /^#\/([a-z-]*)\??/;
 const LINK = /^([a-z-]+\.html)(?:#(.*))?$/;
 
 /** The page that a site of one file was opened on: one load of the document shows one page. */
-const opened = addressedFile();
+const opened = singleFile ? addressedFile() : null;
 
 /** In a site of one file: the file that the page in the address would be in a folder. */
 export function addressedFile() {

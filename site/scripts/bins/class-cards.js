@@ -122,11 +122,29 @@ export class ClassCards {
 }
 
 /**
+ * The bin to look at first, and its class: one that separates a class alone, if any does, the best of these.
+ * @param {Chunk.Selection} selection
+ * @returns {{ bin: number, group: number | null }}
+ */
+export function firstBin({ minimal }) {
+  const found = minimal.map((separated) => ({
+    group: separated.group,
+    highest: separated.highest,
+    ...chooseSet(separated, "fewest"),
+  }));
+  if (found.length === 0) return { bin: 0, group: null };
+  const best = found.reduce((a, b) =>
+    (b.bins.length - a.bins.length || a.nh / (a.highest || 1) - b.nh / (b.highest || 1)) < 0 ? b : a,
+  );
+  return { bin: best.bins[0], group: best.group };
+}
+
+/**
  * The set of a size, or the largest below it; or the smallest that separates, else the best.
  * @param {Chunk.SeparatedClass} separated
  * @param {string} size
  */
-export function chooseSet({ sets, highest }, size) {
+function chooseSet({ sets, highest }, size) {
   if (size !== "fewest") return sets[Math.min(Number(size), sets.length) - 1];
   /** @param {Chunk.BinSet} found */
   const worth = ({ nh, nhSpace }) => Math.min(nh, nhSpace);

@@ -17,7 +17,7 @@ export class Boxes {
     this.subsets = subsets;
     this.state = state;
     this.marks = marks;
-    this.list = document.getElementById("legend");
+    this.node = document.getElementById("legend");
     // Columns of the subsets' classes, the highest median first.
     const { boxes, classes } = subsets.data;
     this.order = boxes
@@ -34,7 +34,7 @@ export class Boxes {
     const { database, subsets } = this;
     /** @param {number | null} pointedGroup */
     const point = (pointedGroup) => () => this.state.set({ pointedGroup });
-    this.list.replaceChildren(
+    this.node.replaceChildren(
       ...this.order.map((column) => {
         const group = subsets.data.classes[column];
         return element(
@@ -67,6 +67,10 @@ export class Boxes {
     this.render();
   }
 
+  resize() {
+    this.render();
+  }
+
   render() {
     const { subsets } = this;
     const hits = subsets.data.hitOfClass[this.state.get("chosen")];
@@ -83,7 +87,7 @@ export class Boxes {
       highest: most(column),
       present: true,
     }));
-    const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
+    const height = this.node.firstElementChild.getBoundingClientRect().height * rows.length;
     for (const [id, vega] of this.vegas ?? []) {
       vega.width(document.getElementById(id).clientWidth).height(height);
       vega.data("classes", rows).runAsync();

@@ -35,6 +35,10 @@ export class Ranking {
     this.path = this.overlay.appendChild(svg("g", { class: "path" }));
     this.surface.append(this.overlay);
     this.surface.style.height = `${this.height}px`;
+    if (subsets.labelled) {
+      document.getElementById("chance").textContent = figure(subsets.data.chance);
+      document.getElementById("chance-best").textContent = figure(subsets.data.chanceBest);
+    }
     this.#listen();
   }
 

@@ -1,5 +1,6 @@
 // The Retrieval section of the Features page: how well shapes of a class are found, by each choice of what is compared.
 
+import { chunk } from "../base/chunks.js";
 import { dataLink, element } from "../base/dom.js";
 import { table } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
@@ -10,7 +11,19 @@ import { Ratings } from "./ratings.js";
 /** @import { Children } from "../base/dom.js" */
 /** @import { Choice } from "./ratings.js" */
 
-export class RetrievalSection {
+/**
+ * The section, which follows the theme and what is chosen in the state; null where no class has two shapes.
+ * @param {string[]} classes names
+ * @param {{ chosen: (() => string[]) | null, choose: ((names: string[]) => void) | null }} [choice]
+ */
+export async function openRetrieval(classes, state, { chosen, choose } = { chosen: null, choose: null }) {
+  if (!document.getElementById("retrieval")) return null;
+  const section = new RetrievalSection(await chunk("retrieval"), classes, chosen, choose);
+  state.listen((changed) => (changed.has("chosen") || changed.has("theme")) && section.render());
+  return section;
+}
+
+class RetrievalSection {
   /**
    * @param {Chunk.Retrieval} data
    * @param {string[]} classes names

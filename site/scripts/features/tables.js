@@ -13,8 +13,9 @@ const MOST_ROWS = 300;
 /**
  * @param {Database} database
  * @param {Subsets} subsets
+ * @param {{ tables: () => any[] } | null} retrieval that section
  */
-export function subsetTables(database, subsets, state) {
+export function subsetTables(database, subsets, state, retrieval) {
   const { data } = subsets;
   const chosen = state.get("chosen");
   /** @param {number} place */
@@ -55,6 +56,7 @@ export function subsetTables(database, subsets, state) {
         ".",
       ),
     map && shapesTable("The map of the chosen subset", database, map, [...database.ids.keys()]),
+    ...(retrieval?.tables() ?? []),
   ].filter(Boolean);
   return { title: "Subsets of the features in figures", tables };
 }

@@ -51,11 +51,21 @@ export class FeatureChoice {
 }
 
 /**
+ * What the address says, with the map of its features loaded.
+ * @param {Database} database
+ * @param {{ [name: string]: any, features: string[] }} found
+ */
+export async function addressedMap(database, { features, ...values }) {
+  const method = features.length > 0 ? await subsetMethod(database, features) : null;
+  return method === null ? values : { ...values, method };
+}
+
+/**
  * The index of a subset's map in the database, where it is added when first asked for; null if it was not evaluated.
  * @param {Database} database
  * @param {string[] | null} names
  */
-export async function subsetMethod(database, names) {
+async function subsetMethod(database, names) {
   const { method, features, bins } = database.data.subsets;
   const base = database.methods.findIndex(({ key }) => key === method);
   if (bins === null && names.length === features.length) return base;

@@ -1,14 +1,24 @@
-// How to read a map, beside its title.
+// How to read a map, beside its title. The note of every projection takes its room, so that nothing moves with another.
 
 import { element } from "../base/dom.js";
 
 /** @import { Database } from "../database/database.js" */
 
 /**
+ * @param {HTMLElement} figure
+ * @param {Database} database
+ */
+export function tellReading(figure, database, state) {
+  const notes = database.methods.map(({ note }) => element("span", {}, note));
+  const shown = element("span", { class: "shown" }, reading(figure.dataset.view, database, state));
+  figure.querySelector(".reading").replaceChildren(...notes, shown);
+}
+
+/**
  * @param {string} name
  * @param {Database} database
  */
-export function reading(name, database, state) {
+function reading(name, database, state) {
   const method = database.methods[state.get("method")];
   if (name === "class") return [method.note];
   if (name === "thumbnail") return ["Dots are shapes whose picture would cover another: zoom in to see them."];

@@ -1,27 +1,16 @@
-// The About page is plain HTML; scripts serve the theme button, and the search among the meshes.
+// The About page is plain HTML; scripts serve the theme button, what is copied, and the search among the meshes.
 
 import { watchCopying } from "../about/copying.js";
-import { watchTheme } from "../base/theme.js";
+import { watchMeshes } from "../about/meshes.js";
+import { openPage } from "../base/page.js";
 import { carryAddress } from "../tray/carry.js";
 
-watchTheme(() => {});
-watchCopying();
-carryAddress();
+async function main() {
+  const { ready } = await openPage();
+  watchCopying();
+  watchMeshes();
+  carryAddress();
+  ready();
+}
 
-const meshes = document.getElementById("meshes");
-const field = document.getElementById("find-mesh");
-const status = meshes.querySelector("[role=status]");
-const rows = [...meshes.querySelectorAll("tbody tr")].map((row) => ({
-  row,
-  text: row.textContent.toLocaleLowerCase(),
-}));
-field.closest("p").hidden = false;
-field.addEventListener("input", () => {
-  const words = field.value.toLocaleLowerCase().split(/\s+/);
-  let found = 0;
-  for (const { row, text } of rows) {
-    row.hidden = !words.every((word) => text.includes(word));
-    if (!row.hidden) found += 1;
-  }
-  status.textContent = field.value.trim() === "" ? "" : `${found} of ${rows.length}`;
-});
+main();

@@ -1,15 +1,15 @@
 // The Bins page (paper, 4.4 and Fig. 6, 7, 8): the few bins that separate a class, or all, and how they look on shapes.
 
-import { readBinsAddress, workbenchAddress, writeBinsAddress } from "../addresses/bins.js";
+import { binsAddress, workbenchAddress } from "../addresses/bins.js";
 import { chunks } from "../base/chunks.js";
-import { calm } from "../base/dom.js";
-import { delayed, openPage } from "../base/page.js";
+import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
 import { BinCard } from "../bins-kit/bin-card.js";
 import { Look } from "../bins-kit/look.js";
 import { BinChips } from "../bins/bin-chip.js";
-import { chooseSet, ClassCards } from "../bins/class-cards.js";
+import { ClassCards, firstBin } from "../bins/class-cards.js";
+import { goToLook, watchLookLink } from "../bins/look-section.js";
 import { PathPlayer } from "../bins/path-player.js";
 import { binsTables } from "../bins/tables.js";
 import { Turntable } from "../bins/turntable.js";
@@ -23,8 +23,9 @@ async function main() {
   const [overview, selection, data, bytes] = await chunks("overview", "selection", "workbench", "bins");
   const bins = new Bins(data, bytes);
   const database = new Database(overview, currentTheme);
-  const first = firstBin(selection);
-  const { state, announce, ready } = await openPage({ read: () => readBinsAddress(database, bins, selection, first) });
+  const { state, announce, ready } = await openPage({
+    address: binsAddress(database, bins, selection, firstBin(selection)),
+  });
   const card = new BinCard(bins, database);
   const chips = new BinChips(bins, card, state, {
     look: (bin, group) => {
@@ -47,39 +48,9 @@ async function main() {
   new Tray(database, state, { open: choose });
   carrySelection(database, state);
   watchTables(() => binsTables(database, bins, selection, state, card));
-  document.querySelector(".lead a")?.addEventListener("click", (event) => {
-    // The address holds the state of the view, not a place on the page.
-    event.preventDefault();
-    goToLook();
-  });
-  const write = () => writeBinsAddress(database, bins, selection, state, first);
-  const later = delayed(write);
-  state.listen((changed) => {
-    if (["size", "step", "bin", "group", "shape", "reading"].some((name) => changed.has(name))) write();
-    if (changed.has("selection")) later();
-  });
+  watchLookLink();
   clearOnEscape(state);
   ready();
-}
-
-/** The bin to look at first, and its class: one that separates a class alone, if any does, the best of these. */
-function firstBin({ minimal }) {
-  const found = minimal.map((separated) => ({
-    group: separated.group,
-    highest: separated.highest,
-    ...chooseSet(separated, "fewest"),
-  }));
-  if (found.length === 0) return { bin: 0, group: null };
-  const best = found.reduce((a, b) =>
-    (b.bins.length - a.bins.length || a.nh / (a.highest || 1) - b.nh / (b.highest || 1)) < 0 ? b : a,
-  );
-  return { bin: best.bins[0], group: best.group };
-}
-
-function goToLook() {
-  const look = document.getElementById("look");
-  look.focus({ preventScroll: true });
-  look.scrollIntoView({ behavior: calm() ? "instant" : "smooth", block: "start" });
 }
 
 main();

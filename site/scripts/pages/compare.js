@@ -1,6 +1,6 @@
 // The Compare page: what sets two groups apart, what they share, outliers, and classes that are alike.
 
-import { readView, writeView } from "../addresses/compare.js";
+import { comparePageAddress } from "../addresses/compare.js";
 import { chunk, chunks } from "../base/chunks.js";
 import { openPage } from "../base/page.js";
 import { pageAddress } from "../base/place.js";
@@ -25,7 +25,7 @@ async function main() {
   let loaded = null;
   const bins = () =>
     (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
-  const { state, announce, ready } = await openPage({ read: () => readView(database, data, neighbours) });
+  const { state, announce, ready } = await openPage({ address: comparePageAddress(database, data, neighbours) });
   const groups = new GroupsView(database, data, clusters, neighbours, state, { bins, announce });
   const outliers = new Outliers(database, data, neighbours, state, { bins, announce });
   const matrix = new Matrix(database, data, neighbours, state, { announce });
@@ -37,10 +37,6 @@ async function main() {
   outliers.render();
   matrix.render();
   watchTables(() => compareTables(database, data, state, { groups, outliers, matrix }));
-  state.listen((changed) => {
-    if (changed.has("theme") && changed.size === 1) return;
-    writeView(database, state);
-  });
   ready();
 }
 

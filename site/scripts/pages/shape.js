@@ -1,6 +1,6 @@
 // The page of one shape: what it is, where it lies, and which shapes are most like it.
 
-import { goToShape, readShapeAddress, writeShapeAddress } from "../addresses/shape.js";
+import { shapePageAddress } from "../addresses/shape.js";
 import { chunk } from "../base/chunks.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
@@ -20,13 +20,13 @@ import { clearOnEscape, Tray } from "../tray/tray.js";
 async function main() {
   const database = new Database(await chunk("overview"), currentTheme);
   const page = document.getElementById("content");
-  const { state, announce, ready } = await openPage({ read: () => readShapeAddress(database) });
+  const { state, announce, ready } = await openPage({ address: shapePageAddress(database) });
   carrySelection(database, state);
   let opened = false;
   const links = new ShapeLinks(database, state, { opened: () => (opened = true) });
   const go = (shape) => {
     opened = true;
-    goToShape(database, state, shape);
+    state.set({ shape, unknown: null });
   };
   const portrait = new Portrait(database, state, { models: page.dataset.models !== undefined });
   const facts = new Facts(database, state, { links });
@@ -38,16 +38,14 @@ async function main() {
   ];
   for (const view of views) view.render();
   state.listen((changed) => {
-    if (changed.has("shape")) {
-      announce(state.get("shape") === null ? "No such shape" : database.names[state.get("shape")]);
-      // The browser's own way back also finds the place on the page again.
-      if (opened) {
-        window.scrollTo(0, 0);
-        page.focus({ preventScroll: true });
-      }
-      opened = false;
-    } else if (["method", "features", "bins", "bin", "parts", "selection"].some((name) => changed.has(name)))
-      writeShapeAddress(database, state);
+    if (!changed.has("shape")) return;
+    announce(state.get("shape") === null ? "No such shape" : database.names[state.get("shape")]);
+    // The browser's own way back also finds the place on the page again.
+    if (opened) {
+      window.scrollTo(0, 0);
+      page.focus({ preventScroll: true });
+    }
+    opened = false;
   });
   clearOnEscape(state);
   new Tray(database, state, { open: go });

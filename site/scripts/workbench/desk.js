@@ -18,6 +18,24 @@ import { contests, separationWords } from "./separation.js";
 /** Fewer shapes have no map worth the name. */
 export const FEWEST_SHAPES = 3;
 
+/** What the state has of the work at first. */
+export function nothingMade() {
+  return {
+    step: null,
+    originalMap: null,
+    originalStatus: { kind: "none" },
+    originalCamera: null,
+    refinedMap: null,
+    refinedStatus: { kind: "none" },
+    refinedCamera: null,
+    scores: null,
+    scoresStatus: { kind: "none" },
+    method: 0,
+    matches: null,
+    opened: null,
+  };
+}
+
 export class Desk {
   /**
    * @param {Database} database
@@ -37,12 +55,15 @@ export class Desk {
     this.announce = announce;
     this.history = new History();
     this.history.push(this.#step());
-    this.arriving = false;
     /** @param {string} name */
     const tell = (name) => (status) => state.set({ [`${name}Status`]: status });
     this.inquiries = Object.fromEntries(
       ["original", "refined", "scores"].map((name) => [name, new Inquiry(tell(name))]),
     );
+    const content = document.getElementById("content");
+    state.listen((changed) => {
+      if ([...changed].some((name) => name.endsWith("Status"))) content.setAttribute("aria-busy", String(this.busy));
+    });
   }
 
   // Steps
@@ -113,10 +134,8 @@ export class Desk {
     const known = this.history.find(step);
     if (known < 0) this.history.push(step);
     else this.history.at = known;
-    this.arriving = true;
     this.state.set(questions);
     this.#show(this.history.current);
-    this.arriving = false;
   }
 
   #step() {

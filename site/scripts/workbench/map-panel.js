@@ -4,12 +4,34 @@ import { element } from "../base/dom.js";
 import { difference, symbol } from "../base/figures.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, rangeOf } from "../database/hit-range.js";
+import { emptyMap } from "./empty-map.js";
 import { StatusLine } from "./status-line.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Answers } from "./answers.js" */
+/** @import { Desk } from "./desk.js" */
 
-export class MapPanel {
+/**
+ * What stands around the two maps; the refined one is compared with the original one.
+ * @param {Database} database
+ * @param {Bins} bins
+ * @param {Answers} answers
+ * @param {Desk} desk
+ */
+export function mapPanels(database, state, bins, answers, desk) {
+  return Object.entries({ original: null, refined: "originalMap" }).map(
+    ([which, other]) =>
+      new MapPanel(which, database, state, bins, {
+        other,
+        again: () => desk.ask([which]),
+        stop: () => desk.stop(which),
+        empty: () => emptyMap(which, state, answers, desk),
+      }),
+  );
+}
+
+class MapPanel {
   /**
    * `other` names the state's map that this one is compared with, or is null; `again` restarts work that was stopped,
    * `empty` says what to show, as elements, where there is no map and none is being made.

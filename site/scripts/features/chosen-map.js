@@ -1,0 +1,71 @@
+// The map of the chosen subset: it follows the choice, and has the gestures of all maps.
+
+import { watchSize } from "../base/dom.js";
+import { Card } from "../map/card.js";
+import { Gestures } from "../map/gestures.js";
+import { MapView } from "../map/map.js";
+import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
+import { watchColors, watchDrag, watchMapKeys } from "./controls.js";
+import { shown } from "./subset-map.js";
+
+/** What the state has of the map at first. */
+export function nothingShown() {
+  return {
+    ...NOTHING_POINTED,
+    ...dragging(),
+    method: null,
+    hidden: new Set(),
+    matches: null,
+    opened: null,
+    camera: null,
+  };
+}
+
+export class ChosenMap {
+  constructor(database, subsets, state, announce) {
+    this.database = database;
+    this.subsets = subsets;
+    this.state = state;
+    this.announce = announce;
+  }
+
+  /** Mark a shape, or no longer. */
+  toggle(shape) {
+    this.state.set({ opened: shape === this.state.get("opened") ? null : shape });
+  }
+
+  /** Fetch the map and draw it. */
+  async open() {
+    const { database, subsets, state, announce } = this;
+    state.set({ method: await shown(database, subsets, state.get("chosen")) });
+    const scene = new Scene(database, state);
+    const figure = document.querySelector("figure.map");
+    figure.dataset.view = state.get("color");
+    this.view = new MapView(scene, figure);
+    scene.views = [this.view];
+    watchDrag(state);
+    const gestures = new Gestures(this.view, {
+      open: (shape) => this.toggle(shape),
+      promote: () => {},
+      announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
+    });
+    watchMapKeys(this.view.surface, state, gestures);
+    watchColors(state, this.view);
+    new Card(state);
+    state.listen((changed) => changed.has("chosen") && this.#follow());
+    await this.start();
+    watchSize([this.view.surface], () => this.view.resize());
+  }
+
+  /** Draw with the colours of the theme in use. */
+  async start() {
+    await this.view.start();
+  }
+
+  async #follow() {
+    const chosen = this.state.get("chosen");
+    const method = await shown(this.database, this.subsets, chosen);
+    // Another may have been chosen while this one was fetched.
+    if (this.state.get("chosen") === chosen) this.state.set({ method });
+  }
+}

@@ -1,0 +1,66 @@
+// The bins with their scores, as the chart, the card and the line of the work's status show them.
+
+import { watchSize } from "../base/dom.js";
+import { BinCard } from "../bins-kit/bin-card.js";
+import { BinChart } from "./bin-chart.js";
+import { separationWords, sides } from "./separation.js";
+import { StatusLine } from "./status-line.js";
+
+export class BinSection {
+  constructor(database, data, bins, state, answers, desk, announce) {
+    this.database = database;
+    this.data = data;
+    this.state = state;
+    this.answers = answers;
+    this.noScores = new Float64Array(bins.count).fill(NaN);
+    this.card = new BinCard(bins, database);
+    this.chart = new BinChart(document.getElementById("bin-chart"), bins, {
+      onToggle: (column) => desk.toggle([column]),
+      onRange: (columns) => desk.add(columns),
+      onRemove: (columns) => desk.remove(columns),
+      onPoint: (column, box) => (column === null ? this.card.hide() : this.card.show(column, box)),
+      announce,
+    });
+    this.status = new StatusLine(document.getElementById("scores-status"), {
+      again: () => desk.ask(["scores"]),
+      stop: () => desk.stop("scores"),
+    });
+    state.listen((changed) => {
+      if (["scores", "bins", "scoresStatus", "separation", "hidden", "scorer"].some((name) => changed.has(name)))
+        this.#draw();
+      if (changed.has("scoresStatus")) this.status.show(state.get("scoresStatus"));
+    });
+  }
+
+  /** Follow the room that there is. */
+  start() {
+    watchSize([this.chart.node], () => this.chart.resize());
+  }
+
+  /** Draw with the colours of the theme in use. */
+  redraw() {
+    this.chart.start();
+  }
+
+  #draw() {
+    const { database, data, state } = this;
+    const scores = state.get("scores") ?? this.noScores;
+    const groups = this.answers.groups(state.get("hidden"));
+    const separation = state.get("separation");
+    const { positive } = sides(separation, groups);
+    this.card.know({
+      scores,
+      scorer: database.separable
+        ? data.scorers.find(({ key }) => key === state.get("scorer")).title
+        : "standard deviation",
+      separated: positive,
+      others: groups.filter((group) => !positive.includes(group)),
+    });
+    this.chart.draw({
+      scores,
+      chosen: state.get("bins"),
+      busy: state.get("scoresStatus").kind === "working",
+      separation: database.separable ? separationWords(separation, groups, database) : null,
+    });
+  }
+}

@@ -1,0 +1,60 @@
+// The two maps: of all bins of the features in use, and of the chosen bins. Each is made while one looks.
+
+import { watchSize } from "../base/dom.js";
+import { currentTheme } from "../base/theme.js";
+import { Database } from "../database/database.js";
+import { Gestures } from "../map/gestures.js";
+import { LiveScene } from "../map/live-scene.js";
+import { MapView } from "../map/map.js";
+
+const WHICH = ["original", "refined"];
+
+export class WorkMaps {
+  constructor(overview, database, state, announce) {
+    this.state = state;
+    // Each map has a database of its own: the same shapes, one layout.
+    const methods = overview.methods.slice(0, 1);
+    const scenes = WHICH.map(
+      (which) => new LiveScene(new Database({ ...overview, methods }, currentTheme), state, `${which}Camera`),
+    );
+    this.scenes = Object.fromEntries(WHICH.map((which, place) => [which, scenes[place]]));
+    this.views = scenes.map((scene, place) => {
+      const view = new MapView(scene, document.querySelector(`figure[data-map="${WHICH[place]}"]`));
+      view.name = state.get("color");
+      scene.views = [view];
+      return view;
+    });
+    const does = {
+      open: (shape) => this.toggle(shape),
+      promote: () => {},
+      announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
+    };
+    this.gestures = new Map(this.views.map((view) => [view.surface, new Gestures(view, does)]));
+    state.listen((changed) => changed.has("color") && this.#recolor());
+  }
+
+  /** Mark a shape on both maps, or no longer. */
+  toggle(shape) {
+    this.state.set({ opened: shape === this.state.get("opened") ? null : shape });
+  }
+
+  async start() {
+    for (const view of this.views) await view.start();
+    watchSize(
+      this.views.map(({ surface }) => surface),
+      () => {
+        for (const view of this.views) view.resize();
+      },
+    );
+  }
+
+  /** Draw with the colours of the theme in use. */
+  redraw() {
+    for (const view of this.views) view.start();
+  }
+
+  #recolor() {
+    for (const view of this.views) view.name = this.state.get("color");
+    this.redraw();
+  }
+}
