@@ -71,7 +71,9 @@ def test_what_starts_a_page_only_wires():
         for path in (_scripts() / "pages").glob("*.js")
         if (lines := len(path.read_text(encoding="utf-8").splitlines())) >= LONGEST_ENTRY
     }
-    assert long == {}, f"under {LONGEST_ENTRY} lines: move what a page does into a class of its room, site/scripts/PAGE/"
+    assert long == {}, (
+        f"under {LONGEST_ENTRY} lines: move what a page does into a class of its room, site/scripts/PAGE/"
+    )
 
 
 def test_no_script_is_left_over():

@@ -5,7 +5,7 @@ import { difference, symbol } from "../base/figures.js";
 import { count, figure } from "../base/words.js";
 import { Labels } from "../map/labels.js";
 import { FULL } from "../map/marks.js";
-import { mapOf, Plot } from "../map/plot.js";
+import { mapOf, pictureOfMap, Plot } from "../map/plot.js";
 
 const PACE = 900;
 const THUMBNAIL = 64;
@@ -116,19 +116,8 @@ export class PathPlayer {
   }
 
   #thumbnail(step, place) {
-    const { database } = this;
-    const radius = Math.min(Math.max(24 / Math.sqrt(database.count), 0.8), 2);
-    const plot = new Plot(database, {
-      margin: 4,
-      mark: (index) => ({
-        path: database.data.marks.plain,
-        color: database.color(database.groups[index]),
-        radius,
-        alpha: 1,
-      }),
-    });
-    plot.node.style.width = plot.node.style.height = `${THUMBNAIL}px`;
-    plot.show(this.maps[place]);
+    const picture = pictureOfMap(this.database, this.maps[place], THUMBNAIL);
+    picture.style.width = picture.style.height = `${THUMBNAIL}px`;
     return element(
       "li",
       {},
@@ -142,7 +131,7 @@ export class PathPlayer {
           "aria-label": this.#words(place),
           onclick: () => this.go(place),
         },
-        plot.node,
+        picture,
         element("b", {}, figure(step.nh)),
       ),
     );

@@ -124,6 +124,26 @@ export class Plot {
 
 const NOBODY = new Set();
 
+/** A map as a small square picture, without the shapes of `hidden` classes. */
+export function pictureOfMap(database, map, size, hidden = NOBODY) {
+  const marks = new Marks({ class: "few-plot", "aria-hidden": "true" });
+  const { x, y, width, height } = bounds(map);
+  const scale = (size - 8) / Math.max(width, height);
+  const radius = Math.min(Math.max(24 / Math.sqrt(database.count), 0.8), 2);
+  marks.begin(size, size);
+  for (let index = 0; index < database.count; index += 1) {
+    const group = database.groups[index];
+    if (Number.isNaN(map.x[index]) || hidden.has(group)) continue;
+    const place = /** @type {[number, number]} */ ([
+      size / 2 + (map.x[index] - x) * scale,
+      size / 2 - (map.y[index] - y) * scale,
+    ]);
+    marks.lay(marks.stamp(database.data.marks.plain, database.color(group), radius), place, 1);
+  }
+  marks.show();
+  return marks.node;
+}
+
 function between(from, to, share) {
   const mix = (a, b) =>
     b.map((value, index) => (Number.isNaN(a[index]) ? value : a[index] + share * (value - a[index])));

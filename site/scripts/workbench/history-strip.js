@@ -2,7 +2,7 @@
 
 import { element, focused } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
-import { bounds } from "../database/database.js";
+import { pictureOfMap } from "../map/plot.js";
 import { changes } from "./history.js";
 
 /** @import { Database } from "../database/database.js" */
@@ -101,27 +101,8 @@ export class HistoryStrip {
 
   #pictureOf(step, map) {
     if (this.#pictures.get(step)?.map !== map)
-      this.#pictures.set(step, { map, canvas: this.#picture(map, step.hidden) });
+      this.#pictures.set(step, { map, canvas: pictureOfMap(this.database, map, SIZE, step.hidden) });
     return this.#pictures.get(step).canvas;
-  }
-
-  #picture(map, hidden) {
-    const { database } = this;
-    const dense = window.devicePixelRatio || 1;
-    const canvas = element("canvas", { width: SIZE * dense, height: SIZE * dense, "aria-hidden": "true" });
-    const pen = canvas.getContext("2d");
-    const { x, y, width, height } = bounds(map);
-    const scale = (SIZE - 8) / Math.max(width, height);
-    pen.scale(dense, dense);
-    const radius = Math.min(Math.max(24 / Math.sqrt(database.count), 0.8), 2);
-    for (let index = 0; index < database.count; index += 1) {
-      if (Number.isNaN(map.x[index]) || hidden.has(database.groups[index])) continue;
-      pen.fillStyle = database.color(database.groups[index]);
-      pen.beginPath();
-      pen.arc(SIZE / 2 + (map.x[index] - x) * scale, SIZE / 2 - (map.y[index] - y) * scale, radius, 0, 7);
-      pen.fill();
-    }
-    return canvas;
   }
 
   /** @param {KeyboardEvent & Targeted} event */
