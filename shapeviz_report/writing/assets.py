@@ -7,6 +7,7 @@ import gzip
 import json
 from collections.abc import Mapping, Sequence
 from functools import cache
+from pathlib import Path
 from types import MappingProxyType
 
 from shapeviz_report.pages import PAGES, Page, PageContent
@@ -15,23 +16,8 @@ from shapeviz_report.writing.data_files import json_text
 from shapeviz_report.writing.joiner import join, join_pages
 from shapeviz_report.writing.resources import site_folder
 
-#: The style sheets that make up the site's one, in their order.
-STYLES = (
-    "tokens.css",
-    "page.css",
-    "tray.css",
-    "overview.css",
-    "features.css",
-    "retrieval.css",
-    "workbench.css",
-    "bin-chart.css",
-    "bins.css",
-    "shapes.css",
-    "shape.css",
-    "compare.css",
-    "about.css",
-    "publication.css",
-)
+#: The layers of the style sheet, each over those before it: a sheet of that name in ``site/styles``, or a folder.
+LAYERS = ("tokens", "base", "components", "pages")
 
 
 @cache
@@ -50,15 +36,28 @@ def join_scripts() -> Mapping[str, str]:
     )
 
 
+def style_sheets() -> list[tuple[str, Path]]:
+    """The style sheets in their order, each with its layer."""
+    styles = site_folder() / "styles"
+    return [
+        (layer, sheet)
+        for layer in LAYERS
+        for sheet in (styles / f"{layer}.css", *sorted((styles / layer).glob("*.css")))
+        if sheet.exists()
+    ]
+
+
 def join_styles(report: Report) -> str:
     """The style sheet, with the accent of the owner."""
-    sheets = [(site_folder() / "styles" / name).read_text(encoding="utf-8") for name in STYLES]
+    sheets = [
+        f"@layer {layer} {{\n{sheet.read_text(encoding='utf-8')}}}\n" for layer, sheet in style_sheets()
+    ]
     accent = report.publication.accent
     return "\n".join(sheets if accent is None else [*sheets, _accent_style(accent)])
 
 
 def _accent_style(accent: Accent) -> str:
-    """The rule of ``tokens.css`` for the accent colour again, and after it."""
+    """The rule of ``tokens.css`` for the accent colour again, over all layers."""
     return f":root {{ --accent: light-dark({accent.light}, {accent.dark}); }}\n"
 
 
