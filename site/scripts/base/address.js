@@ -9,53 +9,59 @@
  */
 
 /**
- * A value of the state, `name`, of the `kind` of its parameter `key`; or, where one parameter is not enough, what reads
- * it from all of them and adds it to them. Several `names` are one value that is an object of them. `standard` holds
- * where nothing is read, and is not written. A change of a `place` is one that the browser's way back leads to; what
- * changes `often` is written when it has come to rest.
- * @typedef {object} Row
- * @property {string} [name]
- * @property {string[]} [names]
- * @property {string} [key]
- * @property {Kind} [kind]
- * @property {(query: URLSearchParams) => any} [read]
- * @property {(query: URLSearchParams, value: any) => void} [write]
- * @property {any} [standard]
- * @property {boolean} [place]
- * @property {boolean} [often]
+ * What is said of every row: `standard` holds where nothing is read, and is not written. A change of a `place` is one
+ * that the browser's way back leads to; what changes `often` is written when it has come to rest.
+ * @typedef {{ standard?: any, place?: boolean, often?: boolean }} Usage
+ */
+
+/**
+ * A value of the state, `name`: of the `kind` of its parameter `key`, or, where one parameter is not enough, with what
+ * reads it from all of them and adds it to them. Several `names` are one value that is an object of them.
+ * @typedef {{ read(query: URLSearchParams): any, write(query: URLSearchParams, value: any): void }} Ways
+ * @typedef {Usage & ({ name: string, key: string, kind: Kind } | Ways & ({ name: string } | { names: string[] }))} Row
  */
 
 export class Address {
-  /** @param {Row[]} rows  in the order in which they are written */
+  /** @param {Row[]} rows in the order in which they are written */
   constructor(rows) {
     this.rows = rows;
   }
 
-  /** Whether one of these values stands in the address, in a row that has `mark`. */
-  has(changed, mark = (_) => true) {
-    return this.rows.some((row) => mark(row) && namesOf(row).some((name) => changed.has(name)));
+  /**
+   * Whether one of these values stands in the address, in a row that is `marked`.
+   * @param {Set<string>} changed
+   * @param {(row: Row) => boolean | undefined} marked
+   */
+  has(changed, marked = (_row) => true) {
+    return this.rows.some((row) => marked(row) && namesOf(row).some((name) => changed.has(name)));
   }
 
-  /** The values of the state that the parameters of an address hold. */
+  /**
+   * The values of the state that the parameters of an address hold.
+   * @param {URLSearchParams} query
+   */
   read(query) {
+    /** @type {Record<string, any>} */
     const values = {};
     for (const row of this.rows) {
-      const found = row.kind ? row.kind.read(query.getAll(row.key)) : row.read(query);
+      const found = "kind" in row ? row.kind.read(query.getAll(row.key)) : row.read(query);
       const value = found === undefined ? row.standard : found;
-      Object.assign(values, row.names ? value : { [row.name]: value });
+      Object.assign(values, "names" in row ? value : { [row.name]: value });
     }
     return values;
   }
 
-  /** The parameters of a state, or of a map of its values. */
+  /**
+   * The parameters of a state.
+   * @param {{ get(name: string): any }} state
+   */
   write(state) {
     const query = new URLSearchParams();
     for (const row of this.rows) {
-      const value = row.names
-        ? Object.fromEntries(row.names.map((name) => [name, state.get(name)]))
-        : state.get(row.name);
+      const value =
+        "names" in row ? Object.fromEntries(row.names.map((name) => [name, state.get(name)])) : state.get(row.name);
       if (isStandard(row, value)) continue;
-      if (row.kind) for (const text of row.kind.write(value)) query.append(row.key, text);
+      if ("kind" in row) for (const text of row.kind.write(value)) query.append(row.key, text);
       else row.write(query, value);
     }
     return query;
@@ -63,42 +69,68 @@ export class Address {
 }
 
 /** @param {Row} row */
-function namesOf({ name, names }) {
-  return names ?? [name];
+function namesOf(row) {
+  return "names" in row ? row.names : [row.name];
 }
 
 /**
  * @param {Row} row
  * @param {any} value
  */
-function isStandard({ names, standard }, value) {
-  if (standard === undefined) return false;
-  return names ? names.every((name) => value[name] === standard[name]) : value === standard;
+function isStandard(row, value) {
+  if (row.standard === undefined) return false;
+  return "names" in row ? row.names.every((name) => value[name] === row.standard[name]) : value === row.standard;
 }
 
-/** One of a few words. */
+/**
+ * One of a few words.
+ * @param {string[]} words
+ * @returns {Kind}
+ */
 export function choice(words) {
   return { read: ([word]) => (words.includes(word) ? word : undefined), write: (word) => [word] };
 }
 
-/** Any text but none. */
+/**
+ * Any text but none.
+ * @type {Kind}
+ */
 export const text = { read: ([word]) => word || undefined, write: (word) => [word] };
 
-/** Any texts. */
+/**
+ * Any texts.
+ * @type {Kind}
+ */
 export const texts = { read: (words) => new Set(words), write: (words) => [...words] };
 
-/** A parameter that says all by being there. */
+/**
+ * A parameter that says all by being there.
+ * @type {Kind}
+ */
 export const flag = { read: (words) => words.length > 0 || undefined, write: () => [""] };
 
-/** A number between others. */
+/**
+ * A number between others.
+ * @param {number} least
+ * @param {number} most
+ * @returns {Kind}
+ */
 export function within(least, most) {
-  const read = ([word]) => (Number(word) >= least && Number(word) <= most ? Number(word) : undefined);
-  return { read, write: (number) => [String(number)] };
+  return {
+    read: ([word]) => (Number(word) >= least && Number(word) <= most ? Number(word) : undefined),
+    write: (number) => [String(number)],
+  };
 }
 
-/** The place of a name among others, from 0. */
+/**
+ * The place of a name among others, from 0.
+ * @param {string[]} names
+ * @returns {Kind}
+ */
 export function named(names) {
   const places = new Map(names.map((name, place) => [name, place]));
-  const read = (words) => places.get(words.find((word) => places.has(word)));
-  return { read, write: (place) => [names[place]] };
+  return {
+    read: (words) => words.map((word) => places.get(word)).find((place) => place !== undefined),
+    write: (place) => [names[place]],
+  };
 }

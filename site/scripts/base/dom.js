@@ -106,7 +106,11 @@ export function coarse() {
   return window.matchMedia("(pointer: coarse)").matches;
 }
 
-/** Do `work` at once, and whenever one of some elements has another size. */
+/**
+ * Do `work` at once, and whenever one of some elements has another size.
+ * @param {Element[]} nodes
+ * @param {() => void} work
+ */
 export function watchSize(nodes, work) {
   const observer = new ResizeObserver(work);
   for (const node of nodes) observer.observe(node);

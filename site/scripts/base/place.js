@@ -10,7 +10,7 @@ const PAGE = /^#\/([a-z-]*)\??/;
 const LINK = /^([a-z-]+\.html)(?:#(.*))?$/;
 
 /** The page that a site of one file was opened on: one load of the document shows one page. */
-const opened = singleFile ? addressedFile() : null;
+const opened = singleFile ? addressedFile() : "";
 
 /** In a site of one file: the file that the page in the address would be in a folder. */
 export function addressedFile() {

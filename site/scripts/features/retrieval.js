@@ -16,9 +16,9 @@ import { Ratings } from "./ratings.js";
  * @param {string[]} classes names
  * @param {{ chosen: (() => string[]) | null, choose: ((names: string[]) => void) | null }} [choice]
  */
-export async function openRetrieval(classes, state, { chosen, choose } = { chosen: null, choose: null }) {
+export async function openRetrieval(classes, state, choice = { chosen: null, choose: null }) {
   if (!document.getElementById("retrieval")) return null;
-  const section = new RetrievalSection(await chunk("retrieval"), classes, chosen, choose);
+  const section = new RetrievalSection(await chunk("retrieval"), classes, choice.chosen, choice.choose);
   state.listen((changed) => (changed.has("chosen") || changed.has("theme")) && section.render());
   return section;
 }

@@ -53,7 +53,7 @@ export class FeatureChoice {
 /**
  * What the address says, with the map of its features loaded.
  * @param {Database} database
- * @param {{ [name: string]: any, features: string[] }} found
+ * @param {Record<string, any>} found
  */
 export async function addressedMap(database, { features, ...values }) {
   const method = features.length > 0 ? await subsetMethod(database, features) : null;

@@ -61,7 +61,7 @@ async function main() {
   await maps.start();
   section.start();
   ready({
-    arrive: (found) => desk.arrive(found),
+    arrive: (found) => desk.arrive(/** @type {any} */ (found)),
     redraw() {
       maps.redraw();
       section.redraw();
