@@ -21,8 +21,8 @@ test: style browsers ## run every check and every test
 	$(BIN)/pytest --numprocesses 2 --dist loadfile --durations 25
 
 .PHONY: check
-check: style ## the quick part of it: style, imports, types, scripts, and tests that need no site
-	$(BIN)/pytest --numprocesses 2 --dist loadfile tests/unit tests/contract
+check: style ## the quick part of it: style, imports, types, scripts, and the unit and contract tests that are not slow
+	$(BIN)/pytest --numprocesses 2 --dist loadfile --durations 5 -m 'not slow' tests/unit tests/contract
 
 .PHONY: format
 format: $(INSTALLED) $(SCRIPT_TOOLS) ## put files in form

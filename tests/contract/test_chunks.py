@@ -51,6 +51,7 @@ def test_the_browser_s_types_are_made_of_these():
     assert DECLARATIONS.read_text(encoding="utf-8") == typescript(), "run `make chunks`"
 
 
+@pytest.mark.slow
 def test_a_site_holds_every_chunk_and_each_is_of_its_type(tmp_path):
     write_site(everything(), tmp_path)
     held = {}

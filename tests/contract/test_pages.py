@@ -38,6 +38,7 @@ class TestPage:
         # A page that is opened as all are follows the theme from when it is ready.
         assert ("openPage(" in source and " ready(" in source) or "watchTheme(" in source
 
+    @pytest.mark.slow
     def test_its_content_is_the_same_every_time(self, page):
         report = whole_report(("ant", "bird"))
         assert page.content(report) == page.content(report)
@@ -79,6 +80,7 @@ NUMBERED = ["1", "2", "10"]
 
 
 class TestNumbersInNames:
+    @pytest.mark.slow
     @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
     def test_what_a_page_lists_by_name_stands_as_people_count(self, page):
         content = page.content(numbered_report())
@@ -88,6 +90,7 @@ class TestNumbersInNames:
                 if all(isinstance(name, str) for name in names) and sorted(names) == sorted(known):
                     assert names == known
 
+    @pytest.mark.slow
     def test_classes_are_numbered_alike_everywhere(self, tmp_path):
         report = numbered_report()
         write_site(report, tmp_path)

@@ -61,6 +61,7 @@ def test_searches_are_by_the_methods_that_have_rounds() -> None:
     assert searched == SEARCHES[:-1]
 
 
+@pytest.mark.slow
 def test_only_its_own_file_names_a_projection() -> None:
     """What uses maps asks the record; the options, which stand below all methods, are held by the test above."""
     names = {method.name for method in PROJECTIONS}

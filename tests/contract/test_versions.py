@@ -19,6 +19,8 @@ import shapeviz_report
 from shapeviz_report.building import stages
 from shapeviz_report.versions import find_function_closure
 
+pytestmark = pytest.mark.slow
+
 SOURCE = Path(shapeviz_report.__file__).parent
 STAGES = {name: stage for name, stage in vars(stages).items() if isinstance(stage, stages.Stage)}
 

@@ -61,6 +61,7 @@ def test_a_json_of_millions_of_values(tmp_path, value) -> None:
     assert "values, more than" in refused(collect_files, path)
 
 
+@pytest.mark.slow
 def test_a_json_of_one_long_text(tmp_path) -> None:
     path = tmp_path / "mesh.gltf"
     with path.open("wb") as file:

@@ -37,6 +37,7 @@ def test_groups_that_are_there_are_found_with_their_number() -> None:
     assert found.silhouette == pytest.approx(silhouette_samples(values, truth).mean())
 
 
+@pytest.mark.slow
 def test_the_order_of_shapes_has_no_say() -> None:
     # Noise has no clear groups: here an order could decide.
     values = np.random.default_rng(3).normal(0, 1, (60, 6))
@@ -80,6 +81,7 @@ def test_communities_of_a_graph_are_its_cliques() -> None:
     assert set(codes) == {0, 1, 2}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sizes", [(90, 90), (70, 70, 70)])
 def test_large_groups_are_not_cut_at_will(sizes) -> None:
     values, truth = blobs(*sizes)

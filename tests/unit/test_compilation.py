@@ -6,9 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from numba import config
 
 from shapeviz_report.compilation import kept_for
+
+pytestmark = pytest.mark.slow
 
 
 def run(package: Path, cache: Path) -> str:

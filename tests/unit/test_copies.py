@@ -46,6 +46,7 @@ def match(first: Mesh, second: Mesh) -> Match | None:
     return compare(clean(first)[0], clean(second)[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("how", "kind", "mirrored"),
     [
@@ -82,6 +83,7 @@ def test_symmetric_and_flat_shapes_are_found_too_and_need_no_mirror(solid: str, 
     assert not found.mirrored
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ant", "chair", "cup", "human", "table", "teddy"])
 def test_few_faces_leave_nearly_the_same_surface(name: str) -> None:
     original = demo_mesh(name, 3)
@@ -113,6 +115,7 @@ def test_boxes_of_other_proportions_are_no_copies() -> None:
     assert pair_outlines(outlines) == ([], [])
 
 
+@pytest.mark.slow
 def test_shapes_of_a_class_are_no_copies_of_each_other() -> None:
     names = [(name, index) for name in ("cup", "plier", "glasses") for index in range(6)]
     meshes = {f"{name}/{index}": clean(demo_mesh(name, index))[0] for name, index in names}

@@ -89,6 +89,7 @@ def test_the_data_and_the_pages_give_both_figures(report: Report) -> None:
     assert [row["without_copies"] for row in about] == list(report.without_copies.nh_s.values())
 
 
+@pytest.mark.slow
 def test_what_was_chosen_and_what_was_held_out_is_given_without_copies_too() -> None:
     report = with_copies(with_bin_search(with_search(make_report(["ant", "bird"], 8))), [(0, 1), (8, 9)])
     assert report.bins is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from reports import make_report, with_bin_search
 
 from shapeviz_report.exemplars import choose_exemplars, find_centres, find_rivals
@@ -40,6 +41,7 @@ def test_rivals_need_no_more_neighbours_than_there_are() -> None:
     assert find_rivals(np.array([[0.0, 0], [1, 0]]), ["a", "b"], 10) == {"a": "b", "b": "a"}
 
 
+@pytest.mark.slow
 def test_every_bin_found_is_seen_where_it_tells_classes_apart() -> None:
     report = with_bin_search(make_report(features=("Gc", "Sc", "Nd")))
     table, labels = report.features, np.array(report.labels)
@@ -59,6 +61,7 @@ def test_every_bin_found_is_seen_where_it_tells_classes_apart() -> None:
     assert list(exemplars) == sorted(found, key=table.columns.index)
 
 
+@pytest.mark.slow
 def test_external_features_have_no_surface_to_be_seen_on() -> None:
     report = with_bin_search(make_report())
     blocks = tuple(replace(block, bins=1, dimensions=block.width) for block in report.features.blocks)

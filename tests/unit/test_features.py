@@ -99,6 +99,7 @@ def shares(descriptor: Descriptor) -> np.ndarray:
     return np.array(sorted({m / total for total in descriptor.totals for m in range(total + 1)}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("preset", ["default", "paper"])
 def test_no_edge_lies_on_a_share(preset) -> None:
     meshes = (ball(3), lump(), sheet(), tube())

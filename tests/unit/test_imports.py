@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 import trimesh
 
+pytestmark = pytest.mark.slow
+
 COMMAND = str(Path(sys.executable).with_name("shapeviz-report"))
 WAYS = {
     "the script": ([COMMAND], {}),

@@ -21,6 +21,7 @@ def test_by_hand() -> None:
     assert quality.nh_s == pytest.approx(4.5 / 7)
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10**6), st.integers(3, 60), st.integers(1, 12))
 def test_against_sorting(seed, count, k) -> None:
@@ -34,6 +35,7 @@ def test_against_sorting(seed, count, k) -> None:
     assert score(xy, labels.tolist(), k=k).nh == pytest.approx(np.array(expected))
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 10**6))
 def test_the_order_of_shapes_does_not_matter_even_with_ties(seed) -> None:
@@ -88,6 +90,7 @@ def test_weights_add_up() -> None:
     assert (weights.diagonal() == 0).all()
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(st.lists(st.sampled_from(["a", "b", "c", None]), min_size=2, max_size=30), st.integers(1, 12))
 def test_no_map_exceeds_the_maximum_and_one_reaches_it(labels, k) -> None:

@@ -72,6 +72,7 @@ def test_a_function_reaches_what_it_uses(package) -> None:
     assert "libraries=('scipy',)" in second
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("file", "old", "new", "first", "second"),
     [
@@ -99,6 +100,7 @@ def test_a_version_follows_what_is_reached(package, file, old, new, first, secon
     assert [a != b for a, b in zip(after, before, strict=True)] == [first, second]
 
 
+@pytest.mark.slow
 def test_a_version_does_not_depend_on_place_or_time(package, tmp_path) -> None:
     first = ask(package, "function_version(work.first)")
     elsewhere = tmp_path / "elsewhere" / "some_stage"

@@ -52,6 +52,7 @@ def near(one: str, other: str) -> bool:
     return max(abs(a - b) for a, b in zip(*parts, strict=True)) < 30
 
 
+@pytest.mark.slow
 def test_class_map_colors_shapes_by_class():
     image = pixels(charts.class_map(2))
     assert near(color_at(image, -0.5, 0.5), LIGHT.classes[0])
@@ -195,6 +196,7 @@ def test_effects_and_seeds_name_their_rows_in_the_given_order():
     assert svg.count('aria-roledescription="point"') == 4 + 2
 
 
+@pytest.mark.slow
 def test_vendored_vega_is_what_its_readme_says_and_fits_altair():
     """Altair writes specifications for one version of Vega-Lite; the vendored one must be of that line."""
     import altair

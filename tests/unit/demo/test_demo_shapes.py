@@ -99,6 +99,7 @@ def test_triangles_are_small_and_even(name: str, index: int) -> None:
     assert np.percentile(edges, 1) > 0.3 * np.median(edges)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_no_shape_cuts_itself(name: str) -> None:
     assert count_piercing_edges(made(name, 1)) == 0
@@ -131,6 +132,7 @@ def fingerprint(mesh: Mesh) -> str:
     return hashlib.sha256(mesh.vertices.tobytes() + mesh.faces.tobytes()).hexdigest()
 
 
+@pytest.mark.slow
 def test_a_shape_depends_on_class_index_and_seed_alone() -> None:
     here = fingerprint(make_shape("octopus", 5, seed=7))
     make_shape("hand", 0)

@@ -31,6 +31,7 @@ def compute(name: str, mesh: Mesh) -> np.ndarray:
 # What descriptors share
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["even", "crowded", "stacked", "doubled", "few"])
 def test_neighbours_against_a_tree(name) -> None:
     random = np.random.default_rng(0)
@@ -56,6 +57,7 @@ def test_neighbours_against_a_tree(name) -> None:
         assert (np.sort(surface.neighbours, axis=1) == np.sort(indices[:, 1:], axis=1)).all()
 
 
+@pytest.mark.slow
 def test_neighbours_of_flat_and_regular_surfaces_in_every_orientation() -> None:
     cube = np.stack(np.meshgrid(*[np.arange(6.0)] * 3), axis=-1).reshape(-1, 3)
     for vertices in (
@@ -278,6 +280,7 @@ def slow_context(surface: Surface, chosen: range) -> np.ndarray:
 # Point feature histograms
 
 
+@pytest.mark.slow
 def test_pfh_against_slow_pairs() -> None:
     surface = Surface(lump())
     chosen = range(0, len(surface.vertices), 40)
@@ -297,6 +300,7 @@ def test_pfh_against_slow_pairs() -> None:
         assert values[i] == pytest.approx(cells / cells.sum(), abs=1e-5)
 
 
+@pytest.mark.slow
 def test_fpfh_against_slow_pairs() -> None:
     surface = Surface(lump())
     count = len(surface.vertices)
@@ -454,6 +458,7 @@ def seen_from(direction, normal) -> set[str]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("direction", "normal", "words"),
     [

@@ -95,6 +95,7 @@ def test_both_sides_of_two_parallel_sheets_are_as_thick() -> None:
         assert values == pytest.approx(0.2, abs=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SURFACES)
 def test_thickness_does_not_depend_on_orientation(name: str) -> None:
     mesh = SURFACES[name]()
@@ -106,6 +107,7 @@ def test_thickness_does_not_depend_on_orientation(name: str) -> None:
         assert cast(turned, normals @ turn.T) == pytest.approx(expected, abs=1e-9, nan_ok=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SURFACES)
 def test_rays_along_every_axis_and_diagonal(name: str) -> None:
     """Directions with one, two or no zero among their components, from every vertex: all begin on sides of boxes."""

@@ -14,6 +14,8 @@ from shapeviz_report.executor import cluster as module
 from shapeviz_report.executor.cluster import DaskExecutor
 from shapeviz_report.render import check_renderer
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def address(tmp_path_factory):

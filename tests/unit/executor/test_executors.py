@@ -18,6 +18,8 @@ from shapeviz_report.executor import Executor, LocalExecutor
 from shapeviz_report.executor.cluster import DaskExecutor
 from shapeviz_report.mesh import read_mesh
 
+pytestmark = pytest.mark.slow
+
 GIB = 2**30
 
 

@@ -398,6 +398,7 @@ def test_star_shaped_polygons_keep_their_area(tmp_path_factory, radii, seed):
     assert area(mesh) == pytest.approx(expected)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(
     radii=st.lists(st.floats(0.3, 1), min_size=4, max_size=9),

@@ -25,6 +25,7 @@ except BaseException as error:
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(platform.system() != "Linux", reason="only Linux bounds the memory of a process")
 @pytest.mark.parametrize(("mebibytes", "found"), [(8, "MemoryError"), (110, "MemoryError"), (1000, "True")])
 def test_want_of_memory_is_not_the_fault_of_the_mesh(mebibytes: int, found: str) -> None:

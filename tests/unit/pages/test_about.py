@@ -20,6 +20,7 @@ def text(tmp_path):
     return (tmp_path / "about.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_it_names_every_failed_file_with_its_reason(text):
     assert "cup/9.off" in text
     assert "the file ends in the middle of its faces" in text

@@ -21,6 +21,7 @@ def selection(report) -> dict:
     return BinsPage().content(report).chunks["selection"]
 
 
+@pytest.mark.slow
 def test_the_fewest_bins_of_every_class(report) -> None:
     found = selection(report)["minimal"]
     assert [separated["group"] for separated in found] == [0, 1, 2]
@@ -92,6 +93,7 @@ def test_a_search_of_a_sample_names_its_shapes(report) -> None:
     assert selection(replace(report, bins=replace(report.bins, automatic=sample)))["rows"] == rows.tolist()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("classes", "per_class"), [([None], 1), (["ant"], 5), (["ant", "bird"], 1)])
 def test_without_a_search_there_is_a_page_all_the_same(classes, per_class, tmp_path) -> None:
     report = with_bin_search(make_report(classes, per_class))

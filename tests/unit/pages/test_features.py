@@ -24,6 +24,7 @@ def content(report):
     return FeaturesPage().content(report)
 
 
+@pytest.mark.slow
 def test_chunks_are_json_and_the_same_every_time(report, content):
     json_text(content.chunks)
     assert FeaturesPage().content(report) == content
@@ -90,6 +91,7 @@ def test_boxes_are_the_quartiles_of_all_subsets(report, content):
         assert box["upper"] == pytest.approx(np.quantile(values, 0.75), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_chance_is_that_of_the_overview(report, content):
     # Labels dealt at random reach the same on every map on average.
     report = with_search(make_report(["a", "b"], 20, features=FEATURES[:2]))
@@ -113,6 +115,7 @@ def test_without_labels_there_are_maps_only():
     assert len(content.chunks["subsets"]["x"]) == 3
 
 
+@pytest.mark.slow
 def test_a_sample_says_which_shapes_it_took():
     report = with_search(make_report(["a", "b"], 20, features=FEATURES[:2]), limit=12)
     content = FeaturesPage().content(report)
@@ -122,6 +125,7 @@ def test_a_sample_says_which_shapes_it_took():
     assert (content.context["search"]["shapes"], content.context["search"]["shape_count"]) == (12, 40)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("classes", "per_class"), [(["ant"], 1), (["ant"], 5), (["ant", "bird"], 1)])
 def test_the_smallest_databases_have_a_page(classes, per_class, tmp_path):
     report = with_search(make_report(classes, per_class, features=FEATURES[:1]))
@@ -129,6 +133,7 @@ def test_the_smallest_databases_have_a_page(classes, per_class, tmp_path):
     assert json_text(FeaturesPage().content(report).chunks)
 
 
+@pytest.mark.slow
 def test_strange_labels_are_numbered_as_on_the_overview():
     report = with_search(make_report([*NASTY_LABELS, None], 3, features=FEATURES[:2]))
     classes = OverviewPage().content(report).chunks["overview"]["classes"]

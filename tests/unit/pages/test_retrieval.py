@@ -28,6 +28,7 @@ def chunk(report):
     return FeaturesPage().content(report).chunks["retrieval"]
 
 
+@pytest.mark.slow
 def test_the_chunk_has_every_subset_of_the_search(report, chunk) -> None:
     searched = FeaturesPage().content(report).chunks["search"]["members"]
     assert sorted(chunk["members"]) == sorted(searched)

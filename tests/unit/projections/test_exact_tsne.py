@@ -55,6 +55,7 @@ def test_affinities_by_bisection(groups, perplexity) -> None:
     assert shares_of(groups[0], perplexity) == pytest.approx(expected, abs=1e-4 * expected.max())
 
 
+@pytest.mark.slow
 def test_as_good_as_scikit_learn(groups) -> None:
     values, labels = groups
     shares = shares_of(values, tsne.PERPLEXITY)

@@ -22,6 +22,7 @@ def groups() -> tuple[np.ndarray, list[str]]:
     return values, [f"class {i // 15}" for i in range(75)]
 
 
+@pytest.mark.slow
 @METHODS
 def test_groups_stay_together(method, groups) -> None:
     values, labels = groups

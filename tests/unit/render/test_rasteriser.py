@@ -52,6 +52,7 @@ def test_the_nearer_surface_hides_the_farther():
     np.testing.assert_allclose(buffers.values[5, 30], [0, 0, 1])
 
 
+@pytest.mark.slow
 def test_drawing_many_pictures_keeps_no_memory():
     code = """
 import numpy as np
@@ -76,11 +77,13 @@ print((resident() - before) / 60)
     assert float(result.stdout) < 200_000, "bytes a picture"
 
 
+@pytest.mark.slow
 def test_importing_the_package_does_not_load_the_graphics_library():
     code = "import sys, shapeviz_report.render; print('pyrender' in sys.modules, 'OpenGL' in sys.modules)"
     assert run_python(code).stdout.split() == ["False", "False"]
 
 
+@pytest.mark.slow
 def test_a_machine_with_osmesa_passes_the_check_and_ends_quietly():
     check_renderer()
     result = run_python(
@@ -89,6 +92,7 @@ def test_a_machine_with_osmesa_passes_the_check_and_ends_quietly():
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
 
 
+@pytest.mark.slow
 def test_without_osmesa_the_error_says_what_to_install(tmp_path: Path):
     # Empty files hide the library from the dynamic linker as if it were not installed.
     for suffix in ("", *(f".{version}" for version in range(10))):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from shapeviz_report.render.camera import frame
 from shapeviz_report.render.rasteriser import rasterise
@@ -32,6 +33,7 @@ def brightness(normal: tuple[float, float, float]) -> float:
     return float(light(alone, normals)[SIZE // 2, SIZE // 2, :3].mean())
 
 
+@pytest.mark.slow
 def test_what_faces_up_is_brighter_than_what_faces_down():
     assert brightness((0, 0.8, 0.6)) > 1.1 * brightness((0, 0, 1))
     assert 0.02 < brightness((0, -0.8, 0.6)) < 0.5 * brightness((0, 0, 1))
@@ -64,6 +66,7 @@ def test_the_foot_of_a_step_is_darker_than_open_ground():
     assert picture[10] > 0.95 * picture[50], "the top of the step is open"
 
 
+@pytest.mark.slow
 def test_the_material_scales_the_light_it_sends_back():
     depth, normals = wall((0, -0.8, 0.6))  # away from the key light: no gloss
     dark = shade(depth, normals, np.full((SIZE, SIZE, 3), 0.2, np.float32), CAMERA)

@@ -102,6 +102,7 @@ def test_an_inside_out_surface_looks_the_same():
     assert abs(pixels(TORUS) - pixels(inverted)).max() <= 6
 
 
+@pytest.mark.slow
 def test_the_same_mesh_gives_the_same_bytes_in_another_process():
     code = """
 import sys, numpy as np, trimesh

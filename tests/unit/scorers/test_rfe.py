@@ -40,6 +40,7 @@ def ranking_of(scores: np.ndarray) -> list[int]:
     return (len(scores) + 1 - np.rint(scores * len(scores))).astype(int).tolist()
 
 
+@pytest.mark.slow
 @settings(max_examples=10, deadline=None)
 @given(st.integers(0, 10**6), st.integers(3, 20), st.integers(3, 40), st.integers(2, ONE_BY_ONE))
 def test_as_scikit_learn_one_by_one(seed, first, second, width) -> None:

@@ -18,6 +18,7 @@ def groups(seed: int = 0, count: int = 60, width: int = 40) -> tuple[np.ndarray,
     return random.normal(size=(count, width)) + positive[:, None] * shift, positive
 
 
+@pytest.mark.slow
 def test_as_scikit_learn() -> None:
     values, positive = groups()
     ours = TREES.score(values, positive)

@@ -175,6 +175,7 @@ def test_dearer_methods_have_fewer_rounds() -> None:
     assert planned_runs(8, "umap") == 255 + 9 * 13
 
 
+@pytest.mark.slow
 def test_held_out_shapes_are_rated_without_copies_as_if_there_were_none(values) -> None:
     """Where every shape is there twice, one of each is held out with the other, and rated among the others' firsts."""
     twice = np.repeat(values, 2, axis=0)

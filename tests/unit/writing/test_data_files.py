@@ -116,6 +116,7 @@ def searched():
 
 
 class TestBins:
+    @pytest.mark.slow
     def test_summary_has_the_promised_keys(self, searched):
         bins = json.loads(data_files(searched, "1")["summary.json"])["bins"]
         automatic = bins["automatic"]
@@ -208,6 +209,7 @@ class TestSearch:
         assert [subset["nh_s"] for subset in search["exhaustive"]["subsets"]] == [None] * 3
         assert files["subsets.csv"].decode().splitlines()[0] == "feature:Gc,feature:Sc,nh_s,nh_max"
 
+    @pytest.mark.slow
     def test_a_search_that_could_not_be_exhaustive_says_so(self):
         report = with_search(make_report(["a", "b"], 4, features=[f"f{number}" for number in range(11)]))
         search = summary(report, "1")["search"]
@@ -231,6 +233,7 @@ def keys_beside(value: object, name: str) -> list[dict[str, object]]:
     return own + [found for item in value.values() for found in keys_beside(item, name)]
 
 
+@pytest.mark.slow
 def test_the_maximum_stands_beside_every_hit() -> None:
     """Six of a class have at most five of ten neighbours in it."""
     report = with_bin_search(with_search(make_report(("ant", "bird", "cup"), 6)))

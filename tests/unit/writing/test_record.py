@@ -15,6 +15,8 @@ from shapeviz_report.writing import check_destination, swap, write_site
 from shapeviz_report.writing.record import RECORD, find_own, may_be_written, record_text
 from shapeviz_report.writing.swap import replaced_folder
 
+pytestmark = pytest.mark.slow
+
 
 def whole_report():
     """A report with all parts that may be missing."""

@@ -92,6 +92,7 @@ def test_a_model_is_a_script_of_its_own(tmp_path):
     assert bins.shape == (len(report.edges), len(vertices))
 
 
+@pytest.mark.slow
 def test_without_models_nothing_else_changes(tmp_path):
     report = with_paintings(with_bin_search(make_report()))
     write_site(with_models(report), tmp_path / "with")
@@ -108,6 +109,7 @@ def test_the_worker_travels_as_text(tmp_path):
     assert not re.search(r"^(import|export)\b", engine, re.MULTILINE)
 
 
+@pytest.mark.slow
 def test_equal_input_gives_equal_bytes_but_for_the_times(tmp_path):
     report = whole_report()
     write_site(report, tmp_path / "one")
@@ -121,6 +123,7 @@ def test_equal_input_gives_equal_bytes_but_for_the_times(tmp_path):
     }
 
 
+@pytest.mark.slow
 def test_text_from_the_database_is_never_markup(tmp_path):
     nasty = '</title></script><script>alert(1)</script><img src=x onerror="alert(2)">'
     report = make_report(
@@ -165,6 +168,7 @@ def test_every_page_forbids_all_requests_elsewhere(tmp_path):
         assert "http" not in policy
 
 
+@pytest.mark.slow
 def test_a_site_replaces_an_earlier_site(tmp_path):
     destination = tmp_path / "site"
     write_site(make_report(["ant"], 3), destination)

@@ -28,6 +28,7 @@ def unlabelled(tmp_path_factory):
     return site, report
 
 
+@pytest.mark.slow
 def test_every_page_says_that_clusters_stand_in(unlabelled) -> None:
     site, report = unlabelled
     for page in PAGES:
@@ -70,6 +71,7 @@ def test_all_that_needs_labels_has_them(unlabelled) -> None:
     assert report.search.effects
 
 
+@pytest.mark.slow
 def test_a_labelled_site_has_clusters_beside_its_classes(tmp_path) -> None:
     report = with_clusters(make_report(["ant", "bird", None], 8))
     write_site(report, tmp_path)

@@ -11,6 +11,8 @@ import pytest
 
 from shapeviz_report.writing.swap import replaced_folder
 
+pytestmark = pytest.mark.slow
+
 WRITER = """
 import sys, time
 from pathlib import Path

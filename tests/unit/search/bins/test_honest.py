@@ -30,6 +30,7 @@ def folds_of(planted, labels, everything) -> list[HeldOutBins]:
     return [hold_out(planted.space, labels, fold, everything, limit=LIMIT) for fold in folds]
 
 
+@pytest.mark.slow
 def test_what_is_real_holds_on_held_out_shapes(planted, everything) -> None:
     folds = folds_of(planted, planted.labels, everything)
     assert sum(fold.shapes for fold in folds) == 48
@@ -44,6 +45,7 @@ def test_what_is_real_holds_on_held_out_shapes(planted, everything) -> None:
     ) == pytest.approx(alone)
 
 
+@pytest.mark.slow
 def test_labels_without_meaning_are_not_found_again(planted, everything) -> None:
     labels = shuffle_labels(planted.space, planted.labels, 0)
     folds = folds_of(planted, labels, everything)
