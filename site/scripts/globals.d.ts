@@ -61,6 +61,15 @@ interface Document {
   ): void;
 }
 
+interface Array<T> {
+  filter(predicate: BooleanConstructor): Exclude<T, null | undefined | false | "" | 0>[];
+  /** The last of a list that has one: as with brackets, nothing is assumed to be missing. */
+  at(place: -1): T;
+}
+interface Float64Array {
+  at(place: -1): number;
+}
+
 /** Values of attributes by name, as `element` of base/dom.js takes them; "onclick" is a handler of "click". */
 type Handlers = { [Kind in keyof HTMLElementEventMap as `on${Kind}`]?: Handler<HTMLElementEventMap[Kind]> };
 interface Attributes extends Handlers {

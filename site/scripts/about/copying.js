@@ -17,14 +17,14 @@ export function watchCopying() {
 
 /**
  * Whether the browser let a page copy; if not, the text is selected, so that one press of the reader does.
- * @param {Element | null} node
+ * @param {Element} node
  */
 async function copy(node) {
   try {
     await navigator.clipboard.writeText(node.textContent);
     return true;
   } catch {
-    window.getSelection().selectAllChildren(node);
+    window.getSelection()?.selectAllChildren(node);
     return false;
   }
 }

@@ -91,6 +91,15 @@ export function dataLink(path) {
   return element("a", { href: resource(path), download: path.split("/").at(-1) }, path);
 }
 
+/**
+ * What draws on a canvas.
+ * @param {HTMLCanvasElement} canvas
+ * @param {CanvasRenderingContext2DSettings} [settings]
+ */
+export function penOf(canvas, settings) {
+  return /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", settings));
+}
+
 /** Whether the reader asked for less movement. */
 export function calm() {
   return window.matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -1,12 +1,31 @@
 // The card of a bin: what it is, how well it separates, and which classes have much of it.
 
-import { element, swatch } from "../base/dom.js";
+import { element, penOf, swatch } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 import { styleColor } from "../base/theme.js";
 import { figure, grouped } from "../base/words.js";
 import { axisEnd } from "./bin-bars.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
+
+/**
+ * What is said of a bin besides itself.
+ * @typedef {object} Known
+ * @property {Float64Array | number[]} scores relative, a column; NaN where not in use
+ * @property {string} scorer its title
+ * @property {number[]} separated classes in use by their numbers: those to be separated,
+ * @property {number[]} others and the others
+ * ¦ A class, or all shapes, with the sorted values of a bin.
+ * @typedef {object} Row
+ * @property {boolean} apart whether it is to be separated
+ * @property {string} name
+ * @property {SVGElement | null} mark
+ * @property {string} color
+ * @property {number[]} values
+ * @property {number} median
+ * @property {number} mean
+ */
 
 const WIDTH = 190;
 const ROW = 16;
@@ -31,16 +50,23 @@ export class BinCard {
     document.getElementById("content").append(this.node);
     // It stands where its bar stood.
     window.addEventListener("scroll", () => this.hide(), { passive: true });
+    /** @type {Known["scores"]} */
+    this.scores = [];
+    this.scorer = "";
+    /** @type {number[]} */
+    this.separated = [];
+    /** @type {number[]} */
+    this.others = [];
+    /** @type {Map<number, number[]>} */
     this.members = new Map();
     database.groups.forEach((group, row) => {
-      if (!this.members.has(group)) this.members.set(group, []);
-      this.members.get(group).push(row);
+      entry(this.members, group, () => []).push(row);
     });
   }
 
   /**
-   * What is to be said of a bin besides itself: relative scores a column (NaN where not in use), the scorer's title,
-   * and the classes in use by their numbers, those that are to be separated apart from the others.
+   * Take what is to be said of a bin besides itself.
+   * @param {Known} known
    */
   know({ scores, scorer, separated, others }) {
     this.scores = scores;
@@ -52,6 +78,7 @@ export class BinCard {
   /**
    * Show the card of a column at its bar: a box in the window, and `free`, the height down to which the card may hang.
    * @param {number} column
+   * @param {{ left: number, top: number, width: number, height: number, free: number }} box
    */
   show(column, box) {
     this.node.replaceChildren(...this.#words(column), this.classes(column));
@@ -86,15 +113,19 @@ export class BinCard {
         feature.title !== feature.name && feature.title,
       ),
       element("p", {}, bins.sentence(column)),
-      means?.[1] && element("p", { class: "quiet" }, means, "."),
+      means && means[1] && element("p", { class: "quiet" }, means, "."),
       score && element("p", { class: "quiet" }, "Score ", element("b", {}, score[0]), score[1]),
     ].filter(Boolean);
   }
 
   /** @param {number} column */
   #rank(column) {
+    /**
+     * @param {number} score
+     * @param {number} other
+     */
     const better = (score, other) => score > this.scores[column] || (score === this.scores[column] && other < column);
-    return this.scores.reduce((rank, score, other) => rank + better(score, other), 1);
+    return Array.from(this.scores).filter(better).length + 1;
   }
 
   /**
@@ -108,14 +139,17 @@ export class BinCard {
     const lowest = Math.min(...shown.map(({ values }) => values[0]));
     const highest = Math.max(...shown.map(({ values }) => values.at(-1)));
     const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest];
+    /** @param {number} value */
     const x = (value) => (most > least ? (WIDTH * (value - least)) / (most - least) : 0);
     const edge = shown.findIndex(({ apart }) => !apart);
     /**
      * @param {number} place
-     * @param {...(HTMLElement | string)} content
+     * @param {...(Node | string | null)} content
      */
     const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null }, content);
-    const told = share ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
+    const told = share
+      ? percent
+      : (/** @type {number} */ value) => String(Number(value.toPrecision(3))).replace("-", "−");
     return element(
       "div",
       { class: "of-bin" },
@@ -142,14 +176,15 @@ export class BinCard {
   /**
    * The classes in use with their sorted values, those to be separated first, those with most of the bin on top.
    * @param {number} column
+   * @returns {Row[]}
    */
   rows(column) {
     const { database, members } = this;
     /**
+     * @param {number[]} rows
      * @param {boolean} apart
      * @param {string} name
-     * @param {SVGSVGElement | null} mark
-     * @param {number[]} rows
+     * @param {SVGElement | null} mark
      * @param {string} color
      */
     const row = (rows, apart, name, mark, color) => {
@@ -164,14 +199,21 @@ export class BinCard {
         mean: values.reduce((a, b) => a + b, 0) / values.length,
       };
     };
+    /**
+     * @param {Row} a
+     * @param {Row} b
+     */
     const byHeight = (a, b) => b.median - a.median || b.mean - a.mean;
-    /** @param {boolean} apart */
+    /**
+     * @param {number[]} groups
+     * @param {boolean} apart
+     */
     const of = (groups, apart) =>
       groups
         .filter((group) => members.has(group))
         .map((group) =>
           row(
-            members.get(group),
+            members.get(group) ?? [],
             apart,
             database.className(group),
             swatch(database.symbol(group), database.color(group)),
@@ -193,6 +235,7 @@ export class BinCard {
         ];
   }
 
+  /** @param {{ left: number, top: number, width: number, height: number, free: number }} box */
   #place({ left, top, width, height, free }) {
     const { offsetWidth, offsetHeight } = this.node;
     const middle = left + width / 2;
@@ -211,7 +254,9 @@ export class BinCard {
 
 /**
  * The rows on a canvas, which is filled faster than hundreds of elements are made; their medians stand beside it in words.
+ * @param {Row[]} rows
  * @param {number} edge
+ * @param {(value: number) => number} x
  */
 function strips(rows, edge, x) {
   const density = window.devicePixelRatio;
@@ -221,7 +266,7 @@ function strips(rows, edge, x) {
     height: Math.round(height * density),
     "aria-hidden": "true",
   });
-  const context = canvas.getContext("2d");
+  const context = penOf(canvas);
   context.scale(density, density);
   context.translate(MARGIN, 0);
   context.fillStyle = styleColor("line");

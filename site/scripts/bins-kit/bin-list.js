@@ -7,8 +7,12 @@ import { count, figure } from "../base/words.js";
 
 const MOST_ROWS = 100;
 
-/** The columns in use (those with a score), best first; equal ones as they come. */
+/**
+ * The columns in use (those with a score), best first; equal ones as they come.
+ * @param {Float64Array} scores
+ */
 export function ranked(scores) {
+  /** @type {number[]} */
   const columns = [];
   for (let column = 0; column < scores.length; column += 1) if (!Number.isNaN(scores[column])) columns.push(column);
   return Int32Array.from(columns).sort((a, b) => scores[b] - scores[a] || a - b);
@@ -17,6 +21,8 @@ export function ranked(scores) {
 /**
  * Tables of the chosen bins and of the best ones, for the dialog of `watchTables`.
  * @param {Bins} bins
+ * @param {Float64Array} scores
+ * @param {Set<number>} chosen
  */
 export function binTables(bins, scores, chosen) {
   const ranking = ranked(scores);

@@ -17,9 +17,15 @@ export class BinScale {
   count = 0;
   width = 1;
 
+  /** Pixels that a chosen bar keeps, and those of a bar when all are shown and zoomed in as far as it goes. */
+  kept = KEPT;
+  least = 0;
+  most = CLOSEST;
+
   /**
    * Lay out bars on so many pixels; `chosen` holds the rising places of the chosen ones. All is shown if it was.
    * @param {number} count
+   * @param {ArrayLike<number> & Iterable<number>} chosen
    * @param {number} width
    */
   fit(count, chosen, width) {
@@ -66,6 +72,7 @@ export class BinScale {
    * Show what lies between two places; where the zoom ends, one end stays: the first, or with `last` the other.
    * @param {number} from
    * @param {number} to
+   * @param {boolean} [last]
    */
   frame(from, to, last) {
     const step = this.#stepFor(from, to);

@@ -6,9 +6,10 @@ import { resource } from "../base/place.js";
 import { percent } from "./bin-card.js";
 import { Legend } from "./legend.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
-/** @import { BinCard } from "./bin-card.js" */
+/** @import { BinCard, Row } from "./bin-card.js" */
 
 const MOST_PICTURED = 4;
 const LONGEST = 32;
@@ -19,6 +20,7 @@ export class Look {
    * @param {Bins} bins
    * @param {Chunk.Selection} selection
    * @param {BinCard} card
+   * @param {State} state
    */
   constructor(database, bins, selection, state, card) {
     this.database = database;
@@ -59,7 +61,10 @@ export class Look {
     else this.legend.show(this.selection.dimensions[dimension], this.bins.binOf(column));
   }
 
-  /** The bins of this page in a list: those of each class, and those that separate all. */
+  /**
+   * The bins of this page in a list: those of each class, and those that separate all.
+   * @param {number} column
+   */
   #offer(column) {
     const { database, bins, selection } = this;
     /** @type {[number, string, number[]][]} */
@@ -87,9 +92,10 @@ export class Look {
       ),
     );
     this.choice.value = `${column} ${group}`;
-    this.choice.closest("label").hidden = lists.length === 0;
+    /** @type {Found} */ (this.choice.closest("label")).hidden = lists.length === 0;
   }
 
+  /** @param {number} column */
   #tell(column) {
     const { bins, card, database } = this;
     const feature = bins.features[bins.featureOf(column)];
@@ -123,14 +129,20 @@ export class Look {
     ].filter(Boolean);
   }
 
-  /** Which classes have much of a bin, as one would say it. */
+  /**
+   * Which classes have much of a bin, as one would say it.
+   * @param {number} column
+   */
   #who(column) {
     const { bins, card, database } = this;
     if (!database.separable) return [];
-    const told = bins.isShare(column) ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
+    const told = bins.isShare(column)
+      ? percent
+      : (/** @type {number} */ value) => String(Number(value.toPrecision(3))).replace("-", "−");
     const rows = card.rows(column).sort((a, b) => b.median - a.median || b.mean - a.mean);
     const [most, ...rest] = rows;
     const least = rest.at(-1);
+    /** @param {Row} row */
     const name = (row) => element("bdi", {}, row.name);
     const contrast = this.#contrast(rows, told, name);
     if (contrast !== null) return contrast;
@@ -157,7 +169,9 @@ export class Look {
 
   /**
    * For the bin of a class: how it sets this class apart from the others, and from its nearest.
+   * @param {Row[]} rows
    * @param {(share: number) => string} told
+   * @param {(row: Row) => HTMLElement} name
    */
   #contrast(rows, told, name) {
     const own = this.selection.minimal.find(({ group }) => group === this.state.get("group"));
@@ -165,6 +179,7 @@ export class Look {
     /** @param {number} group */
     const named = (group) => rows.find((row) => row.name === this.database.className(group));
     const [row, rival] = [named(own.group), named(own.other)];
+    if (row === undefined || rival === undefined) return null;
     const rank = rows.indexOf(row);
     const place =
       rank === 0
@@ -183,6 +198,7 @@ export class Look {
     ];
   }
 
+  /** @param {number} column */
   #paint(column) {
     const { bins, database, selection } = this;
     if (!bins.isShare(column))
@@ -238,10 +254,17 @@ export class Look {
   }
 }
 
-/** The pictures of a bin; of one that separates a class, those that show this contrast. */
+/**
+ * The pictures of a bin; of one that separates a class, those that show this contrast.
+ * @param {Chunk.Selection} selection
+ * @param {Database} database
+ * @param {number} column
+ * @param {number} group
+ */
 export function pictured({ paintings, minimal }, database, column, group) {
   const own = paintings.filter((painting) => painting.column === column);
   const other = minimal.find((separated) => separated.group === group)?.other;
+  /** @param {Chunk.PaintedBin} painting */
   const order = (painting) => [group, other].indexOf(database.groups[painting.shape]);
   const contrast = own.filter((painting) => order(painting) >= 0).sort((a, b) => order(a) - order(b));
   return (contrast.length > 0 ? contrast : own).slice(0, MOST_PICTURED);
@@ -251,6 +274,8 @@ export function pictured({ paintings, minimal }, database, column, group) {
  * Class, and how much of the bin: what stands above a picture of a shape.
  * @param {Database} database
  * @param {Bins} bins
+ * @param {number} column
+ * @param {number} shape
  */
 export function shapeLine(database, bins, column, shape) {
   const group = database.groups[shape];
@@ -269,6 +294,7 @@ export function shapeLine(database, bins, column, shape) {
 /**
  * The number of a column's dimension among those of the descriptors; null for a feature that was brought along.
  * @param {Bins} bins
+ * @param {number} column
  */
 export function dimensionOf(column, bins) {
   if (!bins.isShare(column)) return null;

@@ -5,13 +5,23 @@ import { element } from "../base/dom.js";
 import { unpackModel } from "../viewer/model.js";
 import { canDraw, View } from "../viewer/view.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Model } from "../viewer/model.js" */
+
+/**
+ * How a shape is shown: what its colours say, and the colours of its model, three numbers a vertex, in linear light.
+ * @typedef {{ label: string, paint: (solid: Model) => Float32Array | Promise<Float32Array> }} Showing
+ */
+
 const KEPT = 8;
 
 export class Stage {
   /**
-   * `load(shape)` gives the bytes of a shape's model; null where the site has none. `keys` is the id of the words that
-   * say how a shape is turned.
    * @param {Found} node
+   * @param {object} options
+   * @param {Database} options.database
+   * @param {((shape: number) => Promise<ArrayBuffer>) | null} options.load the model of a shape; null where there is none
+   * @param {string} options.keys id of the words that say how a shape is turned
    */
   constructor(node, { database, load, keys }) {
     this.node = node;
@@ -19,13 +29,20 @@ export class Stage {
     this.load = load;
     this.keys = keys;
     this.asked = false;
+    /** @type {boolean | null} */
     this.capable = null;
+    /** @type {View | null} */
+    this.view = null;
+    /** @type {Model | null} */
+    this.solid = null;
+    this.focusing = false;
   }
 
   /**
-   * Show a shape: its picture with an offer to turn it, and once that was taken, its model. `paint(solid)` gives its
-   * colours, three numbers a vertex, in linear light; `label` says what they show. Where something else than the site
-   * or the browser speaks against it, `reason` says what. Resolves to whether the model is on the screen.
+   * Show a shape: its picture with an offer to turn it, and once that was taken, its model. Where something else than
+   * the site or the browser speaks against it, `reason` says what. Resolves to whether the model is on the screen.
+   * @param {number} shape
+   * @param {Showing & { reason?: string | null }} how
    */
   async show(shape, { label, paint, reason = null }) {
     this.latest = Symbol("shown");
@@ -43,16 +60,23 @@ export class Stage {
     return this.capable ? null : "This browser cannot draw in 3D: WebGL 2 is missing or switched off.";
   }
 
-  /** @param {string} text */
+  /**
+   * @param {string} text
+   * @param {number} shape
+   */
   #say(shape, text) {
     this.#clear(this.#picture(shape), element("p", { class: "empty", role: "status" }, text));
   }
 
-  #offer(shape, view) {
+  /**
+   * @param {number} shape
+   * @param {Showing} how
+   */
+  #offer(shape, how) {
     const show = () => {
       this.asked = true;
       this.focusing = true;
-      this.show(shape, view);
+      this.show(shape, how);
     };
     this.#clear(
       this.#picture(shape),
@@ -60,6 +84,7 @@ export class Stage {
     );
   }
 
+  /** @param {number} shape */
   #picture(shape) {
     return element("img", { src: this.database.picture(shape), alt: "", width: 320, height: 320 });
   }
@@ -72,6 +97,11 @@ export class Stage {
     this.node.removeAttribute("aria-busy");
   }
 
+  /**
+   * @param {number} shape
+   * @param {Showing["label"]} label
+   * @param {Showing["paint"]} paint
+   */
   async #turn(shape, label, paint) {
     const { latest } = this;
     this.node.setAttribute("aria-busy", "true");
@@ -86,45 +116,51 @@ export class Stage {
     const colors = await paint(solid);
     // Something else may have been asked for meanwhile.
     if (latest !== this.latest) return false;
-    this.#prepare();
-    if (solid === this.solid) this.view.paint(colors);
-    else this.view.show(solid, colors);
+    const view = this.view ?? this.#prepare();
+    if (solid === this.solid) view.paint(colors);
+    else view.show(solid, colors);
     this.solid = solid;
-    this.canvas.setAttribute("aria-label", label);
+    view.canvas.setAttribute("aria-label", label);
     this.node.removeAttribute("aria-busy");
     return true;
   }
 
   #prepare() {
-    if (this.view) return;
-    this.canvas = element("canvas", { tabindex: "0", role: "application", "aria-describedby": this.keys });
+    const canvas = element("canvas", { tabindex: "0", role: "application", "aria-describedby": this.keys });
     const back = element(
       "button",
-      { type: "button", class: "plain back", hidden: true, onclick: () => this.view.reset() },
+      { type: "button", class: "plain back", hidden: true, onclick: () => view.reset() },
       "First view",
     );
-    this.node.replaceChildren(this.canvas, back);
+    this.node.replaceChildren(canvas, back);
     this.solid = null;
-    this.view = new View(this.canvas, {
+    const view = new View(canvas, {
       turned: () => {
         back.hidden =
-          !this.view ||
-          (this.view.zoom === 1 && this.view.turn.every((value, place) => value === this.view.model.view[place]));
+          this.view !== view ||
+          (view.zoom === 1 && view.turn.every((value, place) => value === view.model?.view[place]));
       },
     });
-    if (this.focusing) this.canvas.focus({ preventScroll: true });
+    this.view = view;
+    if (this.focusing) canvas.focus({ preventScroll: true });
     this.focusing = false;
+    return view;
   }
 
+  /** @type {Map<number, Model>} */
   #models = new Map();
 
-  /** The models used last are kept; the others are loaded anew. */
+  /**
+   * The models used last are kept; the others are loaded anew.
+   * @param {number} shape
+   */
   async #solid(shape) {
     const known = this.#models.get(shape);
     this.#models.delete(shape);
-    const solid = known ?? unpackModel(await this.load(shape));
+    const load = /** @type {(shape: number) => Promise<ArrayBuffer>} */ (this.load);
+    const solid = known ?? unpackModel(await load(shape));
     this.#models.set(shape, solid);
-    if (this.#models.size > KEPT) this.#models.delete(this.#models.keys().next().value);
+    if (this.#models.size > KEPT) this.#models.delete([...this.#models.keys()][0]);
     return solid;
   }
 }

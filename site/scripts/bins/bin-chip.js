@@ -2,6 +2,7 @@
 
 import { element } from "../base/dom.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */
 /** @import { Bins } from "../database/bins.js" */
 
@@ -11,6 +12,8 @@ export class BinChips {
   /**
    * @param {Bins} bins
    * @param {BinCard} card
+   * @param {State} state
+   * @param {{ look: (column: number, group: number | null) => void }} ways what a click does
    */
   constructor(bins, card, state, { look }) {
     this.bins = bins;
@@ -26,6 +29,7 @@ export class BinChips {
   /**
    * A chip; the card sets a class apart from the others where one is named.
    * @param {number} column
+   * @param {{ group?: number | null, added?: boolean }} [how]
    */
   chip(column, { group = null, added = false } = {}) {
     const { bins } = this;
@@ -52,7 +56,11 @@ export class BinChips {
     return chip;
   }
 
-  /** @param {number} column */
+  /**
+   * @param {number} column
+   * @param {number | null} group
+   * @param {Element} node
+   */
   #show(column, group, node) {
     const { database } = this.card;
     const groups = database.labelled ? [...database.sizes.keys()].sort((a, b) => a - b) : [];
@@ -66,6 +74,7 @@ export class BinChips {
     this.card.show(column, { left, top, width, height, free: top });
   }
 
+  /** @type {Float64Array | null} */
   #kept = null;
 
   get #none() {
@@ -74,7 +83,10 @@ export class BinChips {
   }
 }
 
-/** @param {Found | HTMLButtonElement} chip */
+/**
+ * @param {HTMLElement} chip
+ * @param {number} bin
+ */
 function mark(chip, bin) {
   chip.setAttribute("aria-pressed", String(Number(chip.dataset.column) === bin));
 }

@@ -6,6 +6,7 @@ import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { mapOf, Plot } from "../map/plot.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { BinChips } from "./bin-chip.js" */
 
@@ -17,6 +18,8 @@ export class ClassCards {
    * @param {Database} database
    * @param {Chunk.Selection} selection
    * @param {BinChips} chips
+   * @param {State} state
+   * @param {{ open: (columns: number[]) => string }} ways the address of bins in the Workbench
    */
   constructor(database, selection, state, chips, { open }) {
     this.database = database;
@@ -70,6 +73,7 @@ export class ClassCards {
       label: `Map of ${count(found.bins.length, "bin")}: ${name} against the rest`,
       first: (index) => database.groups[index] !== group,
       selection: () => this.state.get("selection"),
+      /** @param {number} index */
       mark: (index) => {
         const own = database.groups[index] === group;
         return {

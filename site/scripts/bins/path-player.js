@@ -7,10 +7,28 @@ import { Labels } from "../map/labels.js";
 import { FULL } from "../map/marks.js";
 import { mapOf, pictureOfMap, Plot } from "../map/plot.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Pointing } from "../map/pointing.js" */
+/** @import { BinChips } from "./bin-chip.js" */
+
 const PACE = 900;
 const THUMBNAIL = 64;
 
 export class PathPlayer {
+  /**
+   * @param {Database} database
+   * @param {Chunk.Selection} selection
+   * @param {Bins} bins
+   * @param {BinChips} chips
+   * @param {State} state
+   * @param {object} ways
+   * @param {(columns: number[]) => string} ways.open the address of bins in the Workbench
+   * @param {Pointing} ways.pointing
+   * @param {(shape: number) => void} ways.choose
+   * @param {(text: string) => void} ways.announce
+   */
   constructor(database, selection, bins, state, chips, { open, pointing, choose, announce }) {
     this.database = database;
     this.selection = selection;
@@ -44,6 +62,7 @@ export class PathPlayer {
     this.#say();
   }
 
+  /** @param {number} place */
   go(place, { playing = false } = {}) {
     if (!playing) this.pause();
     this.state.set({ step: Math.min(Math.max(place, 0), this.steps.length - 1) });
@@ -66,7 +85,11 @@ export class PathPlayer {
     this.#say();
   }
 
+  /** @type {number | null} */
   timer = null;
+
+  /** @type {Plot} */
+  plot;
 
   #say() {
     this.button.textContent = this.timer ? "Pause" : "Play";
@@ -75,6 +98,10 @@ export class PathPlayer {
     document.getElementById("space-plays").hidden = this.button.hidden;
   }
 
+  /**
+   * @param {Pointing} pointing
+   * @param {(shape: number) => void} choose
+   */
   #makeMap(pointing, choose) {
     const { database } = this;
     const surface = document.getElementById("step-surface");
@@ -84,6 +111,7 @@ export class PathPlayer {
       label: "Map of the step",
       margin: 30,
       selection: () => this.state.get("selection"),
+      /** @param {number} index */
       mark: (index) => {
         const group = database.groups[index];
         return { path: database.symbol(group), color: database.color(group), radius: this.#radius, alpha: FULL };
@@ -115,6 +143,10 @@ export class PathPlayer {
     );
   }
 
+  /**
+   * @param {Chunk.PathStep} step
+   * @param {number} place
+   */
   #thumbnail(step, place) {
     const picture = pictureOfMap(this.database, this.maps[place], THUMBNAIL);
     picture.style.width = picture.style.height = `${THUMBNAIL}px`;
@@ -137,9 +169,13 @@ export class PathPlayer {
     );
   }
 
-  /** "Step 3 of 26, 3 bins, NH 0.412: adds Agd:6". */
+  /**
+   * "Step 3 of 26, 3 bins, NH 0.412: adds Agd:6".
+   * @param {number} place
+   */
   #words(place) {
     const { bins, added, removed, nh } = this.steps[place];
+    /** @param {number[]} columns */
     const names = (columns) => columns.map((column) => this.bins.names[column]).join(", ");
     const changes = [
       added.length > 0 && `adds ${names(added)}`,
@@ -148,6 +184,7 @@ export class PathPlayer {
     return `Step ${place + 1} of ${this.steps.length}, ${count(bins.length, "bin")}, NH ${figure(nh)}: ${changes.join(", ")}`;
   }
 
+  /** @param {{ travel: boolean; }} parts */
   #render({ travel }) {
     const place = this.state.get("step");
     const step = this.steps[place];
@@ -197,8 +234,15 @@ export class PathPlayer {
     if (travel && !this.timer) this.announce(this.#words(place));
   }
 
-  /** What a step did, in words: of every bin that came or went, what it counts. */
+  /**
+   * What a step did, in words: of every bin that came or went, what it counts.
+   * @param {Chunk.PathStep} pathStep
+   */
   #changes({ added, removed }) {
+    /**
+     * @param {string} word
+     * @param {number} column
+     */
     const line = (column, word) =>
       element(
         "p",
@@ -211,9 +255,11 @@ export class PathPlayer {
     return [...added.map((column) => line(column, "added")), ...removed.map((column) => line(column, "removed"))];
   }
 
+  /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const at = this.state.get("step");
+    /** @type {Record<string, number>} */
     const steps = { ArrowLeft: at - 1, ArrowRight: at + 1, Home: 0, End: this.steps.length - 1 };
     if (event.key in steps) {
       this.go(steps[event.key]);

@@ -4,6 +4,7 @@ import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
 import { percent } from "../bins-kit/bin-card.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
@@ -15,16 +16,17 @@ const MOST_ROWS = 500;
  * @param {Bins} bins
  * @param {Chunk.Selection} selection
  * @param {BinCard} card
+ * @param {State} state
  */
 export function binsTables(database, bins, selection, state, card) {
   /** @param {number[]} columns */
   const names = (columns) => columns.map((column) => bins.names[column]).join(", ");
   const bin = state.get("bin");
-  const told = bins.isShare(bin) ? percent : (value) => String(Number(value.toPrecision(3)));
+  const told = bins.isShare(bin) ? percent : (/** @type {number} */ value) => String(Number(value.toPrecision(3)));
   /** @param {string} kind */
   const fold =
     (kind) =>
-    ({ deal, bins: own, shapes, nh, nhAll, recognised, recognisedAll }) => [
+    (/** @type {Chunk.Fold} */ { deal, bins: own, shapes, nh, nhAll, recognised, recognisedAll }) => [
       kind,
       String(deal),
       own.length,
@@ -105,6 +107,7 @@ export function binsTables(database, bins, selection, state, card) {
 /**
  * The shapes with the most of a bin, first the one with most.
  * @param {Bins} bins
+ * @param {number} bin
  * @param {number} count
  */
 function most(bins, bin, count) {

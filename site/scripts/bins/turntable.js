@@ -10,14 +10,27 @@ import { findShapes } from "../database/shape-finder.js";
 import { Plot } from "../map/plot.js";
 import { Paint } from "../viewer/paint.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Pointing } from "../map/pointing.js" */
+
 export class Turntable {
+  /**
+   * @param {Database} database
+   * @param {Bins} bins
+   * @param {Chunk.Selection} selection
+   * @param {State} state
+   * @param {{ pointing: Pointing; announce: (text: string) => void; }} parts
+   */
   constructor(database, bins, selection, state, { pointing, announce }) {
     this.database = database;
     this.bins = bins;
     this.selection = selection;
     this.state = state;
     this.announce = announce;
-    const load = selection.models && ((index) => modelBytes(selection.models[index]));
+    const { models } = selection;
+    const load = models && ((/** @type {number} */ index) => modelBytes(models[index]));
     this.stage = new Stage(document.getElementById("stage"), { database, load, keys: "turn-keys" });
     this.paint = new Paint(selection);
     this.name = document.getElementById("turn-name");
@@ -40,20 +53,31 @@ export class Turntable {
     );
   }
 
+  /** @type {Plot} */
+  pick;
+  /** @type {{ bin: number, shares: number[] } | null} */
+  scale = null;
+  /** @type {{ column: number, least: number, most: number } | null} */
   #extremes = null;
 
-  /** The first shape with the most (1) or the least (-1) of a bin; kept, since every mark of the map asks for it. */
+  /**
+   * The first shape with the most (1) or the least (-1) of a bin; kept, since every mark of the map asks for it.
+   * @param {number} sign
+   * @param {number} column
+   */
   #extreme(column, sign) {
-    if (this.#extremes?.column !== column) {
+    let known = this.#extremes;
+    if (known?.column !== column) {
       const { rows, steps } = this.bins;
       const own = steps.subarray(column * rows, (column + 1) * rows);
       const [least, most] = own.reduce(
         ([low, high], value, row) => [value < own[low] ? row : low, value > own[high] ? row : high],
         [0, 0],
       );
-      this.#extremes = { column, least, most };
+      known = { column, least, most };
+      this.#extremes = known;
     }
-    return sign > 0 ? this.#extremes.most : this.#extremes.least;
+    return sign > 0 ? known.most : known.least;
   }
 
   start() {
@@ -79,7 +103,7 @@ export class Turntable {
     const shown = await this.stage.show(shape, {
       label: `${database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
       paint: (solid) => {
-        const dimension = dimensionOf(bin, bins);
+        const dimension = /** @type {number} */ (dimensionOf(bin, bins));
         return inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension);
       },
       reason: bins.isShare(bin) ? null : "This feature has no values on the surface.",
@@ -106,13 +130,17 @@ export class Turntable {
     findShapes(database, (shape) => state.set({ shape }));
   }
 
-  /** The map of all shapes, on which one can be pointed at; large marks have much of the bin. */
+  /**
+   * The map of all shapes, on which one can be pointed at; large marks have much of the bin.
+   * @param {Pointing} pointing
+   */
   #makePick(pointing) {
     const { database } = this;
     this.pick = new Plot(database, {
       margin: 14,
       first: (index) => index !== this.shape,
       selection: () => this.state.get("selection"),
+      /** @param {number} index */
       mark: (index) => {
         const group = database.groups[index];
         const share = this.#share(index);
@@ -130,7 +158,10 @@ export class Turntable {
     pointing.watch(surface, this.pick, (shape) => this.state.set({ shape }), this.state);
   }
 
-  /** How much of the bin a shape has, from 0 for the least to 1 for the most of all shapes. */
+  /**
+   * How much of the bin a shape has, from 0 for the least to 1 for the most of all shapes.
+   * @param {number} index
+   */
   #share(index) {
     const bin = this.state.get("bin");
     if (this.scale?.bin !== bin) {

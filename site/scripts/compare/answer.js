@@ -120,7 +120,8 @@ function plainest(contrast, a, b, data) {
         ? null
         : bestSide(contrast, bins.features[feature], words),
     )
-    .filter((side) => side !== null && side.size >= TELLING)
+    .filter((side) => side !== null)
+    .filter((side) => side.size >= TELLING)
     .sort((one, other) => other.size - one.size)
     .slice(0, MOST_TOLD);
   if (found.length === 0)
@@ -242,9 +243,9 @@ function tooFew({ sample }) {
  */
 export function kinship(a, b, neighbours) {
   const [there, back] = [neighbours.between(a.shapes, b.shapes), neighbours.between(b.shapes, a.shapes)];
-  /** @param {number | null} value */
+  /** @param {number} value */
   const told = (value) => `${Math.round(100 * value)} %`;
-  if (there === null) return null;
+  if (there === null || back === null) return null;
   if (there === 0 && back === 0)
     return ["No shape of the one is among the ", count(neighbours.k, "nearest neighbour"), " of a shape of the other."];
   return [

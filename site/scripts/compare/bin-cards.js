@@ -4,13 +4,26 @@ import { element } from "../base/dom.js";
 import { distribution, mean, toldAs } from "./distribution.js";
 import { called, meaning, pairs, statement } from "./words.js";
 
-/** A card a bin; a click on its name shows it on shapes. */
+/** @import { Contrast } from "./contrasts.js" */
+/** @import { View } from "./groups-view.js" */
+/** @import { Group } from "./groups.js" */
+
+/**
+ * A card a bin; a click on its name shows it on shapes.
+ * @param {number} column
+ * @param {View} view
+ * @param {{ shared?: boolean }} [how]
+ */
 export function binCard(column, view, { shared = false } = {}) {
   const { contrast, a, b, bins, data, rest } = view;
   const hue = element("i", { class: "hued" });
   hue.style.background = bins.color(column);
   const { title, name } = bins.features[bins.featureOf(column)];
   const share = bins.isShare(column);
+  /**
+   * @param {Group | View["rest"]} group
+   * @param {number[]} rows
+   */
   const row = (group, rows) => ({
     mark: group.mark(),
     name: group.name,
@@ -49,6 +62,8 @@ export function binCard(column, view, { shared = false } = {}) {
 
 /**
  * What two groups have in common against the rest.
+ * @param {number} column
+ * @param {View} view
  * @param {number[]} means
  */
 function common(column, { a, b, bins, data, rest }, means) {
@@ -79,7 +94,13 @@ function common(column, { a, b, bins, data, rest }, means) {
   ];
 }
 
-/** How sure one may be for two single shapes. */
+/**
+ * How sure one may be for two single shapes.
+ * @param {number} column
+ * @param {Contrast} contrast
+ * @param {Group} a
+ * @param {Group} b
+ */
 function ahead(column, contrast, a, b) {
   const share = contrast.ahead(column);
   const [more, less] = share >= 0.5 ? [a, b] : [b, a];

@@ -4,6 +4,7 @@ import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
 import { isSame, nameOf } from "./groups.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { GroupSpec, Side } from "./groups.js" */
 
@@ -16,16 +17,17 @@ export class Chooser {
   /**
    * @param {Database} database
    * @param {Chunk.Clusters | null} clusters
+   * @param {State} state
    */
   constructor(database, clusters, state) {
     this.database = database;
     this.state = state;
-    this.lists = new Map(SIDES.map((side) => [side, document.getElementById(`group-${side}`)]));
+    this.lists = { a: document.getElementById("group-a"), b: document.getElementById("group-b") };
     this.offers = this.#offers(clusters);
     for (const side of SIDES) {
-      this.lists
-        .get(side)
-        .addEventListener("change", (event) => this.choose(side, this.shown.get(side)[Number(event.target.value)]));
+      this.lists[side].addEventListener("change", (event) =>
+        this.choose(side, this.shown[side][Number(event.target.value)]),
+      );
       document.getElementById(`find-${side}`).addEventListener("submit", (event) => {
         event.preventDefault();
         const text = event.target.elements.find.value.trim();
@@ -39,7 +41,8 @@ export class Chooser {
     state.listen((changed) => {
       if (changed.has("a") || changed.has("b")) this.render();
     });
-    this.shown = new Map();
+    /** @type {Record<Side, GroupSpec[]>} */
+    this.shown = { a: [], b: [] };
   }
 
   /**
@@ -97,12 +100,9 @@ export class Chooser {
       const groups = [...this.offers, ["Other groups", own]];
       const lists = groups.filter(([, offers]) => offers.length > 0);
       const flat = lists.flatMap(([, offers]) => offers);
-      this.shown.set(
-        side,
-        flat.map((offer) => offer.spec),
-      );
+      this.shown[side] = flat.map((offer) => offer.spec);
       let number = 0;
-      const list = this.lists.get(side);
+      const list = this.lists[side];
       list.replaceChildren(
         element("option", { value: "", disabled: true, hidden: true }, "Choose a group"),
         ...lists.map(([label, offers]) =>

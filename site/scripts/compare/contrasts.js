@@ -177,7 +177,10 @@ export class Contrast {
       .sort((one, other) => clear(other) - clear(one) || one - other);
   }
 
-  /** Of all pairs of a shape of the first group and one of the second, the share in which the first has more of a bin. */
+  /**
+   * Of all pairs of a shape of the first group and one of the second, the share in which the first has more of a bin.
+   * @param {number} column
+   */
   ahead(column) {
     const { bins, sample } = this;
     const others = sample.b.map((row) => bins.value(column, row)).sort((a, b) => a - b);
@@ -195,6 +198,7 @@ export class Contrast {
  * A difference of means in standard deviations within the groups, from its share of the spread.
  * @param {number} first
  * @param {number} second
+ * @param {number} effect
  */
 function standardised(effect, first, second) {
   const share = Math.abs(effect);
@@ -209,6 +213,7 @@ function standardised(effect, first, second) {
 /**
  * Rows by rising distance from the mean of their group: the most central first.
  * @param {number[]} rows
+ * @param {Float64Array<ArrayBufferLike>} away
  */
 function nearest(rows, away) {
   return [...rows.keys()].sort((one, other) => away[one] - away[other] || one - other).map((place) => rows[place]);
@@ -217,6 +222,8 @@ function nearest(rows, away) {
 /**
  * How many of rising values are below a value, or up to it.
  * @param {boolean} [including]
+ * @param {number[]} rising
+ * @param {number} value
  */
 function lower(rising, value, including = false) {
   let [from, to] = [0, rising.length];
@@ -231,6 +238,8 @@ function lower(rising, value, including = false) {
 /**
  * The first of some bins that do not say the same: one a dimension, and two a feature at most.
  * @param {number} most
+ * @param {number[]} columns
+ * @param {Bins} bins
  */
 export function varied(columns, bins, most) {
   const [dimensions, features] = [new Set(), new Map()];

@@ -4,19 +4,25 @@ import { element, svg } from "../base/dom.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { percent } from "../bins-kit/bin-card.js";
 
+/**
+ * A group's values; `at` is one that stands out.
+ * @typedef {{ mark: SVGElement | null, name: string, color: string, values: number[], at?: number }} Row
+ */
+
 /** Above so many shapes in a group, dots would only be a smear: then bars say how many lie where. */
 const MOST_DOTS = 60;
 const BARS = 28;
 const ROW = 22;
 
 /**
- * `rows` are `{ mark, name, color, values }`; `share` says whether values are shares of a surface. A row may have `at`,
- * one value that stands out.
+ * @param {Row[]} rows
+ * @param {boolean} share whether values are shares of a surface
  */
 export function distribution(rows, share) {
   const all = rows.flatMap(({ values, at }) => (at === undefined ? values : [...values, at]));
   const [lowest, highest] = [Math.min(...all), Math.max(...all)];
   const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest > lowest ? highest : lowest + 1];
+  /** @param {number} value */
   const place = (value) => 2 + (96 * (value - least)) / (most - least);
   const told = toldAs(share);
   return element(
@@ -37,6 +43,10 @@ export function distribution(rows, share) {
   );
 }
 
+/**
+ * @param {Row} row
+ * @param {(value: number) => number} place
+ */
 function strip({ values, color, at }, place) {
   const rising = [...values].sort((a, b) => a - b);
   const parts = rising.length <= MOST_DOTS ? dots(rising, color, place) : bars(rising, color, place);
@@ -46,6 +56,11 @@ function strip({ values, color, at }, place) {
   return svg("svg", { class: "dots-of", height: ROW, width: "100%", "aria-hidden": "true" }, parts, line, outstanding);
 }
 
+/**
+ * @param {number[]} rising
+ * @param {string} color
+ * @param {(value: number) => number} place
+ */
 function dots(rising, color, place) {
   /** @param {number} share */
   const quantile = (share) => rising[Math.round(share * (rising.length - 1))];
@@ -63,6 +78,11 @@ function dots(rising, color, place) {
   return group;
 }
 
+/**
+ * @param {number[]} rising
+ * @param {string} color
+ * @param {(value: number) => number} place
+ */
 function bars(rising, color, place) {
   const counts = new Array(BARS).fill(0);
   for (const value of rising) counts[Math.min(Math.floor(((place(value) - 2) / 96) * BARS), BARS - 1)] += 1;
@@ -82,7 +102,10 @@ export function mean(values) {
   return Array.from(values).reduce((sum, value) => sum + value, 0) / values.length;
 }
 
-/** How a value is told: a share in percent, any other as a short number. */
+/**
+ * How a value is told: a share in percent, any other as a short number.
+ * @param {boolean} share
+ */
 export function toldAs(share) {
-  return share ? percent : (value) => String(Number(value.toPrecision(3))).replace("-", "−");
+  return share ? percent : (/** @type {number} */ value) => String(Number(value.toPrecision(3))).replace("-", "−");
 }

@@ -3,6 +3,9 @@
 import { element } from "../base/dom.js";
 import { share } from "./words.js";
 
+/** @import { View } from "./groups-view.js" */
+
+/** @param {View} view */
 export function featureRows(view) {
   const { contrast, bins } = view;
   const rows = bins.features

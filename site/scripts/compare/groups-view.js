@@ -16,6 +16,7 @@ import { Groups } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
 import { called } from "./words.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Standing } from "../engine/inquiry.js" */
@@ -31,7 +32,7 @@ import { called } from "./words.js";
  * @property {Group} b
  * @property {Bins} bins
  * @property {Chunk.Comparison} data
- * @property {Omit<Group, "spec" | "side" | "shapes" | "mark"> & { side: "rest", mark: () => null }} rest all other shapes
+ * @property {Pick<Group, "name" | "color"> & { side: "rest", mark: () => null }} rest all other shapes
  * @property {(column: number) => void} look
  * @property {number} best
  * @property {number} bin the one that is looked at
@@ -43,11 +44,17 @@ const SHARED = 4;
 const FACES = 5;
 
 export class GroupsView {
+  /** @type {View | null} */
+  view = null;
+  shown = FIRST;
+
   /**
    * @param {Database} database
    * @param {Chunk.Comparison} data
    * @param {Chunk.Clusters | null} clusters
    * @param {Neighbours} neighbours
+   * @param {State} state
+   * @param {{ bins: () => Promise<Bins>, announce: (text: string) => void }} ways
    */
   constructor(database, data, clusters, neighbours, state, { bins, announce }) {
     this.database = database;
@@ -88,16 +95,19 @@ export class GroupsView {
       this.#blank(problem);
       return;
     }
-    const key = JSON.stringify([pair.a.shapes, pair.b.shapes]);
-    this.pair = pair;
+    const { a, b } = /** @type {{ a: Group, b: Group }} */ (pair);
+    const key = JSON.stringify([a.shapes, b.shapes]);
     this.inquiry.ask(
       key,
-      (report) => this.contrasts.start(pair.a.shapes, pair.b.shapes, report),
-      (contrast) => this.#answered(contrast, pair),
+      (report) => this.contrasts.start(a.shapes, b.shapes, report),
+      (contrast) => this.#answered(contrast, { a, b }),
     );
   }
 
-  /** Why these groups cannot be compared, in words; or null. */
+  /**
+   * Why these groups cannot be compared, in words; or null.
+   * @param {{ a: Group | null; b: Group | null; common: number; }} parts
+   */
   #problem({ a, b }) {
     const { database } = this;
     if (database.count < 2) return ["This database has one shape: there is nothing to compare it with yet."];
@@ -129,13 +139,13 @@ export class GroupsView {
     this.announce(this.status.textContent);
   }
 
-  /** Counts and faces of both groups. */
+  /**
+   * Counts and faces of both groups.
+   * @param {{ a: Group | null; b: Group | null; common: number; }} parts
+   */
   #heads({ a, b, common }) {
     const { database } = this;
-    for (const [side, group] of [
-      ["a", a],
-      ["b", b],
-    ]) {
+    for (const [side, group] of Object.entries({ a, b })) {
       const node = document.getElementById(`head-${side}`);
       node.replaceChildren();
       if (!group || group.shapes.length === 0) continue;
@@ -166,7 +176,7 @@ export class GroupsView {
   }
 
   /** @param {Standing} standing */
-  #tell({ kind, progress, message }) {
+  #tell({ kind, progress = 0, message }) {
     const { database, status } = this;
     document.getElementById("groups").setAttribute("aria-busy", String(kind === "working"));
     if (kind === "working") {
@@ -198,6 +208,7 @@ export class GroupsView {
     const best = contrast.ranked[0] ?? 0;
     /** @type {View["rest"]} */
     const rest = { side: "rest", name: "the rest", color: () => "var(--quiet)", mark: () => null };
+    /** @param {number} column */
     const look = (column) => this.state.set({ bin: bins.names[column] });
     this.view = {
       contrast,
@@ -218,7 +229,8 @@ export class GroupsView {
   }
 
   #render() {
-    const { view, data, neighbours } = this;
+    const { data, neighbours } = this;
+    const view = /** @type {View} */ (this.view);
     const { contrast, a, b, bins } = view;
     const kin = neighbours === null ? null : kinship(a, b, neighbours);
     const sampled = [a, b]
@@ -251,7 +263,7 @@ export class GroupsView {
   }
 
   #bins() {
-    const { view } = this;
+    const view = /** @type {View} */ (this.view);
     const { contrast, bins } = view;
     const columns =
       this.shown === FIRST ? varied(contrast.ranked, bins, FIRST) : oneOfDimension(contrast.ranked, bins, this.shown);
@@ -267,7 +279,7 @@ export class GroupsView {
   }
 
   #shared() {
-    const { view } = this;
+    const view = /** @type {View} */ (this.view);
     const { contrast, bins, a, b } = view;
     const columns = varied(contrast.shared, bins, SHARED);
     const nobody = contrast.sample.rest.length < 2;
@@ -292,7 +304,7 @@ export class GroupsView {
   }
 
   #look() {
-    const { view } = this;
+    const view = /** @type {View} */ (this.view);
     const place = view.bins.names.indexOf(this.state.get("bin"));
     view.bin = place >= 0 ? place : view.best;
     for (const chip of this.result.querySelectorAll(".bin-chip"))
@@ -306,6 +318,8 @@ export class GroupsView {
 /**
  * The best bin of each dimension.
  * @param {number} most
+ * @param {number[]} columns
+ * @param {Bins} bins
  */
 function oneOfDimension(columns, bins, most) {
   const dimensions = new Set();
@@ -314,7 +328,10 @@ function oneOfDimension(columns, bins, most) {
     .slice(0, most);
 }
 
-/** A few shapes from all over a group. */
+/**
+ * A few shapes from all over a group.
+ * @param {number[]} shapes
+ */
 function faces(shapes) {
   if (shapes.length <= FACES) return shapes;
   return Array.from({ length: FACES }, (_, place) => shapes[Math.floor(((place + 0.5) * shapes.length) / FACES)]);

@@ -46,11 +46,20 @@ export class Groups {
    */
   async resolve(a, b) {
     const [first, second] = await Promise.all([this.#shapes(a), this.#shapes(b)]);
+    /**
+     * @param {number[] | null} shapes
+     * @param {number[] | null} other
+     */
+    /**
+     * @param {number[] | null} shapes
+     * @param {number[] | null} other
+     */
     const known = (shapes, other) => shapes ?? this.#rest(other);
-    let own = a && known(first, b?.kind === "rest" ? null : second);
-    let others = b && known(second, a?.kind === "rest" ? null : first);
+    const given = a && known(first, b?.kind === "rest" ? null : second);
+    const otherwise = b && known(second, a?.kind === "rest" ? null : first);
+    let [own, others] = [given ?? [], otherwise ?? []];
     let common = 0;
-    if (own && others) {
+    if (a && b) {
       const theirs = new Set(others);
       const shared = new Set(own.filter((shape) => theirs.has(shape)));
       common = shared.size;
@@ -71,13 +80,15 @@ export class Groups {
    */
   async #shapes(spec) {
     const { database } = this;
+    /** @param {(index: number) => boolean} holds */
     const where = (holds) => [...database.ids.keys()].filter(holds);
     switch (spec?.kind) {
       case "class":
         return where((index) => database.groups[index] === spec.group);
       case "cluster": {
-        const place = this.clusters?.clusters.findIndex(({ name }) => name === spec.name) ?? -1;
-        return place < 0 ? [] : where((index) => this.clusters.of[index] === place);
+        const { clusters, of } = this.clusters ?? { clusters: [], of: [] };
+        const place = clusters.findIndex(({ name }) => name === spec.name);
+        return place < 0 ? [] : where((index) => of[index] === place);
       }
       case "search":
         this.#texts ??= await searchTexts(database);

@@ -7,6 +7,10 @@ import { pageAddress } from "../base/place.js";
 import { count, shortened } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Neighbours } from "./neighbours.js" */
+
 const PAIRS = 8;
 const MOST_BEHIND = 24;
 const NEAR = 3;
@@ -15,6 +19,18 @@ const NEAR = 3;
 const MOST_FIGURES = 20;
 
 export class Matrix {
+  /** @type {number[][]} */
+  counts = [];
+  /** @type {Found} */
+  words;
+
+  /**
+   * @param {Database} database
+   * @param {Chunk.Comparison} data
+   * @param {Neighbours} neighbours
+   * @param {State} state
+   * @param {{ announce: (text: string) => void; }} parts
+   */
   constructor(database, data, neighbours, state, { announce }) {
     this.database = database;
     this.data = data;
@@ -56,7 +72,7 @@ export class Matrix {
    * @param {number} column
    */
   share(row, column) {
-    return this.counts[row][column] / (this.database.sizes.get(row) * this.neighbours.k);
+    return this.counts[row][column] / ((this.database.sizes.get(row) ?? 0) * this.neighbours.k);
   }
 
   #likest() {
@@ -147,6 +163,7 @@ export class Matrix {
     node.replaceChildren(element("thead", {}, head), element("tbody", {}, rows));
   }
 
+  /** @param {number} group */
   #name(group) {
     const { database } = this;
     return element(
@@ -164,7 +181,7 @@ export class Matrix {
   #sentence(row, column) {
     const { database, neighbours } = this;
     const names = [row, column].map((group) => database.className(group));
-    const all = database.sizes.get(row) * neighbours.k;
+    const all = (database.sizes.get(row) ?? 0) * neighbours.k;
     return row === column
       ? `${names[0]}: ${percents(this.share(row, row))} of the neighbours of its shapes are of its own class`
       : `${names[0]} to ${names[1]}: ${percents(this.share(row, column))}, ${this.counts[row][column]} of ${all} neighbours`;
@@ -174,7 +191,7 @@ export class Matrix {
   #point(cell) {
     for (const marked of this.node.querySelectorAll(".lit")) marked.classList.remove("lit");
     if (cell === null) {
-      this.words.textContent = this.words.dataset.empty;
+      this.words.textContent = this.words.dataset.empty ?? "";
       return;
     }
     const [row, column] = [Number(cell.dataset.row), Number(cell.dataset.column)];
@@ -264,7 +281,7 @@ export class Matrix {
               ? "No shape of this class has another one of it among its neighbours."
               : "No shape of the one is a neighbour of a shape of the other."
             : [
-                element("b", {}, `${pairs.length} of ${count(database.sizes.get(row), "shape")}`),
+                element("b", {}, `${pairs.length} of ${count(database.sizes.get(row) ?? 0, "shape")}`),
                 ` of `,
                 element("bdi", {}, database.className(row)),
                 ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? "of their own class" : "of "}`,
@@ -299,6 +316,7 @@ export class Matrix {
     this.announce(node.querySelector("p").textContent);
   }
 
+  /** @param {number} index */
   #face(index) {
     const { database } = this;
     return element(

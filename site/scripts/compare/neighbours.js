@@ -29,6 +29,8 @@ export class Neighbours {
   /**
    * Of the neighbours of some shapes, the share that belongs to others; null without neighbours.
    * @param {any} [space]
+   * @param {number[]} shapes
+   * @param {number[]} others
    */
   between(shapes, others, space = this.spaces[0]) {
     if (this.k === 0 || shapes.length === 0) return null;
@@ -59,7 +61,9 @@ export class Neighbours {
    */
   likest(space = this.spaces[0]) {
     const counts = this.matrix(space);
-    const shares = counts.map((row, group) => row.map((number) => number / (this.database.sizes.get(group) * this.k)));
+    const shares = counts.map((row, group) =>
+      row.map((number) => number / ((this.database.sizes.get(group) ?? 0) * this.k)),
+    );
     const pairs = [];
     for (let group = 0; group < counts.length; group += 1) {
       for (let other = group + 1; other < counts.length; other += 1) {
@@ -70,7 +74,12 @@ export class Neighbours {
     return pairs.sort((a, b) => b.share - a.share || a.group - b.group || a.other - b.other);
   }
 
-  /** The pairs behind a cell: shapes of a class with those of their neighbours that belong to another. */
+  /**
+   * The pairs behind a cell: shapes of a class with those of their neighbours that belong to another.
+   * @param {number} group
+   * @param {number} other
+   * @param {string} space
+   */
   pairs(group, other, space) {
     const { database } = this;
     const found = [];

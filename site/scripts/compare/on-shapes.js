@@ -9,6 +9,7 @@ import { dimensionOf } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { View } from "./groups-view.js" */
 /** @import { Side } from "./groups.js" */
@@ -18,14 +19,29 @@ const EXAMPLES = 6;
 const SIDES = ["a", "b"];
 
 export class OnShapes {
-  /** @param {Database} database */
+  /** @type {View | null} */
+  view = null;
+  /** @type {Record<Side, number>} */
+  chosen = { a: 0, b: 0 };
+  /** @type {Chunk.Selection | null} */
+  selection = null;
+  /** @type {Record<Side, Stage> | null} */
+  stages = null;
+  /** @type {Legend} */
+  legend;
+  /** @type {Paint} */
+  paint;
+
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {(text: string) => void} announce
+   */
   constructor(database, state, announce) {
     this.database = database;
     this.state = state;
     this.announce = announce;
     this.asked = false;
-    this.selection = null;
-    this.stages = null;
     const inputs = document.querySelectorAll("#readings input");
     this.check = () => {
       for (const input of inputs) input.checked = input.value === state.get("reading");
@@ -41,7 +57,8 @@ export class OnShapes {
   /** @param {View} view */
   async show(view) {
     this.view = view;
-    this.chosen = Object.fromEntries(SIDES.map((side) => [side, view.contrast.central[side][0]]));
+    const { a, b } = view.contrast.central;
+    this.chosen = { a: a[0], b: b[0] };
     await this.draw();
   }
 
@@ -50,7 +67,7 @@ export class OnShapes {
     if (!view) return;
     this.selection ??= await chunk("selection");
     if (view !== this.view) return;
-    this.stages ??= this.#makeStages();
+    this.stages ??= this.#makeStages(this.selection);
     const { bins, bin } = view;
     this.check();
     const share = bins.isShare(bin);
@@ -61,24 +78,24 @@ export class OnShapes {
     document
       .getElementById("seen-bin")
       .replaceChildren(hue, element("b", {}, element("bdi", {}, bins.names[bin])), " ", bins.sentence(bin));
-    if (share) this.legend.show(this.selection.dimensions[dimensionOf(bin, bins)], bins.binOf(bin));
+    const dimension = dimensionOf(bin, bins);
+    if (dimension !== null) this.legend.show(this.selection.dimensions[dimension], bins.binOf(bin));
     else this.legend.clear();
     for (const side of SIDES) this.#side(side, share);
     const reading = state.get("reading") === "inside" ? "which points fall into" : "values of";
     if (this.asked && share) this.announce(`${reading} ${bins.names[bin]}`);
   }
 
-  #makeStages() {
-    const { selection, database } = this;
+  /** @param {Chunk.Selection} selection */
+  #makeStages(selection) {
+    const { database } = this;
     this.legend = new Legend(selection);
     this.paint = new Paint(selection);
-    const load = selection.models && ((index) => modelBytes(selection.models[index]));
-    return Object.fromEntries(
-      SIDES.map((side) => [
-        side,
-        new Stage(document.getElementById(`stage-${side}`), { database, load, keys: "turn-keys" }),
-      ]),
-    );
+    const { models } = selection;
+    const load = models && ((/** @type {number} */ index) => modelBytes(models[index]));
+    /** @param {Side} side */
+    const make = (side) => new Stage(document.getElementById(`stage-${side}`), { database, load, keys: "turn-keys" });
+    return { a: make("a"), b: make("b") };
   }
 
   /**
@@ -86,10 +103,13 @@ export class OnShapes {
    * @param {boolean} share
    */
   #side(side, share) {
-    const { view, database } = this;
+    const { database } = this;
+    const view = /** @type {View} */ (this.view);
     const { bins, bin } = view;
     const shape = this.chosen[side];
     const group = view[side];
+    /** @param {number} index */
+    /** @param {number} index */
     const told = (index) =>
       share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3)));
     document
@@ -137,11 +157,11 @@ export class OnShapes {
    * @param {boolean} share
    */
   #stage(side, shape, share) {
-    const { bins, bin } = this.view;
-    const stage = this.stages[side];
+    const { bins, bin } = /** @type {View} */ (this.view);
+    const { [side]: stage } = /** @type {Record<Side, Stage>} */ (this.stages);
     const inside = this.state.get("reading") === "inside";
     if (!this.asked && share) {
-      const painting = this.selection.paintings.find((painted) => painted.column === bin && painted.shape === shape);
+      const painting = this.selection?.paintings.find((painted) => painted.column === bin && painted.shape === shape);
       stage.node.replaceChildren(
         painting === undefined
           ? picture(this.database, shape, 320)
@@ -155,7 +175,7 @@ export class OnShapes {
       return;
     }
     stage.asked = true;
-    const dimension = share ? dimensionOf(bin, bins) : null;
+    const dimension = /** @type {number} */ (dimensionOf(bin, bins));
     stage.show(shape, {
       label: `${this.database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
       paint: (solid) =>

@@ -7,8 +7,15 @@ import { count, figure } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { distribution, mean, toldAs } from "./distribution.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Neighbours } from "./neighbours.js" */
+
+/**
+ * What is usual in a class: some of its shapes, and by column their mean, mean share and spread.
+ * @typedef {{ rows: number[], means: Float64Array, shares: Float64Array, spreads: Float64Array }} Usual
+ */
 
 const PAGE = 12;
 const NEAREST = 5;
@@ -24,12 +31,15 @@ const TELLING = 0.03;
 const LEAST_SPREAD = 0.2;
 
 export class Outliers {
+  /** @type {Map<number, Usual>} */
   #usual = new Map();
 
   /**
    * @param {Database} database
    * @param {Chunk.Comparison} data
    * @param {Neighbours} neighbours
+   * @param {State} state
+   * @param {{ bins: () => Promise<Bins>, announce: (text: string) => void }} ways
    */
   constructor(database, data, neighbours, state, { bins, announce }) {
     this.database = database;
@@ -59,18 +69,26 @@ export class Outliers {
     });
   }
 
-  /** Shapes by rising fit, of one class or of all. */
+  /**
+   * Shapes by rising fit, of one class or of all.
+   * @param {number | null} of
+   */
   ranked(of = this.state.get("of")) {
     const { database, data } = this;
     return [...database.ids.keys()]
       .filter((index) => data.fit[index] !== null && (of === null || database.groups[index] === of))
-      .sort((a, b) => data.fit[a] - data.fit[b] || a - b);
+      .sort((a, b) => this.#fit(a) - this.#fit(b) || a - b);
+  }
+
+  /** @param {number} index of a shape that has a fit */
+  #fit(index) {
+    return /** @type {number} */ (this.data.fit[index]);
   }
 
   #offer() {
     const { database } = this;
     const below = database.classes.map(() => 0);
-    for (const index of this.ranked(null)) if (this.data.fit[index] < 0) below[database.groups[index]] += 1;
+    for (const index of this.ranked(null)) if (this.#fit(index) < 0) below[database.groups[index]] += 1;
     this.filter.replaceChildren(
       element("option", { value: "" }, "all shapes"),
       ...database.classes.map((name, group) =>
@@ -85,7 +103,7 @@ export class Outliers {
     const of = state.get("of");
     this.filter.value = of === null ? "" : String(of);
     const ranked = this.ranked();
-    const closer = ranked.filter((index) => this.data.fit[index] < 0).length;
+    const closer = ranked.filter((index) => this.#fit(index) < 0).length;
     document
       .getElementById("outlier-words")
       .replaceChildren(
@@ -108,7 +126,7 @@ export class Outliers {
     const { database, data, neighbours } = this;
     const [own, rival] = [database.groups[index], data.rival[index]];
     const near = [...neighbours.of(index)];
-    const fit = data.fit[index];
+    const fit = this.#fit(index);
     return element(
       "li",
       { class: "outlier", "data-index": index },
@@ -218,12 +236,14 @@ export class Outliers {
   /**
    * Bins in which a shape is unlike its class and like the other one.
    * @param {number} index
+   * @param {Bins} bins
    */
   #reasons(index, bins) {
     const { database, data } = this;
     const [group, other] = [database.groups[index], data.rival[index]];
     const [own, rival] = [this.#usualOf(group, bins), this.#usualOf(other, bins)];
     const size = own.rows.length - 1;
+    /** @type {[number, number][]} */
     const scored = [];
     for (let column = 0; column < bins.count; column += 1) {
       const value = bins.value(column, index);
@@ -261,6 +281,7 @@ export class Outliers {
    * @param {number} index
    * @param {number} group
    * @param {number} other
+   * @param {Bins} bins
    */
   #reason(index, column, group, other, bins) {
     const { database, data } = this;
@@ -276,11 +297,12 @@ export class Outliers {
         values: rows.map((shape) => bins.share(column, shape)),
       };
     };
-    const rows = [{ ...row(group), at: bins.share(column, index) }, row(other)];
+    const own = bins.share(column, index);
+    const rows = [{ ...row(group), at: own }, row(other)];
     const means = rows.map(({ values }) => mean(values));
     const words = share
-      ? [told(rows[0].at), ` of its ${data.whole.replace("the ", "")} lies where ${data.where[column]}`]
-      : ["Its ", element("bdi", {}, bins.names[column]), ` is ${told(rows[0].at)}`];
+      ? [told(own), ` of its ${data.whole.replace("the ", "")} lies where ${data.where[column]}`]
+      : ["Its ", element("bdi", {}, bins.names[column]), ` is ${told(own)}`];
     const hue = element("i", { class: "hued" });
     hue.style.background = bins.color(column);
     return element(
@@ -306,9 +328,12 @@ export class Outliers {
   /**
    * Means and spreads of a class in every bin.
    * @param {number} group
+   * @param {Bins} bins
+   * @returns {Usual}
    */
   #usualOf(group, bins) {
-    if (this.#usual.has(group)) return this.#usual.get(group);
+    const known = this.#usual.get(group);
+    if (known !== undefined) return known;
     const all = [...this.database.ids.keys()].filter((index) => this.database.groups[index] === group);
     const step = Math.max(all.length / MOST_USUAL, 1);
     const rows = Array.from({ length: Math.min(all.length, MOST_USUAL) }, (_, place) => all[Math.floor(place * step)]);
@@ -328,23 +353,27 @@ export class Outliers {
     return usual;
   }
 
+  /** @type {Float64Array | null} */
   #spreads = null;
 
   /**
    * The spread of a bin over some shapes from all over the database.
    * @param {number} column
+   * @param {Bins} bins
    */
   #spread(column, bins) {
-    if (this.#spreads === null) {
+    let spreads = this.#spreads;
+    if (spreads === null) {
       const step = Math.max(bins.rows / MOST_USUAL, 1);
       const rows = Array.from({ length: Math.min(bins.rows, MOST_USUAL) }, (_, place) => Math.floor(place * step));
-      this.#spreads = Float64Array.from({ length: bins.count }, (_, at) => {
+      spreads = Float64Array.from({ length: bins.count }, (_, at) => {
         const values = rows.map((row) => bins.value(at, row));
         const middle = mean(values);
         return Math.sqrt(mean(values.map((value) => (value - middle) ** 2)));
       });
+      this.#spreads = spreads;
     }
-    return this.#spreads[column];
+    return spreads[column];
   }
 }
 
@@ -362,9 +391,10 @@ function name(database, group) {
 }
 
 /**
- * A fit with its sign.
+ * A fit, or a difference, with its sign.
  * @param {number | null} value
  */
 export function signed(value) {
+  if (value === null) return "–";
   return `${value < 0 ? "−" : ""}${Math.abs(value).toFixed(3)}`;
 }

@@ -7,10 +7,24 @@ import { mean, toldAs } from "./distribution.js";
 import { signed } from "./outliers.js";
 import { share } from "./words.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Share } from "../engine/contrast.js" */
+/** @import { GroupsView, View } from "./groups-view.js" */
+/** @import { Matrix } from "./matrix.js" */
+/** @import { Outliers } from "./outliers.js" */
+
 const MOST_BINS = 100;
 const MOST_SHAPES = 300;
 
+/**
+ * @param {Database} database
+ * @param {Chunk.Comparison} data
+ * @param {State} state
+ * @param {{ groups: GroupsView; outliers: Outliers; matrix: Matrix; }} parts
+ */
 export function compareTables(database, data, state, { groups, outliers, matrix }) {
+  /** @type {Record<string, () => HTMLElement[]>} */
   const tables = {
     groups: () => ofGroups(groups.view),
     outliers: () => ofOutliers(database, data, outliers),
@@ -19,12 +33,15 @@ export function compareTables(database, data, state, { groups, outliers, matrix 
   return { title: "This comparison in figures", tables: tables[state.get("view")]() };
 }
 
+/** @param {View | null} view */
 function ofGroups(view) {
   if (!view) return [];
   const { contrast, a, b, bins } = view;
   const { apart, difference, sample } = contrast;
+  /** @param {number} column */
   const line = (column) => {
     const told = toldAs(bins.isShare(column));
+    /** @param {number[]} rows */
     const average = (rows) => told(mean(rows.map((row) => bins.share(column, row))));
     return [
       bins.names[column],
@@ -35,7 +52,10 @@ function ofGroups(view) {
       contrast.isBeyond(column) ? "yes" : "no",
     ];
   };
-  /** @param {string} title */
+  /**
+   * @param {string} title
+   * @param {Share} found
+   */
   const feature = (title, { share: own, chance, limit, exceeding }) => [
     title,
     share(own),
@@ -78,6 +98,11 @@ function ofGroups(view) {
   ].filter(Boolean);
 }
 
+/**
+ * @param {Database} database
+ * @param {Chunk.Comparison} data
+ * @param {Outliers} outliers
+ */
 function ofOutliers(database, data, outliers) {
   const ranked = outliers.list === null ? [] : outliers.ranked().slice(0, MOST_SHAPES);
   return [
@@ -104,6 +129,11 @@ function ofOutliers(database, data, outliers) {
   ];
 }
 
+/**
+ * @param {Database} database
+ * @param {Chunk.Comparison} data
+ * @param {Matrix} matrix
+ */
 function ofClasses(database, data, matrix) {
   if (matrix.node === null) return [];
   const { order } = data;

@@ -1,12 +1,16 @@
 // The three questions of the page: one is open, arrow keys go from one to the next.
 
+/** @import { State } from "../base/state.js" */
+
 export class Tabs {
+  /** @param {State} state */
   constructor(state) {
     this.state = state;
     this.tabs = [...document.querySelectorAll(".compare-page [role=tab]")];
     for (const [place, tab] of this.tabs.entries()) {
       tab.addEventListener("click", () => state.set({ view: tab.dataset.view }));
       tab.addEventListener("keydown", (event) => {
+        /** @type {Record<string, number>} */
         const steps = { ArrowRight: place + 1, ArrowLeft: place - 1, Home: 0, End: this.tabs.length - 1 };
         if (!(event.key in steps)) return;
         event.preventDefault();
@@ -26,7 +30,7 @@ export class Tabs {
       const open = tab.dataset.view === this.state.get("view");
       tab.setAttribute("aria-selected", String(open));
       tab.tabIndex = open ? 0 : -1;
-      document.getElementById(tab.dataset.view).hidden = !open;
+      document.getElementById(tab.dataset.view ?? "").hidden = !open;
     }
   }
 }

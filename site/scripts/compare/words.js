@@ -10,7 +10,7 @@ import { mean, toldAs } from "./distribution.js";
 
 /**
  * The name of a group within a sentence.
- * @param {Pick<Group, "mark" | "name">} group
+ * @param {{ name: string, mark: () => SVGElement | null }} group
  */
 export function called(group) {
   return element("b", { class: "called" }, group.mark(), element("bdi", {}, group.name));

@@ -12,17 +12,18 @@ import { reachOf } from "./hit-range.js";
  * @property {string} key
  * @property {string} title
  * @property {string} [note]
- * @property {string[]} [features]
+ * @property {string[]} features
  * @property {ArrayLike<number>} x
  * @property {ArrayLike<number>} y
  * @property {(number | null)[]} hit
  * @property {number} neighbours
- * @property {(number | null)[]} [hitOfClass]
- * @property {number | null} [hitOfAll]
+ * @property {(number | null)[]} hitOfClass
+ * @property {number | null} hitOfAll
  * @property {Chunk.WithoutCopies | null} [withoutCopies]
- * @property {number | null} [chance]
- * @property {number | null} [chanceSpread]
- * ¦ @typedef {ShapeMap & { base: number }} Method one that belongs to a projection of all features: itself, or the one it is set beside
+ * @property {number | null} chance
+ * @property {number | null} chanceSpread
+ *
+ * @typedef {ShapeMap & { base: number }} Method one that belongs to a projection of all features: itself, or the one it is set beside
  * @typedef {{ x: number, y: number, width: number, height: number }} Bounds the middle and the size of a rectangle
  */
 

@@ -5,6 +5,13 @@ import { highestOf } from "./hit-range.js";
 /** @import { Database } from "./database.js" */
 
 /**
+ * One with values, of a range of numbers, and one of a tree.
+ * @typedef {Field & { names: string[], of: number[] }} ChoiceField
+ * @typedef {Field & { numbers: (number | null)[], edges: number[] }} RangeField
+ * @typedef {Field & { tree: Chunk.Tree & { ways: string[][] } }} TreeField
+ */
+
+/**
  * What shapes can be grouped, filtered and sorted by: a field of the database, a tree of folders, or a hit on a map.
  * @typedef {object} OwnField
  * @property {FieldTree | null} tree of which it is the finest level
@@ -13,7 +20,7 @@ import { highestOf } from "./hit-range.js";
  * @property {(row: number) => number | null} [highest] what a hit can be
  * @property {Map<string, number>} [numberOfName] values by their names in an address
  * ¦ @typedef {Chunk.Field & OwnField} Field
- * @typedef {Chunk.Tree & { ways?: string[][] }} FieldTree with the names from the top down to each of its nodes
+ * @typedef {Chunk.Tree & { ways: string[][] }} FieldTree with the names from the top down to each of its nodes
  */
 
 const HIT_EDGES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
@@ -30,8 +37,9 @@ export class Fields {
   constructor(database, { byName, fields }, { trees }) {
     this.byName = byName;
     // A tree of one level is a list.
-    /** @type {FieldTree[]} */
-    const deep = trees.filter(({ key, nodes }) => key === "folders" || nodes.some(({ parent }) => parent >= 0));
+    const deep = trees
+      .map((tree) => ({ ...tree, ways: ways(tree.nodes) }))
+      .filter(({ key, nodes }) => key === "folders" || nodes.some(({ parent }) => parent >= 0));
     /** @type {Field[]} */
     const own = fields.map((field) => ({ ...field, tree: deep.find(({ key }) => key === field.key) ?? null }));
     const folders = deep
@@ -41,7 +49,6 @@ export class Fields {
     const given = own.filter((field) => !measured.includes(field));
     /** @type {Field[]} */
     this.all = [...given, ...folders, ...hits(database), ...measured];
-    for (const field of this.all) if (field.tree) field.tree.ways = ways(field.tree.nodes);
     this.byKey = new Map(this.all.map((field) => [field.key, field]));
     this.active = this.all.find(({ active }) => active) ?? null;
     // Classes stand in the order that people sort by, and the database numbers them in another.

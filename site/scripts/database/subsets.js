@@ -12,7 +12,7 @@ export class Subsets {
     this.count = data.members.length;
     this.labelled = data.hit[0] !== null;
     this.places = new Map(data.members.map((code, place) => [code, place]));
-    this.everything = this.find(this.features);
+    this.everything = /** @type {number} */ (this.find(this.features));
   }
 
   /**

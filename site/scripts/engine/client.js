@@ -21,7 +21,7 @@ export class Cancelled extends Error {
 /**
  * Start the engine on a table of features.
  *
- * @param {FeatureValues} table
+ * @param {FeatureValues | null} table null where tasks bring their own
  * @returns {Promise<Engine>}
  */
 export async function startEngine(table) {

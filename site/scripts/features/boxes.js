@@ -4,13 +4,20 @@ import { drawChart } from "../base/chart.js";
 import { element, swatch } from "../base/dom.js";
 import { hitRange } from "../database/hit-range.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Subsets } from "../database/subsets.js" */
+/** @import { Marks } from "./ranking.js" */
 
 export class Boxes {
+  /** @type {[string, any][]} the element and Vega's view of each chart */
+  vegas = [];
+
   /**
    * @param {Database} database
    * @param {Subsets} subsets
+   * @param {State} state
+   * @param {Marks} marks
    */
   constructor(database, subsets, state, marks) {
     this.database = database;
@@ -22,14 +29,14 @@ export class Boxes {
     const { boxes, classes } = subsets.data;
     this.order = boxes
       .map((_, column) => column)
-      .sort((a, b) => boxes[b].median - boxes[a].median || classes[a] - classes[b]);
+      .sort((a, b) => (boxes[b].median ?? 0) - (boxes[a].median ?? 0) || classes[a] - classes[b]);
     state.listen((changed) => {
       if (changed.has("chosen")) this.render();
     });
   }
 
   async start() {
-    for (const [, vega] of this.vegas ?? []) vega.finalize();
+    for (const [, vega] of this.vegas) vega.finalize();
     this.vegas = [];
     const { database, subsets } = this;
     /** @param {number | null} pointedGroup */
@@ -88,7 +95,7 @@ export class Boxes {
       present: true,
     }));
     const height = this.node.firstElementChild.getBoundingClientRect().height * rows.length;
-    for (const [id, vega] of this.vegas ?? []) {
+    for (const [id, vega] of this.vegas) {
       vega.width(document.getElementById(id).clientWidth).height(height);
       vega.data("classes", rows).runAsync();
     }

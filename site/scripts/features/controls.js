@@ -1,11 +1,13 @@
 // What the reader sets on the map of the Features page.
 
+/** @import { State } from "../base/state.js" */
 /** @import { Gestures } from "../map/gestures.js" */
 /** @import { MapView } from "../map/map.js" */
 
 /**
  * @param {Gestures} gestures
  * @param {Found} surface
+ * @param {State} state
  */
 export function watchMapKeys(surface, state, gestures) {
   surface.addEventListener("keydown", (event) => {
@@ -18,7 +20,10 @@ export function watchMapKeys(surface, state, gestures) {
   });
 }
 
-/** What dragging on the map does. */
+/**
+ * What dragging on the map does.
+ * @param {State} state
+ */
 export function watchDrag(state) {
   const inputs = document.querySelectorAll("#drag input");
   for (const input of inputs) {
@@ -34,6 +39,7 @@ export function watchDrag(state) {
 /**
  * Colours of the map: by class or by neighbourhood hit.
  * @param {MapView} map
+ * @param {State} state
  */
 export function watchColors(state, map) {
   const inputs = document.querySelectorAll("#colors input");

@@ -14,6 +14,11 @@ const MARGIN = { left: 44, right: 12, top: 10, bottom: 40 };
 const TICKS = [0, 0.25, 0.5, 0.75, 1];
 
 export class Curves {
+  /** @type {Line[]} */
+  lines = [];
+  /** @type {string | null} */
+  pointed = null;
+
   /**
    * @param {Found} node
    * @param {number[]} levels
@@ -41,7 +46,7 @@ export class Curves {
 
   /**
    * Bring one line out, or none.
-   * @param {string | null | undefined} key
+   * @param {string | null} key
    */
   point(key) {
     this.pointed = key;
@@ -55,7 +60,7 @@ export class Curves {
 
   draw() {
     const width = this.node.clientWidth;
-    if (!this.lines || width === 0) return;
+    if (this.lines.length === 0 || width === 0) return;
     const [inner, high] = [width - MARGIN.left - MARGIN.right, HEIGHT - MARGIN.top - MARGIN.bottom];
     /** @param {number} share */
     const x = (share) => MARGIN.left + share * inner;

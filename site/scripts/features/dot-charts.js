@@ -3,17 +3,19 @@
 import { drawChart } from "../base/chart.js";
 
 /** @import { Subsets } from "../database/subsets.js" */
+/** @import { Marks } from "./ranking.js" */
 
 const ROW = 24;
 
 /**
  * The two plots of dots, with as many rows as there is data.
  * @param {Subsets} subsets
+ * @param {Marks} marks
  */
 export function dotCharts(subsets, marks) {
   const { data } = subsets;
   const effects = data.order
-    .map((feature) => data.effects.find((effect) => effect.feature === feature))
+    .flatMap((feature) => data.effects.filter((effect) => effect.feature === feature))
     .map((effect) => ({ ...effect, name: subsets.features[effect.feature], feature: data.hues[effect.feature] }));
   const best = Math.max(...data.spread.map(({ mean }) => mean));
   const seeds = data.spread.flatMap(({ place, hits, mean, margin, apart }) =>
@@ -36,8 +38,11 @@ export function dotCharts(subsets, marks) {
 class DotChart {
   /**
    * @param {string} id
+   * @param {Record<string, any>} spec
    * @param {string} name
+   * @param {object[]} rows
    * @param {number} count
+   * @param {Marks} marks
    */
   constructor(id, spec, name, rows, count, marks) {
     this.node = document.getElementById(id);
@@ -53,7 +58,7 @@ class DotChart {
     const { config, ink, bar, accent, ground } = this.marks();
     this.vega = await drawChart(this.node, this.spec, config, "svg");
     const values = { ink, bar, accent, ground };
-    const known = new Set(this.spec.params.map(({ name }) => name));
+    const known = new Set(this.spec.params.map((/** @type {{ name: string }} */ { name }) => name));
     for (const [name, value] of Object.entries(values)) if (known.has(name)) this.vega.signal(name, value);
     this.vega.data(this.name, this.rows);
     await this.resize();
@@ -62,7 +67,8 @@ class DotChart {
   async resize() {
     if (!this.vega) return;
     const width = this.node.clientWidth;
-    if (this.spec.params.some(({ name }) => name === "label_limit")) this.vega.signal("label_limit", width * 0.42);
+    if (this.spec.params.some((/** @type {{ name: string }} */ { name }) => name === "label_limit"))
+      this.vega.signal("label_limit", width * 0.42);
     await this.vega
       .width(width)
       .height(this.count * ROW + 44)

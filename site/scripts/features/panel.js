@@ -3,10 +3,17 @@
 import { element, focused } from "../base/dom.js";
 import { figure } from "../base/words.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Subsets } from "../database/subsets.js" */
+/** @import { Marks } from "./ranking.js" */
 
 export class Panel {
-  /** @param {Subsets} subsets */
+  /**
+   * @param {Subsets} subsets
+   * @param {State} state
+   * @param {Marks} marks
+   * @param {((place: number) => string) | null} link the address of a subset's map
+   */
   constructor(subsets, state, marks, link) {
     this.subsets = subsets;
     this.state = state;
@@ -50,14 +57,20 @@ export class Panel {
     return ["Switch a feature on or off; beside it stands by how much NH", element("sub", {}, "s"), " would change."];
   }
 
+  /** @param {number} place */
   #headline(place) {
     const { subsets } = this;
     const { hit } = subsets.data;
     /**
+     * @param {number} one
+     * @param {number} other
+     */
+    const apart = (one, other) => (hit[one] ?? 0) - (hit[other] ?? 0);
+    /**
      * @param {number} other
      * @param {string} words
      */
-    const against = (other, words) => [element("b", {}, difference(hit[place] - hit[other])), ` against ${words}`];
+    const against = (other, words) => [element("b", {}, difference(apart(place, other))), ` against ${words}`];
     return element(
       "p",
       { class: "headline" },
@@ -79,7 +92,10 @@ export class Panel {
     );
   }
 
-  /** @param {number} feature */
+  /**
+   * @param {number} feature
+   * @param {number} place
+   */
   #chip(place, feature) {
     const { subsets } = this;
     const name = subsets.features[feature];
@@ -88,7 +104,9 @@ export class Panel {
     const mark = element("i", { class: "hued" });
     mark.style.background = this.marks().features[subsets.data.hues[feature]];
     const change =
-      target === undefined || !subsets.labelled ? "" : difference(subsets.data.hit[target] - subsets.data.hit[place]);
+      target === undefined || !subsets.labelled
+        ? ""
+        : difference((subsets.data.hit[target] ?? 0) - (subsets.data.hit[place] ?? 0));
     const reason =
       pressed && subsets.single(place) >= 0 ? "A map needs at least one feature" : "This subset was not evaluated";
     return element(
@@ -108,6 +126,7 @@ export class Panel {
     );
   }
 
+  /** @param {number} place */
   #moves(place) {
     /**
      * @param {string} key

@@ -5,6 +5,7 @@ import { element, svg } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 
 const BARS = 150;
@@ -14,9 +15,21 @@ const TOUCHABLE = 3;
 const LEAP = 10;
 const CLOSEST = 10;
 
+/**
+ * The colours of the theme in use, for charts and what is drawn beside them.
+ * @typedef {() => Chunk.FeatureMarks & { config: Record<string, any>, ink: string, accent: string, ground: string }} Marks
+ */
+
 export class Ranking {
+  /** @type {any[]} Vega's views */
+  vegas = [];
+  width = 0;
+  step = 0;
+
   /**
    * @param {Subsets} subsets
+   * @param {State} state
+   * @param {Marks} marks
    * @param {(text: string) => void} announce
    */
   constructor(subsets, state, marks, announce) {
@@ -62,7 +75,7 @@ export class Ranking {
   async start() {
     const { subsets } = this;
     const { charts } = subsets.data;
-    for (const vega of this.vegas ?? []) vega.finalize();
+    for (const vega of this.vegas) vega.finalize();
     this.vegas = [];
     const matrix = await drawChart(
       document.getElementById("feature-matrix"),
@@ -96,7 +109,7 @@ export class Ranking {
           element("li", { dir: "auto", title: subsets.features[feature] }, subsets.features[feature]),
         ),
       );
-    this.step = null;
+    this.step = 0;
     await this.resize();
   }
 
@@ -111,7 +124,7 @@ export class Ranking {
     const room = this.scroll.clientWidth;
     const least = room < 600 ? TOUCHABLE : 1;
     const step = Math.min(Math.max(Math.floor(room / this.subsets.count), least), WIDEST);
-    if (step === this.step || !this.vegas) return;
+    if (step === this.step || this.vegas.length === 0) return;
     this.step = step;
     this.width = step * this.subsets.count;
     this.surface.style.width = `${this.width}px`;
@@ -131,7 +144,7 @@ export class Ranking {
   #level() {
     const { chance, chanceBest, highest } = this.subsets.data;
     /**
-     * @param {number} value
+     * @param {number | null} value
      * @param {string} kind
      */
     const rule = (value, kind) =>
@@ -157,7 +170,7 @@ export class Ranking {
 
   /** @param {number | null} hit */
   #y(hit) {
-    return BARS * (1 - hit);
+    return BARS * (1 - (hit ?? 0));
   }
 
   /** @param {PointerEvent & Targeted} event */
@@ -169,6 +182,7 @@ export class Ranking {
   /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    /** @type {Record<string, number>} */
     const steps = { ArrowLeft: -1, ArrowRight: 1, PageUp: -LEAP, PageDown: LEAP, Home: -Infinity, End: Infinity };
     const from = this.state.get("pointedPlace") ?? this.state.get("chosen");
     if (event.key in steps) {
@@ -278,7 +292,7 @@ export class Ranking {
       ),
     ]);
     const last = greedy.path.at(-1);
-    const behind = hit[0] - hit[last];
+    const behind = (hit[0] ?? 0) - (hit[last] ?? 0);
     words.append(
       `Greedy search, s = ${s}: `,
       .../** @type {any[]} */ (steps).flat().filter(Boolean),

@@ -1,7 +1,7 @@
 // The Retrieval section of the Features page: how well shapes of a class are found, by each choice of what is compared.
 
 import { chunk } from "../base/chunks.js";
-import { dataLink, element } from "../base/dom.js";
+import { dataLink, element, focused } from "../base/dom.js";
 import { table } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
 import { count, figure } from "../base/words.js";
@@ -14,6 +14,7 @@ import { Ratings } from "./ratings.js";
 /**
  * The section, which follows the theme and what is chosen in the state; null where no class has two shapes.
  * @param {string[]} classes names
+ * @param {State} state
  * @param {{ chosen: (() => string[]) | null, choose: ((names: string[]) => void) | null }} [choice]
  */
 export async function openRetrieval(classes, state, choice = { chosen: null, choose: null }) {
@@ -24,6 +25,10 @@ export async function openRetrieval(classes, state, choice = { chosen: null, cho
 }
 
 class RetrievalSection {
+  row = 0;
+  /** @type {Choice[]} */
+  choices = [];
+
   /**
    * @param {Chunk.Retrieval} data
    * @param {string[]} classes names
@@ -49,7 +54,7 @@ class RetrievalSection {
     }
     this.rows.addEventListener("pointerover", (event) => this.#point(event.target.closest("tr")?.dataset.key ?? null));
     this.rows.addEventListener("pointerleave", () => this.#point(null));
-    this.rows.addEventListener("focusin", (event) => this.#point(event.target.closest("tr").dataset.key));
+    this.rows.addEventListener("focusin", (event) => this.#point(event.target.closest("tr")?.dataset.key ?? null));
     this.rows.addEventListener("focusout", () => this.#point(null));
     this.byClass.parentElement.addEventListener("toggle", () => this.#renderClasses());
     this.render();
@@ -57,9 +62,7 @@ class RetrievalSection {
 
   render() {
     const { ratings, over } = this;
-    const focused = this.rows.contains(document.activeElement)
-      ? document.activeElement.closest("tr").dataset.key
-      : null;
+    const kept = this.rows.contains(focused()) ? focused().closest("tr")?.dataset.key : undefined;
     this.row = this.chosen === null ? ratings.everything : ratings.find(this.chosen());
     this.choices = ratings.choices(this.row);
     this.curves.show(
@@ -71,8 +74,8 @@ class RetrievalSection {
     );
     this.rows.replaceChildren(...this.choices.map((choice) => this.#row(choice)));
     // What was chosen has become another row.
-    if (focused !== null)
-      (this.rows.querySelector(`[data-key="${focused}"] button`) ?? this.rows.querySelector("button"))?.focus();
+    if (kept !== undefined)
+      (this.rows.querySelector(`[data-key="${kept}"] button`) ?? this.rows.querySelector("button"))?.focus();
     this.#renderClasses();
   }
 
@@ -143,7 +146,9 @@ class RetrievalSection {
    */
   #name(choice) {
     const words = this.#parts(choice);
-    if (choice.row === undefined || choice.kind === "chosen" || this.choose === null)
+    const { choose } = this;
+    const { row } = choice;
+    if (row === undefined || choice.kind === "chosen" || choose === null)
       return element("span", { class: "rating-name" }, words);
     return element(
       "button",
@@ -151,7 +156,7 @@ class RetrievalSection {
         type: "button",
         class: "rating-name step",
         title: "Choose this subset",
-        onclick: () => this.choose(this.ratings.names(choice.row)),
+        onclick: () => choose(this.ratings.names(row)),
       },
       words,
     );
@@ -226,7 +231,7 @@ class RetrievalSection {
     this.byClass.replaceChildren(element("table", {}, element("thead", {}, head), element("tbody", {}, body)));
   }
 
-  /** @param {string | null | undefined} key */
+  /** @param {string | null} key */
   #point(key) {
     this.curves.point(key);
     for (const row of this.rows.children) row.classList.toggle("pointed", row.dataset.key === key);

@@ -13,16 +13,18 @@ export async function shown(database, subsets, place) {
   const { rows } = subsets.data;
   const map = await subsets.map(place, database.classes.length);
   /**
-   * @param {number | null} none
-   * @param {ArrayLike<number> | (number | null)[]} values
+   * @template Value
+   * @param {ArrayLike<Value>} values
+   * @param {Value} none
+   * @returns {Value[]}
    */
   const spread = (values, none) => {
     const all = new Array(database.count).fill(none);
-    for (const [index, row] of rows.entries()) all[row] = values[index];
+    for (const [index, row] of (rows ?? []).entries()) all[row] = values[index];
     return all;
   };
   return database.add(
     rows === null ? map : { ...map, x: spread(map.x, NaN), y: spread(map.y, NaN), hit: spread(map.hit, null) },
-    null,
+    -1,
   );
 }

@@ -5,6 +5,7 @@ import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 import { shapesTable } from "../map/tables.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 
@@ -13,6 +14,7 @@ const MOST_ROWS = 300;
 /**
  * @param {Database} database
  * @param {Subsets} subsets
+ * @param {State} state
  * @param {{ tables: () => any[] } | null} retrieval that section
  */
 export function subsetTables(database, subsets, state, retrieval) {

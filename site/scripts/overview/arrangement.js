@@ -1,6 +1,6 @@
 // The three maps: one in the large place, the other two beside it.
 
-import { calm } from "../base/dom.js";
+import { calm, focused } from "../base/dom.js";
 
 /** @import { Scene } from "../map/scene.js" */
 
@@ -8,30 +8,33 @@ export const VIEWS = ["class", "hit", "thumbnail"];
 
 /**
  * Put one map in the large place; the other two keep their order.
- * @param {Map<string | undefined, Found>} figures
- * @param {string | null} large
+ * @param {Map<string, Found>} figures
+ * @param {string} large
  */
 export function arrange(figures, large) {
   const slots = ["left", "right"];
-  for (const name of VIEWS) figures.get(name).dataset.slot = name === large ? "large" : slots.shift();
+  for (const name of VIEWS) {
+    const figure = figures.get(name);
+    if (figure) figure.dataset.slot = name === large ? "large" : slots.shift();
+  }
 }
 
 /**
  * The same, with a short movement that shows which map went where.
- * @param {Map<string | undefined, Found>} figures
- * @param {string | null} large
+ * @param {Map<string, Found>} figures
+ * @param {string} large
  * @param {Scene} scene
  */
 export function swap(figures, large, scene) {
   const before = new Map([...figures].map(([name, node]) => [name, node.getBoundingClientRect()]));
-  const focused = document.activeElement.classList.contains("surface");
+  const held = focused().classList.contains("surface");
   arrange(figures, large);
   for (const view of scene.views) view.resize();
-  if (focused) figures.get(large).querySelector(".surface").focus({ preventScroll: true });
+  if (held) figures.get(large)?.querySelector(".surface").focus({ preventScroll: true });
   if (calm()) return;
   for (const [name, node] of figures) {
     const [from, to] = [before.get(name), node.getBoundingClientRect()];
-    if (from.width === to.width && from.left === to.left) continue;
+    if (!from || (from.width === to.width && from.left === to.left)) continue;
     const start = `translate(${from.left - to.left}px, ${from.top - to.top}px) scale(${from.width / to.width}, ${from.height / to.height})`;
     node.animate(
       [

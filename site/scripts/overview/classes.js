@@ -5,10 +5,14 @@ import { element, focused, swatch } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database, Method } from "../database/database.js" */
 
 export class ClassList {
-  /** @param {Database} database */
+  /**
+   * @param {Database} database
+   * @param {State} state
+   */
   constructor(database, state) {
     this.database = database;
     this.state = state;
@@ -22,6 +26,9 @@ export class ClassList {
       else if (changed.has("hidden")) this.#mark();
     });
   }
+
+  /** @type {Map<number, HTMLButtonElement>} */
+  buttons = new Map();
 
   async start() {
     this.vega?.finalize();
@@ -112,7 +119,7 @@ export class ClassList {
   }
 
   resize() {
-    if (this.buttons) this.#mark();
+    if (this.buttons.size > 0) this.#mark();
   }
 
   /**
@@ -188,7 +195,7 @@ export class ClassList {
       element(
         "p",
         {},
-        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${(hitOfAll * 100).toFixed(0)} % share its ${database.data.standIn ? "cluster" : "class"} on average. `,
+        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${((hitOfAll ?? 0) * 100).toFixed(0)} % share its ${database.data.standIn ? "cluster" : "class"} on average. `,
         database.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
           : this.#best(method),

@@ -3,9 +3,17 @@
 import { coarse } from "../base/dom.js";
 import { VIEWS } from "./arrangement.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Gestures } from "../map/gestures.js" */
 
-/** @param {Database} database */
+/** @typedef {Map<string, Gestures>} AllGestures by the names of their maps */
+
+/**
+ * @param {Database} database
+ * @param {State} state
+ * @param {AllGestures} gestures
+ */
 export function watchControls(database, state, gestures) {
   const methods = document.getElementById("methods");
   const drag = document.getElementById("drag");
@@ -27,7 +35,7 @@ export function watchControls(database, state, gestures) {
   });
   drag.addEventListener("change", (event) => state.set({ drag: event.target.value }));
   for (const button of document.querySelectorAll("[data-zoom]")) {
-    button.addEventListener("click", () => zoom(button.dataset.zoom, state, gestures));
+    button.addEventListener("click", () => zoom(button.dataset.zoom ?? "", state, gestures));
   }
   for (const button of document.querySelectorAll(".promote")) {
     button.addEventListener("click", () => state.set({ view: button.dataset.view }));
@@ -38,13 +46,22 @@ export function watchControls(database, state, gestures) {
   show();
 }
 
-/** @param {string} how */
+/**
+ * @param {string} how
+ * @param {State} state
+ * @param {AllGestures} gestures
+ */
 function zoom(how, state, gestures) {
   if (how === "fit") state.set({ camera: null });
-  else gestures.get(state.get("view")).zoom(how === "in" ? 1.5 : 1 / 1.5);
+  else gestures.get(state.get("view"))?.zoom(how === "in" ? 1.5 : 1 / 1.5);
 }
 
+/**
+ * @param {State} state
+ * @param {AllGestures} gestures
+ */
 export function watchKeys(state, gestures) {
+  /** @type {Record<string, string>} */
   const zooms = { "+": "in", "=": "in", "-": "out", 0: "fit" };
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -62,7 +79,10 @@ export function watchKeys(state, gestures) {
   });
 }
 
-/** One press takes back the last thing that is open: the panel, then the search, then the selection. */
+/**
+ * One press takes back the last thing that is open: the panel, then the search, then the selection.
+ * @param {State} state
+ */
 function takeBack(state) {
   if (state.get("opened") !== null) state.set({ opened: null });
   else if (state.get("query") !== "") state.set({ query: "" });

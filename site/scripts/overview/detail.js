@@ -7,10 +7,15 @@ import { count, figure, grouped } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { classLine } from "../map/card.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database, Method } from "../database/database.js" */
 
 export class Detail {
-  /** @param {Database} database */
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {{ point: (index: number | null) => void }} ways shows a shape on the map
+   */
   constructor(database, state, { point }) {
     this.database = database;
     this.point = point;
@@ -43,6 +48,7 @@ export class Detail {
   /**
    * @param {string[]} labelings
    * @param {Chunk.ShapeDetails} known
+   * @param {number} index
    */
   #content(index, labelings, known) {
     const { database } = this;
@@ -77,7 +83,7 @@ export class Detail {
         ["prepared", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
         ["parts", grouped(known.components)],
         ["watertight", known.watertight ? "yes" : "no"],
-        ["deviation", `${(known.deviation * 100).toFixed(3)} % of the diagonal`],
+        ["deviation", `${((known.deviation ?? 0) * 100).toFixed(3)} % of the diagonal`],
       ]),
       known.repairs.length > 0 &&
         facts(
@@ -87,14 +93,20 @@ export class Detail {
     ].filter(Boolean);
   }
 
-  /** Its page, on the map that is seen here. */
+  /**
+   * Its page, on the map that is seen here.
+   * @param {number} index
+   */
   #pageQuery(index) {
     const { ids, methods } = this.database;
     const { base } = methods[this.state.get("method")];
     return { id: ids[index], ...(base > 0 && { map: methods[base].key }) };
   }
 
-  /** @param {Method} method */
+  /**
+   * @param {Method} method
+   * @param {number} index
+   */
   #neighbours(index, method) {
     const { database } = this;
     if (database.count === 1) return [];

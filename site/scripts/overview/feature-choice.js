@@ -4,6 +4,7 @@
 import { chunk } from "../base/chunks.js";
 import { Subsets } from "../database/subsets.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 
 const ALL = "all";
@@ -11,13 +12,17 @@ const BEST = "best";
 const CHOSEN = "chosen";
 
 export class FeatureChoice {
+  /** @type {string[] | null} */
   #chosen = null;
 
-  /** @param {Database} database */
+  /**
+   * @param {Database} database
+   * @param {State} state
+   */
   constructor(database, state) {
     this.database = database;
     this.state = state;
-    this.searched = database.data.subsets;
+    this.searched = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
     this.base = database.methods.findIndex(({ key }) => key === this.searched.method);
     this.node = document.getElementById("features");
     this.node.addEventListener("change", (event) => this.#choose(event.target.value));
@@ -27,10 +32,11 @@ export class FeatureChoice {
     this.show();
   }
 
+  /** @param {string} value */
   async #choose(value) {
     if (value === ALL) this.state.set({ method: this.base });
     else {
-      const names = value === BEST ? this.searched.best : this.#chosen;
+      const names = (value === BEST ? this.searched.best : this.#chosen) ?? [];
       this.state.set({ method: await subsetMethod(this.database, names) });
     }
   }
@@ -42,11 +48,12 @@ export class FeatureChoice {
     if (base !== index && !best) this.#chosen = features;
     const value = base === index ? ALL : best ? BEST : CHOSEN;
     for (const input of this.node.querySelectorAll("input")) input.checked = input.value === value;
-    if (this.#chosen === null) return;
-    const label = this.node.querySelector(`[value=${CHOSEN}]`).closest("label");
+    const chosen = this.#chosen;
+    if (chosen === null) return;
+    const label = /** @type {Found} */ (this.node.querySelector(`[value=${CHOSEN}]`).closest("label"));
     label.hidden = false;
-    label.title = this.#chosen.join(", ");
-    label.querySelector("bdi").textContent = this.#chosen.join(" ");
+    label.title = chosen.join(", ");
+    label.querySelector("bdi").textContent = chosen.join(" ");
   }
 }
 
@@ -63,10 +70,10 @@ export async function addressedMap(database, { features, ...values }) {
 /**
  * The index of a subset's map in the database, where it is added when first asked for; null if it was not evaluated.
  * @param {Database} database
- * @param {string[] | null} names
+ * @param {string[]} names
  */
 async function subsetMethod(database, names) {
-  const { method, features, bins } = database.data.subsets;
+  const { method, features, bins } = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
   const base = database.methods.findIndex(({ key }) => key === method);
   if (bins === null && names.length === features.length) return base;
   const subsets = new Subsets(await chunk("search"));

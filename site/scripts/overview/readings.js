@@ -2,6 +2,7 @@
 
 import { element } from "../base/dom.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 
 /**
@@ -17,6 +18,7 @@ export function tellReading(figure, database, state) {
 /**
  * @param {string} name
  * @param {Database} database
+ * @param {State} state
  */
 function reading(name, database, state) {
   const method = database.methods[state.get("method")];

@@ -11,6 +11,11 @@ import { Similarity } from "./similar.js";
 import { Spread } from "./spread.js";
 import { ValueCard } from "./value-card.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { ShapeLinks } from "./links.js" */
+/** @import { Portrait } from "./portrait.js" */
+
 /** How far below the window the features may be when they are loaded. */
 const AHEAD = "200px";
 
@@ -31,6 +36,11 @@ export function whenSeen(node, then) {
   observer.observe(node);
 }
 
+/**
+ * @param {Database} database
+ * @param {State} state
+ * @param {{ links: ShapeLinks; portrait: Portrait; }} parts
+ */
 export async function showFeatures(database, state, { links, portrait }) {
   const section = document.getElementById("by-features");
   const waiting = document.getElementById("waiting");

@@ -4,17 +4,26 @@ import { readShortNames, shortNames } from "../addresses/bin-names.js";
 import { joinNames, splitNames } from "../addresses/names.js";
 import { count } from "../base/words.js";
 
+/** @import { State } from "../base/state.js" */
+
+/**
+ * What is compared: bins or features by their numbers, rising.
+ * @typedef {{ columns: number[], features?: undefined } | { features: number[], columns?: undefined }} Choice
+ * @typedef {{ key: string, columns: number[], words: string, title?: string }} BinSet bins to choose at once
+ */
+
 export class Comparison {
   /**
-   * `data` is the chunk "workbench", `selected` the bins of the site's own search or null.
    * @param {Chunk.Workbench} data
-   * @param {number[] | null} selected
+   * @param {number[] | null} selected the bins of the site's own search
+   * @param {State} state
    */
   constructor(data, selected, state) {
     this.data = data;
     this.state = state;
     this.names = data.features.map(({ name }) => name);
-    this.sets = [
+    /** @type {(BinSet | null)[]} */
+    const sets = [
       data.bins && { key: "maps", columns: data.bins, words: `The ${count(data.bins.length, "bin")} of the maps` },
       selected && {
         key: "selected",
@@ -22,15 +31,16 @@ export class Comparison {
         words: count(selected.length, "selected bin"),
         title: "The bins that the Bins page found to separate all classes",
       },
-    ].filter(Boolean);
+    ];
+    this.sets = sets.filter((set) => set !== null);
   }
 
-  /** What is compared: `{ columns }` or `{ features }`, by their numbers, rising. */
+  /** @returns {Choice} */
   get choice() {
     const { data, names, state } = this;
     const columns = [...readShortNames(state.get("bins"), data.features)].sort((a, b) => a - b);
     if (columns.length > 0) return { columns };
-    const features = splitNames(state.get("features"), names).map((name) => names.indexOf(name));
+    const features = splitNames(state.get("features"), names).map((/** @type {string} */ name) => names.indexOf(name));
     if (features.length > 0) return { features };
     return data.bins ? { columns: data.bins } : { features: [...names.keys()] };
   }
@@ -43,7 +53,10 @@ export class Comparison {
     this.#compare(this.data.bins ? joinNames(this.names) : "", "");
   }
 
-  /** Add a feature to those that are compared, or leave it out; from all features or from bins, to this one alone. */
+  /**
+   * Add a feature to those that are compared, or leave it out; from all features or from bins, to this one alone.
+   * @param {number} feature
+   */
   toggle(feature) {
     const { features } = this.choice;
     const kept =
@@ -56,6 +69,7 @@ export class Comparison {
     else this.#compare(joinNames(this.names.filter((_, other) => kept.includes(other))), "");
   }
 
+  /** @param {number[]} columns */
   compareBins(columns) {
     const [text, ofMaps] = [columns, this.data.bins ?? []].map((chosen) => shortNames(chosen, this.data.features));
     this.#compare("", text === ofMaps ? "" : text);

@@ -4,17 +4,32 @@ import { chunk } from "../base/chunks.js";
 import { element } from "../base/dom.js";
 import { count, grouped } from "../base/words.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { ShapeLinks } from "./links.js" */
+
+/**
+ * What is said of a shape under a heading: names and values; where these are of other shapes, `shapes` are their numbers.
+ * @typedef {{ title: string, rows: [string, string][], note?: string, shapes?: number[] }} FactGroup
+ */
+
 /** What columns of a table are called that say whose a shape is and what may be done with it; these come first. */
 const RIGHTS = ["license", "licence", "rights", "author", "creator", "attribution", "source", "url"];
 
 const DIGITS = 4;
 
 export class Facts {
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {{ links: ShapeLinks; }} parts
+   */
   constructor(database, state, { links }) {
     this.database = database;
     this.state = state;
     this.links = links;
     this.node = document.getElementById("facts");
+    /** @type {FactGroup[]} */
     this.groups = [];
     state.listen((changed) => {
       if (changed.has("shape")) this.render();
@@ -30,7 +45,12 @@ export class Facts {
     this.node.replaceChildren(...this.groups.map((group) => this.#section(group)));
   }
 
+  /** @param {FactGroup} group */
   #section({ title, rows, note, shapes }) {
+    /**
+     * @param {string} name
+     * @param {number} place
+     */
     const named = (name, place) =>
       shapes ? this.links.link(shapes[place], { title: this.database.ids[shapes[place]] }, name) : name;
     return element(
@@ -51,25 +71,31 @@ export class Facts {
 }
 
 /**
- * All facts of a shape: `{ title, rows: [[name, value]], note, shapes }` a group, whose it is first; where rows are of other shapes, `shapes` says which.
+ * All facts of a shape, whose it is first.
+ * @param {Database} database
+ * @param {number} shape
  * @param {string[]} labelings
  * @param {Chunk.ShapeDetails} known
  * @param {Chunk.Clusters | null} clusters
+ * @returns {FactGroup[]}
  */
 function factGroups(database, shape, labelings, known, clusters) {
   /** @param {[string, string]} parts */
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
-  const labels = labelings
-    .map((labeling, place) => [labeling, known.labels[place]])
-    .filter(([, label]) => label !== null && label !== undefined);
+  /** @type {[string, string][]} */
+  const labels = labelings.flatMap((labeling, place) => {
+    const label = known.labels[place];
+    return label === null ? [] : [[labeling, label]];
+  });
   // A column that is a labeling is told among the labels.
   const told = new Set(labels.length > 1 ? labels.map(([labeling]) => labeling) : []);
   const others = known.metadata.filter((pair) => rank(pair) < 0 && !told.has(pair[0]));
   // Where clusters stand in for labels, the cluster stands below the name already.
   if (clusters !== null && !clusters.standIn) labels.push(["cluster", clusters.clusters[clusters.of[shape]].name]);
   const [wide, high, deep] = known.extents.map(measured);
-  return [
+  /** @type {FactGroup[]} */
+  const groups = [
     { title: "Licence and source", rows: rights },
     {
       title: "The same shape as",
@@ -95,14 +121,18 @@ function factGroups(database, shape, labelings, known, clusters) {
       rows: [
         ["in the file", `${count(known.facesRead, "face")}, ${count(known.verticesRead, "vertex", "vertices")}`],
         ["as measured", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
-        ["off by", `${(known.deviation * 100).toFixed(3)} % of its diagonal at most`],
+        ["off by", `${((known.deviation ?? 0) * 100).toFixed(3)} % of its diagonal at most`],
       ],
     },
     { title: "Repairs", rows: known.repairs.map(([repair, number]) => [repair, grouped(number)]) },
-  ].filter(({ rows }) => rows.length > 0);
+  ];
+  return groups.filter(({ rows }) => rows.length > 0);
 }
 
-/** A value that is a web address, whole, as a link to it. */
+/**
+ * A value that is a web address, whole, as a link to it.
+ * @param {string} value
+ */
 function linked(value) {
   if (!/^https?:\/\/\S+$/i.test(value) || !URL.canParse(value)) return value;
   return element("a", { href: value, rel: "noopener noreferrer external" }, value);

@@ -6,10 +6,16 @@ import { grouped } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { findShapes } from "../database/shape-finder.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { ShapeLinks } from "./links.js" */
 
 export class Heading {
-  /** @param {Database} database */
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {{ links: ShapeLinks, go: (shape: number) => void, site: string | undefined }} parts
+   */
   constructor(database, state, { links, go, site }) {
     this.database = database;
     this.state = state;
@@ -62,7 +68,10 @@ export class Heading {
     return pageAddress("shapes.html", query);
   }
 
-  /** To collect this shape, as the gallery and the maps do. */
+  /**
+   * To collect this shape, as the gallery and the maps do.
+   * @param {number} shape
+   */
   #offerSelection(shape) {
     const chosen = this.state.get("selection").has(shape);
     this.choose.hidden = shape === null;
@@ -77,6 +86,7 @@ export class Heading {
     this.state.set({ selection });
   }
 
+  /** @param {string | null} id */
   #nowhere(id) {
     const offer = [
       "Find one by its name above, or choose one in the ",
@@ -96,7 +106,10 @@ export class Heading {
     ];
   }
 
-  /** Links to the shapes before and after in the class; the last is followed by the first. */
+  /**
+   * Links to the shapes before and after in the class; the last is followed by the first.
+   * @param {number} shape
+   */
   #turnOver(shape) {
     const { database, links } = this;
     const own = database.groups[shape];
@@ -110,7 +123,7 @@ export class Heading {
      * @param {string} said
      */
     const step = (by, words, rel, said) =>
-      links.link(fellows.at((place + by) % fellows.length), { rel, "aria-label": said }, words);
+      links.link(/** @type {number} */ (fellows.at((place + by) % fellows.length)), { rel, "aria-label": said }, words);
     return [
       step(-1, "‹ Previous", "prev", "Previous shape"),
       element(

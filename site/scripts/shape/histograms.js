@@ -11,12 +11,30 @@ import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 import { whole } from "./similar-shapes.js";
 
+/** @import { Child } from "../base/dom.js" */
+/** @import { State } from "../base/state.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Spread } from "./spread.js" */
+/** @import { ValueCard } from "./value-card.js" */
+
+/**
+ * What a column is of a shape and of those it is compared with, in words.
+ * @typedef {{ own: string, fellows: string | null, all: string | null, rank: string | null }} Told
+ */
+
 const LONGEST = 90;
 /** Below so much of the axis, half a class or database is a line. */
 const FLAT = 0.02;
 
 export class Histograms {
-  /** `dimensions` are those of the chunk "selection": what each measures, and where its bins end. */
+  /**
+   * `dimensions` are those of the chunk "selection": what each measures, and where its bins end.
+   * @param {Database} database
+   * @param {Bins} bins
+   * @param {State} state
+   * @param {{ spread: Spread; dimensions: Chunk.Dimension[]; card: ValueCard; }} parts
+   */
   constructor(database, bins, state, { spread, dimensions, card }) {
     this.database = database;
     this.bins = bins;
@@ -45,7 +63,11 @@ export class Histograms {
     this.#mark();
   }
 
-  /** The dimension of a feature that is shown: the one that was chosen, else the one in which the shape stands out most. */
+  /**
+   * The dimension of a feature that is shown: the one that was chosen, else the one in which the shape stands out most.
+   * @param {number} feature
+   * @param {number} shape
+   */
   partOf(feature, shape) {
     const { dimensions, name } = this.bins.features[feature];
     if (dimensions === 1) return 0;
@@ -53,18 +75,23 @@ export class Histograms {
     const word = this.state
       .get("parts")
       .split(" ")
-      .findLast((part) => part.startsWith(start));
+      .findLast((/** @type {string} */ part) => part.startsWith(start));
     const chosen = word === undefined ? NaN : Number(word.slice(start.length, -1));
     return Number.isInteger(chosen) && chosen >= 0 && chosen < dimensions
       ? chosen
       : this.spread.mostUnusual(feature, shape);
   }
 
-  /** What a column is of one shape and of those it is compared with, in words. */
+  /**
+   * What a column is of one shape and of those it is compared with, in words.
+   * @param {number} column
+   * @param {number} shape
+   */
   tell(column, shape) {
     const told = this.bins.isShare(column) ? percent : measured;
     const fellows = this.spread.fellows(column, shape);
     const all = this.spread.all(column);
+    /** @param {{ low: number, high: number }} band */
     const half = ({ low, high }) => (told(low) === told(high) ? told(low) : `${told(low)} to ${told(high)}`);
     return {
       own: told(this.bins.share(column, shape)),
@@ -86,6 +113,7 @@ export class Histograms {
     });
   }
 
+  /** @param {number} shape */
   #key(shape) {
     const { database } = this;
     const group = database.groups[shape];
@@ -112,6 +140,11 @@ export class Histograms {
     ].filter(Boolean);
   }
 
+  /**
+   * @param {number} feature
+   * @param {number} shape
+   * @param {HTMLElement} panel
+   */
   #fill(panel, feature, shape) {
     const { bins } = this;
     const { start, dimensions, bins: width, title, name } = bins.features[feature];
@@ -140,9 +173,14 @@ export class Histograms {
     else if (kept?.part !== undefined) panel.querySelector("select").focus({ preventScroll: true });
   }
 
-  /** A choice among the dimensions of a feature. */
+  /**
+   * A choice among the dimensions of a feature.
+   * @param {number} feature
+   * @param {number} part
+   */
   #parts(feature, part) {
     const { dimensions, name } = this.bins.features[feature];
+    /** @type {HTMLSelectElement} */
     const choice = element(
       "select",
       { "data-part": "", "aria-label": `Part of ${name}`, onchange: () => this.#choose(feature, Number(choice.value)) },
@@ -151,27 +189,37 @@ export class Histograms {
         return element("option", { value: dimension }, `[${dimension}] ${shortened(quantity, LONGEST)}`);
       }),
     );
-    choice.value = part;
+    choice.value = String(part);
     return choice;
   }
 
-  /** @param {number} part */
+  /**
+   * @param {number} part
+   * @param {number} feature
+   */
   #choose(feature, part) {
     const name = joinNames([this.bins.features[feature].name]);
     const others = this.state
       .get("parts")
       .split(" ")
-      .filter((word) => word !== "" && !word.startsWith(`${name}[`));
+      .filter((/** @type {string} */ word) => word !== "" && !word.startsWith(`${name}[`));
     this.state.set({ parts: [...others, `${name}[${part}]`].join(" ") });
   }
 
-  /** @param {number} dimension */
+  /**
+   * @param {number} dimension
+   * @param {number} feature
+   */
   #quantity(feature, dimension) {
     const { start, bins: width } = this.bins.features[feature];
     const place = dimensionOf(start + dimension * width, this.bins);
     return place === null ? "a value that was brought along" : this.dimensions[place].quantity;
   }
 
+  /**
+   * @param {number[]} columns
+   * @param {number} shape
+   */
   #bars(columns, shape) {
     const { bins, spread, database } = this;
     const group = database.groups[shape];
@@ -196,7 +244,7 @@ export class Histograms {
       if (color) node.style.borderColor = color;
       return node;
     };
-    const { quantity, unit, edges } = this.dimensions[dimensionOf(columns[0], bins)];
+    const { quantity, unit, edges } = this.dimensions[/** @type {number} */ (dimensionOf(columns[0], bins))];
     return [
       element(
         "div",
@@ -227,11 +275,16 @@ export class Histograms {
     ];
   }
 
-  /** A value that was brought along, on the range that all shapes have. */
+  /**
+   * A value that was brought along, on the range that all shapes have.
+   * @param {number} column
+   * @param {number} shape
+   */
   #strip(column, shape) {
     const { bins, spread, database } = this;
     const all = spread.all(column);
     const fellows = spread.fellows(column, shape);
+    /** @param {number} value */
     const across = (value) => `${all.most > all.least ? (100 * (value - all.least)) / (all.most - all.least) : 50}%`;
     /**
      * @param {string} name
@@ -271,7 +324,12 @@ export class Histograms {
     ];
   }
 
-  /** @param {boolean} first */
+  /**
+   * @param {number} column
+   * @param {boolean} first
+   * @param {number} shape
+   * @param {Child[]} content
+   */
   #button(column, first, shape, content) {
     const { bins } = this;
     /** @param {PointerEvent & Targeted | FocusEvent & Targeted} event */
@@ -306,12 +364,14 @@ export class Histograms {
     );
   }
 
+  /** @param {Found} button */
   #makeStop(button) {
     for (const other of button.parentElement.querySelectorAll("button")) other.tabIndex = other === button ? 0 : -1;
   }
 
   /** @param {KeyboardEvent & Targeted} event */
   #walk(event) {
+    /** @type {Record<string, number>} */
     const steps = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
     if (!(event.key in steps)) return;
     event.preventDefault();
@@ -327,6 +387,7 @@ export class Histograms {
   }
 }
 
+/** @param {number} value */
 export function measured(value) {
   return String(Number(value.toPrecision(3))).replace("-", "−");
 }

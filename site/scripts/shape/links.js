@@ -3,8 +3,16 @@
 import { shapeAddress } from "../addresses/shape.js";
 import { element, picture } from "../base/dom.js";
 
+/** @import { Child } from "../base/dom.js" */
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+
 export class ShapeLinks {
-  /** `opened` is told when a reader follows one within this window. */
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {{ opened: () => void }} ways is told when a reader follows one within this window
+   */
   constructor(database, state, { opened }) {
     this.database = database;
     this.state = state;
@@ -22,8 +30,9 @@ export class ShapeLinks {
   }
 
   /**
-   * @param {{ class: string; "aria-label": string, title: string }} attributes
-   * @param {...HTMLImageElement} children
+   * @param {number} shape
+   * @param {Attributes} attributes
+   * @param {...Child} children
    */
   link(shape, attributes, ...children) {
     return element(
@@ -33,7 +42,12 @@ export class ShapeLinks {
     );
   }
 
-  /** A shape as a picture, underlined where it is a stranger. */
+  /**
+   * A shape as a picture, underlined where it is a stranger.
+   * @param {number} shape
+   * @param {number} size
+   * @param {Attributes & { stranger?: boolean }} [how]
+   */
   pictured(shape, size, { stranger = false, ...attributes } = {}) {
     const { database } = this;
     const group = database.groups[shape];

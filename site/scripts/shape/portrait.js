@@ -9,63 +9,89 @@ import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
 import { hue } from "./hue.js";
 
-export class Portrait {
-  #paint = null;
+/** @import { State } from "../base/state.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Comparison } from "./comparison.js" */
 
-  /** `models` is whether the site has 3D data. */
+export class Portrait {
+  /** @type {Paint | null} */
+  #paint = null;
+  /** @type {{ bins: Bins, comparison: Comparison, legend: Legend } | null} what bins need, once they are loaded */
+  #known = null;
+
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {{ models: boolean }} site whether it has 3D data
+   */
   constructor(database, state, { models }) {
     this.database = database;
     this.state = state;
     this.node = document.getElementById("stage");
     this.words = document.getElementById("painted");
-    const load = models ? async (shape) => modelBytes((await chunk("selection")).models[shape]) : null;
-    this.stage = new Stage(this.node, { database, load, keys: "turn-keys" });
+    /** @param {number} shape */
+    const load = async (shape) => modelBytes((await chunk("selection")).models?.[shape] ?? "");
+    this.stage = new Stage(this.node, { database, load: models ? load : null, keys: "turn-keys" });
     state.listen((changed) => {
       if (["shape", "bin", "theme"].some((name) => changed.has(name))) this.render();
       if (changed.has("bin") && state.get("bin") !== null) this.#bringIntoSight();
     });
   }
 
-  /** Bins can be shown from now on. */
+  /**
+   * Bins can be shown from now on.
+   * @param {Bins} bins
+   * @param {Chunk.Selection} selection
+   * @param {Comparison} comparison
+   */
   know(bins, selection, comparison) {
-    this.bins = bins;
-    this.comparison = comparison;
-    this.legend = new Legend(selection);
+    this.#known = { bins, comparison, legend: new Legend(selection) };
     if (this.state.get("bin") !== null) this.render();
   }
 
   /** The column of the bin that is painted; null for none. */
   get #column() {
-    const column = this.bins ? this.bins.names.indexOf(this.state.get("bin")) : -1;
+    const column = this.#known?.bins.names.indexOf(this.state.get("bin")) ?? -1;
     return column < 0 ? null : column;
   }
 
   render() {
-    const { database, bins } = this;
+    const { database } = this;
+    const bins = this.#known?.bins;
     const shape = this.state.get("shape");
     if (shape === null) return;
     const column = this.#column;
-    if (bins) this.#tell(shape, column);
+    if (this.#known) this.#tell(this.#known, shape, column);
     // Who asks for a bin asks for 3D.
     if (column !== null) this.stage.asked = true;
     this.stage.show(shape, {
-      label: `${database.names[shape]} in 3D${column === null ? "" : `, values of ${bins.names[column]}`}`,
+      label: `${database.names[shape]} in 3D${column === null || !bins ? "" : `, values of ${bins.names[column]}`}`,
       paint: async (solid) => {
         this.#paint ??= new Paint(await chunk("selection"));
-        return column === null ? this.#paint.plain(solid) : this.#paint.values(solid, dimensionOf(column, bins));
+        const dimension = column === null || !bins ? null : dimensionOf(column, bins);
+        return dimension === null ? this.#paint.plain(solid) : this.#paint.values(solid, dimension);
       },
-      reason: column === null || bins.isShare(column) ? null : "This feature has no values on the surface.",
+      reason: column === null || !bins || bins.isShare(column) ? null : "This feature has no values on the surface.",
     });
   }
 
-  #tell(shape, column) {
-    const { bins, legend, database, state, words } = this;
+  /**
+   * @param {{ bins: Bins, comparison: Comparison, legend: Legend }} known
+   * @param {number} shape
+   * @param {number | null} column
+   */
+  #tell({ bins, comparison, legend }, shape, column) {
+    const { database, state, words } = this;
     words.replaceChildren();
     if (column === null) {
       legend.clear();
       return;
     }
-    /** @param {string} text */
+    /**
+     * @param {string} text
+     * @param {() => void} onclick
+     */
     const action = (text, onclick) => element("button", { type: "button", class: "plain", onclick }, text);
     words.append(
       element(
@@ -79,7 +105,7 @@ export class Portrait {
       element(
         "p",
         { class: "actions" },
-        action("Find shapes with as much of it", () => this.comparison.compareBins([column])),
+        action("Find shapes with as much of it", () => comparison.compareBins([column])),
         element(
           "a",
           { href: pageAddress("bins.html", { bin: bins.names[column], id: database.ids[shape] }) },

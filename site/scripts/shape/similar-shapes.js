@@ -8,14 +8,30 @@ import { writeSelection } from "../database/selection.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 
+/** @import { Child } from "../base/dom.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Choice, Comparison } from "./comparison.js" */
+/** @import { ShapeLinks } from "./links.js" */
+/** @import { Similar, Similarity } from "./similar.js" */
+
+/**
+ * What can be compared, to choose from, and whether it is.
+ * @typedef {{ node: HTMLButtonElement, pressed: () => boolean }} Chip
+ */
 
 const FIRST = 12;
 const MOST = 48;
 const MOST_NAMED = 4;
 
 export class SimilarShapes {
-  /** @param {Bins} bins */
+  /**
+   * @param {Bins} bins
+   * @param {Database} database
+   * @param {State} state
+   * @param {{ links: ShapeLinks; comparison: Comparison; similarity: Similarity; }} parts
+   */
   constructor(database, bins, state, { links, comparison, similarity }) {
     this.database = database;
     this.bins = bins;
@@ -41,7 +57,7 @@ export class SimilarShapes {
     });
   }
 
-  /** The similar shapes as `Similarity.rank` gives them. */
+  /** @type {Similar[]} */
   found = [];
 
   render() {
@@ -60,15 +76,19 @@ export class SimilarShapes {
 
   /** What can be compared, to choose from. A press must not lose the focus, so chips stay the same elements. */
   #offer() {
-    if (this.buttons === null) this.chips.replaceChildren(...this.#chips().map(({ node }) => node));
+    if (this.buttons === null) {
+      this.buttons = this.#chips();
+      this.chips.replaceChildren(...this.buttons.map(({ node }) => node));
+    }
     for (const { node, pressed } of this.buttons) node.setAttribute("aria-pressed", String(pressed()));
   }
 
+  /** @type {Chip[] | null} */
   buttons = null;
 
   #chips() {
     const { comparison, bins } = this;
-    this.buttons = [
+    return [
       this.#chip(
         [`All ${count(bins.features.length, "feature")}`],
         () => comparison.compareAll(),
@@ -92,17 +112,23 @@ export class SimilarShapes {
         ),
       ),
     ];
-    return this.buttons;
   }
 
   /**
-   * @param {string[] | HTMLElement[]} content
-   * @param {string | null} title
+   * @param {Child[]} content
+   * @param {() => void} onclick
+   * @param {string | null | undefined} title
+   * @param {() => boolean} pressed
+   * @returns {Chip}
    */
   #chip(content, onclick, title, pressed) {
     return { node: element("button", { type: "button", class: "compared", title, onclick }, content), pressed };
   }
 
+  /**
+   * @param {number} shape
+   * @param {Choice} choice
+   */
   #tell(shape, choice) {
     const { database, bins, found } = this;
     const own = database.groups[shape];
@@ -125,6 +151,10 @@ export class SimilarShapes {
     ];
   }
 
+  /**
+   * @param {number} shape
+   * @param {Similar} similar
+   */
   #card(shape, { row, distance, closer }) {
     const { database } = this;
     const [own, group] = [database.groups[shape], database.groups[row]];
@@ -161,6 +191,7 @@ export class SimilarShapes {
     );
   }
 
+  /** @param {number[]} closer */
   #bars(closer) {
     const { bins } = this;
     return element(
@@ -179,9 +210,13 @@ export class SimilarShapes {
     );
   }
 
-  /** The features in which two are most and least alike, in words. */
+  /**
+   * The features in which two are most and least alike, in words.
+   * @param {number[]} closer
+   */
   #reasons(closer) {
     const { features } = this.bins;
+    /** @param {number} feature */
     const name = (feature) => element("bdi", {}, shortened(features[feature].name, 24));
     const order = [...closer.keys()].sort((a, b) => closer[b] - closer[a] || a - b);
     const [first, second] = order;
@@ -194,6 +229,7 @@ export class SimilarShapes {
   /**
    * This shape and those found, selected on another page.
    * @param {string} file
+   * @param {number} shape
    */
   #together(shape, file) {
     const query = new URLSearchParams();
@@ -202,12 +238,19 @@ export class SimilarShapes {
   }
 }
 
-/** A share in whole percent; all and nothing only where it is just that. */
+/**
+ * A share in whole percent; all and nothing only where it is just that.
+ * @param {number} share
+ */
 export function whole(share) {
   const percent = Math.round(100 * share);
   return `${share < 1 ? Math.min(percent, 99) : 100}\u00a0%`;
 }
 
+/**
+ * @param {number[] | undefined} one
+ * @param {number[]} other
+ */
 function same(one, other) {
   return one?.join() === [...other].sort((a, b) => a - b).join();
 }

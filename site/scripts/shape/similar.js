@@ -3,7 +3,18 @@
 // The distance of two shapes is the Euclidean distance of the values that projections compare: every feature divided by
 // its root mean square norm over the database, or every chosen bin by its standard deviation; "plain" tables as they are.
 
+import { entry } from "../base/entry.js";
+
 /** @import { Bins } from "../database/bins.js" */
+/** @import { Choice } from "./comparison.js" */
+
+/**
+ * A similar shape: its distance, and for each feature the share of all other shapes that are farther in it alone, those
+ * equally far counted half; 0.5 where a feature tells nothing.
+ * @typedef {{ row: number, distance: number, closer: number[] }} Similar
+ * ¦ Squared distances from a row in each feature alone, and those of the other rows rising.
+ * @typedef {{ row: number, byFeature: Float64Array[], sorted: Float64Array[] }} Squares
+ */
 
 /** Distances whose squares differ by less than this fraction are equal. */
 const TIE = 1e-9;
@@ -12,26 +23,27 @@ const TIE = 1e-9;
 const NOTHING = 1e-12;
 
 export class Similarity {
-  /**
-   * `bins` is a Bins.
-   * @param {Bins} bins
-   */
+  /** @param {Bins} bins */
   constructor(bins) {
     this.bins = bins;
   }
 
   /** What a squared difference counts, in each column that was asked for, and in each feature. */
+  /** @type {Map<number, number>} */
   #columnWeights = new Map();
+  /** @type {Map<number, number>} */
   #featureWeights = new Map();
 
   /** The squares of the last shape that was asked for: readers try several choices on one. */
-  #last = { row: null };
+  /** @type {Squares | null} */
+  #last = null;
 
   /**
-   * The shapes most similar to the one of a row, by `{ features }`, numbers of features, or `{ columns }`: the first
-   * `count` with their `row`, their `distance`, and how much `closer` they are than others in each feature alone: the
-   * share of all other shapes that are farther from the one of the row, those equally far counted half; 0.5 where a
-   * feature tells nothing.
+   * The shapes most similar to the one of a row, the most similar first.
+   * @param {number} row
+   * @param {Choice} choice
+   * @param {number} count
+   * @returns {Similar[]}
    */
   rank(row, choice, count) {
     const squared = this.#choose(row, choice);
@@ -45,7 +57,10 @@ export class Similarity {
     }));
   }
 
-  /** How far two shapes are apart, as a root mean square over all pairs. */
+  /**
+   * How far two shapes are apart, as a root mean square over all pairs.
+   * @param {Choice} choice
+   */
   typical({ features, columns }) {
     const { bins } = this;
     const spread = columns
@@ -54,6 +69,10 @@ export class Similarity {
     return Math.sqrt((2 * spread * bins.rows) / Math.max(bins.rows - 1, 1));
   }
 
+  /**
+   * @param {number} row
+   * @param {Choice} choice
+   */
   #choose(row, { features, columns }) {
     const total = new Float64Array(this.bins.rows);
     if (columns) for (const column of columns) this.#addSquares(total, row, column, this.#columnWeight(column));
@@ -63,20 +82,28 @@ export class Similarity {
     return total;
   }
 
-  /** Squared distances from a row in each feature alone, and those of the other rows rising. */
+  /**
+   * @param {number} row
+   * @returns {Squares}
+   */
   #know(row) {
-    if (this.#last.row !== row) {
+    let last = this.#last;
+    if (last?.row !== row) {
       const byFeature = [...this.bins.features.keys()].map((feature) => this.#byFeature(row, feature));
-      this.#last = {
+      last = {
         row,
         byFeature,
         sorted: byFeature.map((squared) => squared.filter((_, other) => other !== row).sort()),
       };
+      this.#last = last;
     }
-    return this.#last;
+    return last;
   }
 
-  /** @param {number} feature */
+  /**
+   * @param {number} feature
+   * @param {number} row
+   */
   #byFeature(row, feature) {
     const total = new Float64Array(this.bins.rows);
     for (const column of this.#columns(feature)) this.#addSquares(total, row, column, 1);
@@ -85,9 +112,10 @@ export class Similarity {
   }
 
   /**
-   * @param {number} weight
    * @param {Float64Array} total
+   * @param {number} row
    * @param {number} column
+   * @param {number} weight
    */
   #addSquares(total, row, column, weight) {
     const { steps, rows } = this.bins;
@@ -106,23 +134,22 @@ export class Similarity {
     return Array.from({ length: dimensions * bins }, (_, place) => start + place);
   }
 
+  /** @param {number} column */
   #columnWeight(column) {
     if (!this.bins.balanced) return 1;
-    if (!this.#columnWeights.has(column)) {
+    return entry(this.#columnWeights, column, () => {
       const variance = this.#variance(column);
-      this.#columnWeights.set(column, Math.sqrt(variance) > NOTHING ? 1 / variance : 0);
-    }
-    return this.#columnWeights.get(column);
+      return Math.sqrt(variance) > NOTHING ? 1 / variance : 0;
+    });
   }
 
   /** @param {number} feature */
   #featureWeight(feature) {
     if (!this.bins.balanced) return 1;
-    if (!this.#featureWeights.has(feature)) {
+    return entry(this.#featureWeights, feature, () => {
       const size = this.#size(feature);
-      this.#featureWeights.set(feature, size > NOTHING ** 2 ? 1 / size : 0);
-    }
-    return this.#featureWeights.get(feature);
+      return size > NOTHING ** 2 ? 1 / size : 0;
+    });
   }
 
   /**
@@ -146,7 +173,11 @@ export class Similarity {
   }
 }
 
-/** The share of rising squared distances that exceed one of them, equal ones counted half. */
+/**
+ * The share of rising squared distances that exceed one of them, equal ones counted half.
+ * @param {Float64Array} sorted
+ * @param {number} squared
+ */
 function shareFarther(sorted, squared) {
   const others = sorted.length - 1;
   if (others === 0) return 0.5;
@@ -157,6 +188,7 @@ function shareFarther(sorted, squared) {
 
 /**
  * How many of some rising values are less than a limit, or at most that.
+ * @param {Float64Array} sorted
  * @param {number} limit
  * @param {boolean} included
  */

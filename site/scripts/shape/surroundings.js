@@ -8,11 +8,22 @@ import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { Plot } from "../map/plot.js";
 import { kind } from "./kind.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database, Method } from "../database/database.js" */
+/** @import { Marks } from "../map/marks.js" */
+/** @import { Pointing } from "../map/pointing.js" */
+/** @import { ShapeLinks } from "./links.js" */
+
 /** Above so many shapes, marks are small. */
 const MANY = 1500;
 const MOST_CLASSES = 6;
 
 export class Surroundings {
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {{ links: ShapeLinks, pointing: Pointing, go: (shape: number) => void }} parts
+   */
   constructor(database, state, { links, pointing, go }) {
     this.database = database;
     this.state = state;
@@ -22,6 +33,7 @@ export class Surroundings {
     this.plot = new Plot(database, {
       margin: 14,
       first: (index) => !this.near.has(index) && index !== state.get("shape"),
+      /** @param {number} index */
       mark: (index) => this.#mark(index),
       drawn: (marks) => this.#tie(marks),
     });
@@ -63,6 +75,7 @@ export class Surroundings {
     this.near = new Set(near);
     this.plot.show(database.methods[method]);
     const own = database.groups[shape];
+    /** @param {number} other */
     const stranger = (other) => own >= 0 && database.groups[other] !== own;
     document.getElementById("nh").replaceChildren(...this.#tell(shape, near, database.methods[method]));
     document
@@ -76,6 +89,7 @@ export class Surroundings {
       );
   }
 
+  /** @param {number} shape */
   #overview(shape) {
     const query = new URLSearchParams();
     const { methods, ids } = this.database;
@@ -84,10 +98,16 @@ export class Surroundings {
     return pageAddress("index.html", query);
   }
 
-  /** Who its neighbours are, and its neighbourhood hit. */
+  /**
+   * Who its neighbours are, and its neighbourhood hit.
+   * @param {number[]} near
+   * @param {Method} method
+   * @param {number} shape
+   */
   #tell(shape, near, method) {
     const { database } = this;
     const { title, hit, hitOfClass } = method;
+    /** @type {(string | Node)[]} */
     const words = [`Near on the ${title} map means alike in features. `];
     if (!database.labelled) return [...words, `These ${count(near.length, "shape")} are nearest.`];
     const census = database.census(near);
@@ -117,6 +137,7 @@ export class Surroundings {
     ];
   }
 
+  /** @param {number} index */
   #mark(index) {
     const { database, state } = this;
     const [shape, many] = [state.get("shape"), database.count > MANY];
@@ -128,7 +149,10 @@ export class Surroundings {
     return { ...look, radius: many ? 1.6 : 3, alpha: own ? 0.8 : 0.35 };
   }
 
-  /** Lines to the neighbours, and a ring around the shape itself. */
+  /**
+   * Lines to the neighbours, and a ring around the shape itself.
+   * @param {Marks} marks
+   */
   #tie(marks) {
     const place = this.plot.screen(this.state.get("shape"));
     marks.tie(

@@ -4,10 +4,22 @@ import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 import { whole } from "./similar-shapes.js";
 
-/** `similar` and `histograms` are null as long as the features are not there. */
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Facts } from "./facts.js" */
+/** @import { Histograms } from "./histograms.js" */
+/** @import { SimilarShapes } from "./similar-shapes.js" */
+
+/**
+ * @param {Database} database
+ * @param {State} state
+ * @param {{ facts: Facts, similar: SimilarShapes | null, histograms: Histograms | null }} parts those of the features are null
+ *   as long as these are not there
+ */
 export function shapeTables(database, state, { facts, similar, histograms }) {
   const shape = state.get("shape");
   if (shape === null) return { title: "No such shape", tables: [] };
+  /** @param {number} index */
   const named = (index) => [
     database.ids[index],
     database.names[index],
@@ -16,7 +28,7 @@ export function shapeTables(database, state, { facts, similar, histograms }) {
   const heads = ["Shape", "Name", ...(database.labelled ? [database.data.standIn ? "Cluster" : "Class"] : [])];
   const method = database.methods[state.get("method")];
   const near = database.count > 1 ? database.neighbours(shape, state.get("method")) : [];
-  const { features } = similar?.bins ?? {};
+  const { found = [], bins } = similar ?? {};
   return {
     title: `${database.names[shape]} in figures`,
     tables: [
@@ -27,11 +39,11 @@ export function shapeTables(database, state, { facts, similar, histograms }) {
           [...heads, "NH"],
           near.map((other) => [...named(other), figure(method.hit[other])]),
         ),
-      similar?.found.length > 0 &&
+      found.length > 0 &&
         table(
           "Most similar shapes, and the share of all shapes that are farther away in each feature",
-          [...heads, "Distance", ...features.map(({ name }) => name)],
-          similar.found.map(({ row, distance, closer }) => [...named(row), figure(distance), ...closer.map(whole)]),
+          [...heads, "Distance", ...(bins?.features ?? []).map(({ name }) => name)],
+          found.map(({ row, distance, closer }) => [...named(row), figure(distance), ...closer.map(whole)]),
         ),
       histograms &&
         table(

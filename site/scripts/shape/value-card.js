@@ -4,6 +4,7 @@ import { element } from "../base/dom.js";
 import { hue } from "./hue.js";
 
 /** @import { Bins } from "../database/bins.js" */
+/** @import { Told } from "./histograms.js" */
 
 const GAP = 8;
 
@@ -21,10 +22,17 @@ export class ValueCard {
     window.addEventListener("scroll", () => this.hide(), { passive: true });
   }
 
-  /** `told` is what `Histograms.tell` says of the column. */
+  /**
+   * @param {number} column
+   * @param {Told} told
+   * @param {Element} bar beside which it stands
+   */
   show(column, { own, fellows, all, rank }, bar) {
     const { bins, node } = this;
-    /** @param {string} name */
+    /**
+     * @param {string} name
+     * @param {string | null} value
+     */
     const row = (name, value) => value !== null && [element("dt", {}, name), element("dd", {}, value)];
     node.replaceChildren(
       element("p", { class: "name" }, hue(bins.color(column)), element("bdi", {}, bins.names[column])),

@@ -4,7 +4,8 @@ import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
 import { interval } from "./sieve.js";
 
 /** @import { Database } from "../database/database.js" */
-/** @import { Field, Fields } from "../database/fields.js" */
+/** @import { ChoiceField, Field, Fields, RangeField } from "../database/fields.js" */
+/** @import { Group } from "./layout.js" */
 
 export class Arrangement {
   #orders = new Map();
@@ -19,14 +20,17 @@ export class Arrangement {
   }
 
   /**
-   * Groups of shapes `{ key, title, note, group, rows }` in their order; one without a title where they are not
-   * grouped. `key` names the group among the others in an address, `group` is its class where it is one.
+   * Groups of shapes in their order; one without a title where they are not grouped.
+   * @param {(row: number) => boolean} passes
+   * @param {{ group: string, sort: string, down: boolean }} how
+   * @returns {Group[]}
    */
   arrange(passes, { group, sort, down }) {
     const order = this.#order(sort, down);
     const field = this.fields.byKey.get(group);
     if (!field) return [{ key: "", title: null, group: null, note: "", rows: order.filter(passes) }];
     const { count, of, describe } = grouping(field);
+    /** @type {number[][]} */
     const rows = Array.from({ length: count + 1 }, () => []);
     for (const row of order) {
       if (!passes(row)) continue;
@@ -38,6 +42,10 @@ export class Arrangement {
       .filter((found) => found.rows.length > 0);
   }
 
+  /**
+   * @param {string} sort
+   * @param {boolean} down
+   */
   #order(sort, down) {
     const key = `${down} ${sort}`;
     if (!this.#orders.has(key)) this.#orders.set(key, Int32Array.from(sorted(this.fields, sort, down)));
@@ -45,37 +53,50 @@ export class Arrangement {
   }
 }
 
-/** All rows in an order; those without a value come last either way, equal ones by name. */
+/**
+ * All rows in an order; those without a value come last either way, equal ones by name.
+ * @param {Fields} fields
+ * @param {string} sort
+ * @param {boolean} down
+ */
 function sorted({ byKey, byName }, sort, down) {
   const field = byKey.get(sort);
   if (!field) return down ? [...byName].reverse() : byName;
-  const values = field.numbers ?? field.of.map((value) => (value < 0 ? null : value));
+  const values = field.numbers ?? (field.of ?? []).map((value) => (value < 0 ? null : value));
   const sign = down ? -1 : 1;
   // Sorting keeps the order of equals.
   return [...byName].sort((a, b) => {
     if (values[a] === null || values[b] === null) return Number(values[a] === null) - Number(values[b] === null);
-    return sign * (values[a] - values[b]);
+    return sign * (Number(values[a]) - Number(values[b]));
   });
 }
 
-/** @param {Field} field */
+/**
+ * How a field makes groups: how many, which one a shape is of, and what they are called; -1 for none.
+ * @param {Field} field
+ * @returns {{ count: number, of: (row: number) => number, describe: (value: number) => Omit<Group, "rows"> }}
+ */
 function grouping(field) {
   if (field.names !== null) {
+    const { names, of } = /** @type {ChoiceField} */ (field);
     return {
-      count: field.names.length,
-      of: (row) => field.of[row],
+      count: names.length,
+      of: (row) => of[row],
       describe: (value) => ({
-        key: value < 0 ? "" : `=${field.names[value]}`,
+        key: value < 0 ? "" : `=${names[value]}`,
         title: valueName(field, value),
         group: groupOf(field, value),
         note: field.notes?.[value] ?? "",
       }),
     };
   }
-  const { edges, numbers } = field;
+  const { edges, numbers } = /** @type {RangeField} */ (field);
   return {
     count: edges.length - 1,
-    of: (row) => (numbers[row] === null ? NONE : interval(edges, numbers[row])),
+    of: (row) => {
+      const number = numbers[row];
+      return number === null ? NONE : interval(edges, number);
+    },
     describe: (value) => ({
       key: value < 0 ? "" : `=${edges[value]}`,
       title: value < 0 ? `no ${field.title}` : `${numberText(edges[value])} to ${numberText(edges[value + 1])}`,

@@ -7,7 +7,8 @@ import { numberText, valueName } from "../database/fields.js";
 import { ofAtMost } from "../database/hit-range.js";
 
 /** @import { Database } from "../database/database.js" */
-/** @import { Fields } from "../database/fields.js" */
+/** @import { ChoiceField, Field, Fields } from "../database/fields.js" */
+/** @import { Group } from "./layout.js" */
 
 /** Makes the cells; knows what stands below a picture while shapes are grouped and sorted as they are. */
 export class Cells {
@@ -18,7 +19,7 @@ export class Cells {
    */
   constructor(database, fields, { group, sort }) {
     this.database = database;
-    this.active = fields.active;
+    this.active = /** @type {ChoiceField | null} */ (fields.active);
     this.sorted = fields.byKey.get(sort) ?? null;
     // What a shape has in common with all around it need not be said.
     this.showsClass = database.labelled && this.active !== null && group !== this.active.key;
@@ -26,14 +27,14 @@ export class Cells {
     this.lines = 1 + (this.showsClass || this.showsNumber ? 1 : 0);
   }
 
+  /**
+   * @param {number} row
+   * @param {boolean} selected
+   */
   shape(row, selected) {
     const { database } = this;
     const name = database.names[row];
-    const said = [
-      name,
-      database.labelled && valueName(this.active, this.active.of[row]),
-      this.showsNumber && this.#number(row),
-    ];
+    const said = [name, database.labelled && this.#className(row), this.showsNumber && this.#number(row)];
     return element(
       "div",
       { class: "cell", role: "gridcell", "data-row": row, "aria-selected": String(selected) },
@@ -55,21 +56,30 @@ export class Cells {
     );
   }
 
+  /** @param {number} row */
   #beside(row) {
     if (this.showsNumber) return this.#number(row);
-    const { database, active } = this;
-    return [
-      swatch(database.symbol(database.groups[row]), database.color(database.groups[row])),
-      valueName(active, active.of[row]),
-    ];
+    const { database } = this;
+    return [swatch(database.symbol(database.groups[row]), database.color(database.groups[row])), this.#className(row)];
   }
 
+  /** @param {number} row */
+  #className(row) {
+    return this.active && valueName(this.active, this.active.of[row]);
+  }
+
+  /** @param {number} row */
   #number(row) {
-    const { numbers, hit, highest } = this.sorted;
-    return `${hit ? "NH" : this.sorted.title} ${numberText(numbers[row], this.sorted)}${hit ? ofAtMost(highest(row)) : ""}`;
+    const sorted = /** @type {Field} */ (this.sorted);
+    const { numbers, hit, highest } = sorted;
+    return `${hit ? "NH" : sorted.title} ${numberText(numbers?.[row], sorted)}${hit ? ofAtMost(highest?.(row)) : ""}`;
   }
 
-  /** The head of a group; a click on it folds the group. */
+  /**
+   * The head of a group; a click on it folds the group.
+   * @param {Group} group
+   * @param {boolean} folded
+   */
   head({ key, title, note, group, rows }, folded) {
     const { database } = this;
     return [
@@ -80,11 +90,11 @@ export class Cells {
           "button",
           { type: "button", class: "fold", tabindex: "-1", "data-group": key, "aria-expanded": String(!folded) },
           element("span", { class: "chevron", "aria-hidden": "true" }),
-          group !== null && swatch(database.symbol(group), database.color(group)),
+          typeof group === "number" && swatch(database.symbol(group), database.color(group)),
           element("bdi", { class: "group-name" }, title),
           element("span", { class: "size" }, count(rows.length, "shape")),
         ),
-        note !== "" && element("span", { class: "note", title: note }, note),
+        note && element("span", { class: "note", title: note }, note),
       ),
       element("div", { role: "gridcell" }, tick(`Select all ${count(rows.length, "shape")} of ${title}`, false)),
     ];

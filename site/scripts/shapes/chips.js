@@ -4,15 +4,18 @@ import { element } from "../base/dom.js";
 import { count, grouped, shortened } from "../base/words.js";
 import { numberText, valueName } from "../database/fields.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Field, Fields } from "../database/fields.js" */
-/** @import { Sieve } from "./sieve.js" */
+/** @import { Filter, Sieve } from "./sieve.js" */
 
 const MOST_NAMES = 3;
 const LONGEST = 40;
 
 /**
- * The filters in use, in words: `{ key, title, text }`; the search first, then the selection.
+ * The filters in use, in words; the search first, then the selection.
  * @param {Fields} fields
+ * @param {State} state
+ * @returns {{ key: string, title: string, text: string }[]}
  */
 function activeFilters(fields, state) {
   const query = state.get("query");
@@ -21,11 +24,17 @@ function activeFilters(fields, state) {
   return [
     ...search,
     ...only,
-    ...[...state.get("filters")].map(([key, filter]) => describe(fields.byKey.get(key), key, filter)),
+    ...[...state.get("filters")].map(([key, filter]) =>
+      describe(/** @type {Field} */ (fields.byKey.get(key)), key, filter),
+    ),
   ];
 }
 
-/** @param {Field} field */
+/**
+ * @param {Field} field
+ * @param {string} key
+ * @param {Filter} filter
+ */
 function describe(field, key, filter) {
   const title = field.title;
   if (!(filter instanceof Set))
@@ -38,6 +47,7 @@ function describe(field, key, filter) {
 /**
  * The name of a node or a value that is filtered by.
  * @param {Field} field
+ * @param {number} value
  */
 export function nameOf(field, value) {
   return field.tree === null || value < 0 ? valueName(field, value) : field.tree.ways[value].join(" / ");
@@ -47,6 +57,7 @@ export class Chips {
   /**
    * @param {Fields} fields
    * @param {Sieve} sieve
+   * @param {State} state
    */
   constructor(fields, sieve, state) {
     this.fields = fields;
@@ -62,7 +73,10 @@ export class Chips {
     this.state.set({ query: "", only: false, filters: new Map() });
   }
 
-  /** Take one filter back. */
+  /**
+   * Take one filter back.
+   * @param {string} key
+   */
   remove(key) {
     if (key === "search" || key === "only") {
       this.state.set(key === "search" ? { query: "" } : { only: false });
@@ -87,6 +101,7 @@ export class Chips {
     if (sieve.size === 0) this.empty.replaceChildren(...this.#nothing(filters));
   }
 
+  /** @param {{ key: string; title: string; text: string; }} parts */
   #chip({ key, title, text }) {
     return element(
       "li",
@@ -110,7 +125,10 @@ export class Chips {
     );
   }
 
-  /** Nothing passed: which filter to take back, and what that would bring. */
+  /**
+   * Nothing passed: which filter to take back, and what that would bring.
+   * @param {{ key: string; title: string; text: string; }[]} filters
+   */
   #nothing(filters) {
     const found = filters
       .map((filter) => ({ ...filter, size: this.sieve.without(filter.key) }))

@@ -5,9 +5,19 @@ import { count, grouped } from "../base/words.js";
 import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
 import { Tree } from "./tree.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
-/** @import { Field, Fields } from "../database/fields.js" */
-/** @import { Sieve } from "./sieve.js" */
+/** @import { ChoiceField, Field, Fields, RangeField, TreeField } from "../database/fields.js" */
+/** @import { Filter, Sieve } from "./sieve.js" */
+
+/**
+ * What filters work with.
+ * @typedef {object} Parts
+ * @property {Database} database
+ * @property {Sieve} sieve
+ * @property {State} state
+ * @property {(key: string, filter: Filter | null) => void} change takes a field's filter into use
+ */
 
 /** Values shown of a long list until one asks for more. */
 const FEW = 8;
@@ -22,11 +32,13 @@ export class Facets {
    * @param {Database} database
    * @param {Fields} fields
    * @param {Sieve} sieve
+   * @param {State} state
    */
   constructor(database, fields, sieve, state) {
     this.state = state;
+    /** @type {Parts} */
     const parts = { database, sieve, state, change: (key, filter) => this.#change(key, filter) };
-    this.facets = fields.filters.map((field) => new Facet(field, kind(field), parts));
+    this.facets = fields.filters.map((field) => new Facet(field, parts));
     const shut = new Set();
     for (const [place, facet] of this.facets.entries()) {
       facet.node.open = place < OPEN || state.get("filters").has(facet.field.key);
@@ -38,6 +50,10 @@ export class Facets {
     });
   }
 
+  /**
+   * @param {string} key
+   * @param {Filter | null} filter
+   */
   #change(key, filter) {
     const filters = new Map(this.state.get("filters"));
     if (filter === null) filters.delete(key);
@@ -50,19 +66,28 @@ export class Facets {
   }
 }
 
-/** @param {Field} field */
-function kind({ tree, edges }) {
-  if (tree !== null) return Tree;
-  return edges === null ? Choice : Range;
+/**
+ * What a field is filtered by.
+ * @param {Field} field
+ * @param {Parts} parts
+ * @returns {{ node: HTMLElement, show: (filter: any) => void }}
+ */
+function contentOf(field, parts) {
+  if (field.tree !== null) return new Tree(/** @type {TreeField} */ (field), parts);
+  if (field.edges === null) return new Choice(/** @type {ChoiceField} */ (field), parts);
+  return new Range(/** @type {RangeField} */ (field), parts);
 }
 
 /** What folds a filter away. */
 class Facet {
-  /** @param {Field} field */
-  constructor(field, Kind, parts) {
+  /**
+   * @param {Field} field
+   * @param {Parts} parts
+   */
+  constructor(field, parts) {
     this.field = field;
     this.state = parts.state;
-    this.content = new Kind(field, parts);
+    this.content = contentOf(field, parts);
     this.mark = element("span", { class: "in-use" });
     this.node = element(
       "details",
@@ -83,7 +108,13 @@ class Facet {
 /** Values to tick. */
 class Choice {
   #all = false;
+  /** @type {Set<number> | null} */
+  filter = null;
 
+  /**
+   * @param {ChoiceField} field
+   * @param {Parts} parts
+   */
   constructor(field, { database, sieve, state, change }) {
     this.field = field;
     this.database = database;
@@ -124,6 +155,7 @@ class Choice {
     this.change(this.field.key, filter.size > 0 ? filter : null);
   }
 
+  /** @param {Set<number> | null} filter */
   show(filter) {
     const { field, sieve } = this;
     this.filter = filter;
@@ -138,13 +170,18 @@ class Choice {
     const shown = found.filter((value, place) => place < few || filter?.has(value));
     const kept = this.list.contains(focused()) ? focused().value : null;
     this.list.replaceChildren(
-      ...shown.map((value) => this.#item(value, counts.at(value), filter?.has(value) ?? false)),
+      ...shown.map((value) => this.#item(value, counts.at(value) ?? 0, filter?.has(value) ?? false)),
     );
     if (kept !== null) this.list.querySelector(`input[value="${kept}"]`)?.focus();
     this.more.hidden = found.length <= usual || typed !== "";
     this.more.textContent = this.#all ? "Fewer" : `All ${grouped(found.length)}`;
   }
 
+  /**
+   * @param {number} value
+   * @param {number} number
+   * @param {boolean} checked
+   */
   #item(value, number, checked) {
     const { field, database } = this;
     const group = groupOf(field, value);
@@ -167,6 +204,10 @@ class Choice {
 
 /** A range of numbers below a histogram of them. */
 class Range {
+  /**
+   * @param {RangeField} field
+   * @param {Pick<Parts, "sieve" | "change">} parts
+   */
   constructor(field, { sieve, change }) {
     this.field = field;
     this.sieve = sieve;
@@ -226,6 +267,7 @@ class Range {
       bar.classList.toggle("within", place >= low && place < high);
   }
 
+  /** @param {{ low: number, high: number } | null} filter */
   show(filter) {
     const { field } = this;
     const { edges, unit } = field;
@@ -236,6 +278,7 @@ class Range {
       bar.style.height = counts[place] === 0 ? "0" : `${Math.max((counts[place] / most) * 100, 4)}%`;
       bar.title = `${numberText(edges[place], field)} to ${numberText(edges[place + 1], field)}: ${count(counts[place], "shape")}`;
     }
+    /** @param {number} number */
     const nearest = (number) =>
       edges.reduce((best, edge, place) => (Math.abs(edge - number) < Math.abs(edges[best] - number) ? place : best), 0);
     const [low, high] = filter === null ? [0, edges.length - 1] : [nearest(filter.low), nearest(filter.high)];

@@ -3,7 +3,16 @@
 import { element } from "../base/dom.js";
 import { layOut, rowAt } from "./layout.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Cells } from "./cells.js" */
+/** @import { Group, Layout } from "./layout.js" */
+
+/**
+ * Where the keys are: a shape, or the head of a group by its key.
+ * @typedef {{ shape: number | null, head: string | null }} Active
+ * @typedef {{ shape: number, offset: number }} Anchor a shape, and how far below the upper edge it lies
+ */
 
 /** Pixels above and below the window that are drawn already. */
 const AHEAD = 500;
@@ -13,24 +22,40 @@ const RUSH = 700;
 const CALM = 80;
 
 export class Grid {
+  /** @type {Group[]} */
   #groups = [];
+  /** @type {Cells | null} */
   #cells = null;
+  /** @type {Map<number, HTMLElement>} */
   #made = new Map();
+  /** @type {Map<number, HTMLElement>} */
   #rows = new Map();
+  /** @type {Map<number, HTMLElement>} */
   #sections = new Map();
+  /** @type {number | null} */
   #pending = null;
+  /** @type {Set<number>} */
   #unpictured = new Set();
   #top = 0;
+  /** @type {{ shape: number, top: number } | null} */
   #held = null;
+  /** @type {number | undefined} */
+  #calming;
+  /** @type {Layout} as long as there are cells */
+  layout;
+  width = 0;
 
-  /** @param {Database} database */
+  /**
+   * @param {Database} database
+   * @param {State} state
+   */
   constructor(database, state) {
     this.database = database;
     this.state = state;
     this.node = document.getElementById("grid");
     this.scroller = document.getElementById("scroller");
     this.placeOf = new Int32Array(database.count).fill(-1);
-    /** The shape that keys start from, or the head of a group by its key. */
+    /** @type {Active} */
     this.active = { shape: null, head: null };
     // Caught on the way down: on a desk the frame scrolls, on a phone the page.
     document.addEventListener("scroll", () => this.#drawSoon(), { capture: true, passive: true });
@@ -39,6 +64,8 @@ export class Grid {
 
   /**
    * Show groups of shapes as cells; what is at the top stays there if it can, unless `fromTop`.
+   * @param {Group[]} groups
+   * @param {Cells} cells
    * @param {boolean} fromTop
    */
   show(groups, cells, fromTop) {
@@ -48,12 +75,12 @@ export class Grid {
     if (cells !== this.#cells) this.#made.clear();
     this.#groups = groups;
     this.#cells = cells;
-    this.#layOut();
+    this.#layOut(cells);
     if (fromTop) this.#scrollBy(-Math.max(this.#window().top, 0));
     else this.#hold(anchor);
     const { sequence } = this.layout;
     // Where the shape with the focus has gone, the one in its place has it.
-    if (focused && place >= 0 && this.placeOf[this.active.shape] < 0)
+    if (focused && place >= 0 && this.placeOf[this.active.shape ?? -1] < 0)
       this.active = { shape: sequence[Math.min(place, sequence.length - 1)] ?? null, head: null };
     this.draw();
     if (focused) this.#stop()?.focus({ preventScroll: true });
@@ -62,21 +89,22 @@ export class Grid {
 
   /** The same groups with other pictures' sizes, or other groups folded. */
   rearrange() {
+    if (this.#cells === null) return;
     const anchor = this.#anchor();
-    this.#layOut();
+    this.#layOut(this.#cells);
     this.#hold(anchor);
     this.draw();
     this.#showPictures(false);
   }
 
   #resize() {
-    if (this.node.clientWidth === this.width || this.#cells === null) return;
+    if (this.node.clientWidth === this.width) return;
     this.rearrange();
   }
 
-  #layOut() {
+  /** @param {Cells} cells */
+  #layOut({ lines }) {
     this.width = this.node.clientWidth;
-    const { lines } = this.#cells;
     const text = parseFloat(getComputedStyle(document.documentElement).fontSize);
     this.layout = layOut(this.#groups, this.state.get("closed"), {
       width: this.width,
@@ -122,7 +150,10 @@ export class Grid {
     (this.#framed() ? this.scroller : window).scrollBy({ top: distance, behavior: "instant" });
   }
 
-  /** The first shape that is whole in sight, and how far below the upper edge it lies. */
+  /**
+   * The first shape that is whole in sight.
+   * @returns {Anchor | null}
+   */
   #anchor() {
     if (!this.layout || this.layout.rows.length === 0) return null;
     const { top } = this.#window();
@@ -137,8 +168,10 @@ export class Grid {
     return row ? { shape: sequence[row.start], offset: row.top - top } : null;
   }
 
+  /** @param {Anchor | null} anchor */
   #hold(anchor) {
-    const place = anchor === null ? -1 : this.placeOf[anchor.shape];
+    if (anchor === null) return;
+    const place = this.placeOf[anchor.shape];
     if (place < 0) return;
     this.#scrollBy(this.layout.rows[this.layout.rowOf[place]].top - anchor.offset - this.#window().top);
     this.#held = { shape: anchor.shape, top: this.#window().top };
@@ -173,11 +206,15 @@ export class Grid {
       section.remove();
       this.#sections.delete(block);
     }
+    /** @type {Map<number, HTMLElement>} */
     const made = new Map();
     for (const block of [...blocks].sort((a, b) => a - b)) if (!this.#sections.has(block)) this.#addSection(block);
     for (const index of wanted) if (!rows[index].head && !this.#rows.has(index)) this.#addRow(index);
     for (const index of this.#rows.keys())
-      for (const shape of this.#shapesOf(index)) made.set(shape, this.#made.get(shape));
+      for (const shape of this.#shapesOf(index)) {
+        const cell = this.#made.get(shape);
+        if (cell) made.set(shape, cell);
+      }
     this.#made = made;
     this.#markActive();
     this.#showPictures(Math.abs(top - this.#top) > RUSH);
@@ -186,9 +223,9 @@ export class Grid {
 
   /** @param {boolean} rushing */
   #showPictures(rushing) {
-    clearTimeout(this.calming);
+    clearTimeout(this.#calming);
     if (rushing) {
-      this.calming = setTimeout(() => this.#showPictures(false), CALM);
+      this.#calming = setTimeout(() => this.#showPictures(false), CALM);
       return;
     }
     for (const shape of this.#unpictured) {
@@ -198,7 +235,10 @@ export class Grid {
     this.#unpictured.clear();
   }
 
-  /** A group: its head stays in sight as long as one of its rows does. */
+  /**
+   * A group: its head stays in sight as long as one of its rows does.
+   * @param {number} block
+   */
   #addSection(block) {
     const group = this.#groups[block];
     const { top, height, folded } = this.layout.blocks[block];
@@ -209,7 +249,7 @@ export class Grid {
       const head = element(
         "div",
         { class: "block-head", role: "row", "aria-rowindex": rowAt(this.layout.rows, top) + 1 },
-        this.#cells.head(group, folded),
+        this.#cells?.head(group, folded) ?? [],
       );
       section.append(head);
     }
@@ -220,15 +260,17 @@ export class Grid {
     this.#markGroup(block);
   }
 
+  /** @param {number} index */
   #addRow(index) {
     const { block, top } = this.layout.rows[index];
     const selection = this.state.get("selection");
     const cells = this.#shapesOf(index).map((shape) => {
-      if (!this.#made.has(shape)) {
-        this.#made.set(shape, this.#cells.shape(shape, selection.has(shape)));
-        this.#unpictured.add(shape);
-      }
-      return this.#made.get(shape);
+      const known = this.#made.get(shape);
+      if (known !== undefined) return known;
+      const cell = /** @type {Cells} */ (this.#cells).shape(shape, selection.has(shape));
+      this.#made.set(shape, cell);
+      this.#unpictured.add(shape);
+      return cell;
     });
     const row = element("div", { class: "row", role: "row", "aria-rowindex": index + 1 }, cells);
     row.style.top = `${top - this.layout.blocks[block].top}px`;
@@ -236,10 +278,11 @@ export class Grid {
       [...this.#rows]
         .filter(([other]) => other > index && this.layout.rows[other].block === block)
         .sort(([a], [b]) => a - b)[0]?.[1] ?? null;
-    this.#sections.get(block).insertBefore(row, after);
+    this.#sections.get(block)?.insertBefore(row, after);
     this.#rows.set(index, row);
   }
 
+  /** @param {number} index */
   #shapesOf(index) {
     const { start, end } = this.layout.rows[index];
     return this.layout.sequence.slice(start, end);
@@ -257,8 +300,9 @@ export class Grid {
     this.node.classList.toggle("selecting", selection.size > 0);
   }
 
+  /** @param {number} block */
   #markGroup(block) {
-    const tick = this.#sections.get(block).querySelector(".block-head .tick");
+    const tick = this.#sections.get(block)?.querySelector(".block-head .tick");
     if (!tick) return;
     const selection = this.state.get("selection");
     const { rows } = this.#groups[block];
@@ -309,12 +353,15 @@ export class Grid {
   /** The element that keys start from. */
   #stop() {
     const { shape, head } = this.active;
-    if (head === null) return this.#made.get(shape)?.querySelector("a") ?? null;
+    if (head === null) return this.#made.get(shape ?? -1)?.querySelector("a") ?? null;
     const block = this.#groups.findIndex(({ key }) => key === head);
     return this.#sections.get(block)?.querySelector(".fold") ?? null;
   }
 
-  /** Take the focus to a shape or a head, and both into sight. */
+  /**
+   * Take the focus to a shape or a head, and both into sight.
+   * @param {Active} active
+   */
   go(active) {
     this.active = active;
     this.reveal();

@@ -2,13 +2,19 @@
 
 import { rowAt } from "./layout.js";
 
-/** @import { Grid } from "./grid.js" */
+/** @import { State } from "../base/state.js" */
+/** @import { Active, Grid } from "./grid.js" */
 
 export class Keys {
   /** Where a range of selected shapes starts. */
+  /** @type {number | null} */
   #start = null;
 
-  /** @param {Grid} grid */
+  /**
+   * @param {Grid} grid
+   * @param {State} state
+   * @param {{ leave: (shape: number) => void }} ways is told of the shape whose page a reader opens
+   */
   constructor(grid, state, { leave }) {
     this.grid = grid;
     this.state = state;
@@ -30,7 +36,10 @@ export class Keys {
       event.preventDefault();
       this.#toggle(shape, true);
     } else if (shape !== null && event.target.closest("a")) this.leave(shape);
-    else if (event.target.closest(".fold")) this.#fold(event.target.closest(".fold").dataset.group);
+    else {
+      const fold = event.target.closest(".fold");
+      if (fold) this.#fold(fold.dataset.group ?? "");
+    }
   }
 
   /**
@@ -50,8 +59,9 @@ export class Keys {
     this.state.set({ selection });
   }
 
+  /** @param {Found} tick */
   #toggleGroup(tick) {
-    const { rows } = this.grid.groups[tick.closest(".block").dataset.block];
+    const { rows } = this.grid.groups[Number(tick.closest(".block")?.dataset.block)];
     const selection = new Set(this.state.get("selection"));
     for (const shape of rows) {
       if (tick.checked) selection.add(shape);
@@ -69,12 +79,15 @@ export class Keys {
     if (focused) this.grid.go({ shape: null, head: key });
   }
 
-  // A click, or a screen reader, may take the focus anywhere in the grid.
+  /**
+   * A click, or a screen reader, may take the focus anywhere in the grid.
+   * @param {Found} target
+   */
   #follow(target) {
     const cell = target.closest(".cell");
     const head = target.closest(".fold");
     if (cell) this.grid.active = { shape: Number(cell.dataset.row), head: null };
-    else if (head) this.grid.active = { shape: null, head: head.dataset.group };
+    else if (head) this.grid.active = { shape: null, head: head.dataset.group ?? "" };
     else return;
     this.grid.draw();
   }
@@ -114,6 +127,7 @@ export class Keys {
   /**
    * Where a key leads; null for nowhere, undefined for a key that does not move.
    * @param {string} key
+   * @returns {Active | null | undefined}
    */
   #next(key) {
     const { grid } = this;

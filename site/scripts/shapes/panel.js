@@ -2,10 +2,14 @@
 
 import { count } from "../base/words.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Sieve } from "./sieve.js" */
 
 export class Panel {
-  /** @param {Sieve} sieve */
+  /**
+   * @param {Sieve} sieve
+   * @param {State} state
+   */
   constructor(sieve, state) {
     this.sieve = sieve;
     this.state = state;

@@ -2,6 +2,7 @@
 
 import { findWords, searchTexts } from "../database/search.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 
 /** What the search looks through, made with the first search. */
@@ -10,6 +11,7 @@ let texts = null;
 /**
  * The shapes that the words of the search find; null without words.
  * @param {Database} database
+ * @param {State} state
  */
 export async function search(database, state) {
   const query = state.get("query");
@@ -22,6 +24,7 @@ export async function search(database, state) {
   if (state.get("query") === query) state.set({ matches: new Set(findWords(known, query)) });
 }
 
+/** @param {State} state */
 export function watchSearch(state) {
   const field = document.getElementById("search");
   const show = () => {
@@ -42,7 +45,10 @@ export function watchSearch(state) {
   show();
 }
 
-/** One press takes back the last thing: the search, then the selection. */
+/**
+ * One press takes back the last thing: the search, then the selection.
+ * @param {State} state
+ */
 function takeBack(state) {
   if (state.get("query") !== "") state.set({ query: "" });
   else state.set({ selection: new Set() });

@@ -1,11 +1,19 @@
 // Which shapes pass the reader's filters, and how many would pass others.
 
+import { entry } from "../base/entry.js";
 import { NONE } from "../database/fields.js";
 
 /** @import { Database } from "../database/database.js" */
-/** @import { Field, Fields } from "../database/fields.js" */
+/** @import { Field, Fields, RangeField, TreeField } from "../database/fields.js" */
+
+/**
+ * A filter: values, or nodes of a tree; or a range. It is never changed, only replaced.
+ * @typedef {Set<number> | { low: number, high: number }} Filter
+ * @typedef {(row: number) => boolean} Passing
+ */
 
 export class Sieve {
+  /** @type {WeakMap<Filter, Uint8Array>} */
   #failing = new WeakMap();
 
   /**
@@ -16,22 +24,21 @@ export class Sieve {
     this.database = database;
     this.fields = fields;
     this.everything = new Uint8Array(database.count);
+    /** @type {Map<string, Uint8Array>} */
     this.conditions = new Map();
     this.failures = this.everything;
     this.size = database.count;
   }
 
   /**
-   * Sift the shapes: `matches` (of the search) and `only` are sets of shapes or null, `filters` a map from the key of a field to a set of values
-   * (or nodes), or to a range `{ low, high }`. Both are never changed, only replaced.
-   * @param {Set<number> | null} only
+   * Sift the shapes. What it is given is never changed, only replaced.
+   * @param {Set<number> | null} matches shapes that the search finds
+   * @param {Set<number> | null} only shapes
+   * @param {Map<string, Filter>} filters by the keys of their fields
    */
   sift(matches, only, filters) {
     this.conditions = new Map();
-    for (const [key, shapes] of [
-      ["search", matches],
-      ["only", only],
-    ]) {
+    for (const [key, shapes] of Object.entries({ search: matches, only })) {
       if (shapes !== null)
         this.conditions.set(
           key,
@@ -41,7 +48,7 @@ export class Sieve {
     for (const [key, filter] of filters)
       this.conditions.set(
         key,
-        this.#of(filter, () => passing(this.fields.byKey.get(key), filter)),
+        this.#of(filter, () => passing(/** @type {Field} */ (this.fields.byKey.get(key)), filter)),
       );
     this.failures = this.everything;
     if (this.conditions.size > 0) {
@@ -52,16 +59,16 @@ export class Sieve {
     this.size = this.#remaining(this.everything);
   }
 
-  // Filters are never changed, so what one lets pass is found once.
+  /**
+   * Filters are never changed, so what one lets pass is found once.
+   * @param {Filter} filter
+   * @param {() => Passing} make
+   */
   #of(filter, make) {
-    if (!this.#failing.has(filter)) {
+    return entry(this.#failing, filter, () => {
       const passes = make();
-      this.#failing.set(
-        filter,
-        Uint8Array.from({ length: this.database.count }, (_, row) => (passes(row) ? 0 : 1)),
-      );
-    }
-    return this.#failing.get(filter);
+      return Uint8Array.from({ length: this.database.count }, (_, row) => (passes(row) ? 0 : 1));
+    });
   }
 
   /** @param {number} row */
@@ -69,7 +76,10 @@ export class Sieve {
     return this.failures[row] === 0;
   }
 
-  /** How many shapes there would be without one condition, by its key. */
+  /**
+   * How many shapes there would be without one condition, by its key.
+   * @param {string} key
+   */
   without(key) {
     return this.#remaining(this.conditions.get(key) ?? this.everything);
   }
@@ -81,7 +91,10 @@ export class Sieve {
     return size;
   }
 
-  /** How many of the shapes that pass all other filters have each value of a field; those without one come last. */
+  /**
+   * How many of the shapes that pass all other filters have each value of a field; those without one come last.
+   * @param {{ key: string, names: ArrayLike<unknown>, of: number[] }} field
+   */
   counts({ key, names, of }) {
     const counts = new Int32Array(names.length + 1);
     this.#each(key, (row) => {
@@ -90,7 +103,10 @@ export class Sieve {
     return counts;
   }
 
-  /** The same for the nodes of a tree with all below them. */
+  /**
+   * The same for the nodes of a tree with all below them.
+   * @param {TreeField} field
+   */
   countsOfTree({ key, tree: { nodes, of } }) {
     const counts = this.counts({ key, names: nodes, of });
     for (let node = nodes.length - 1; node >= 0; node -= 1)
@@ -100,17 +116,21 @@ export class Sieve {
 
   /**
    * The same for the intervals of a field of numbers.
-   * @param {Field} field
+   * @param {RangeField} field
    */
   countsOfIntervals({ key, numbers, edges }) {
     const counts = new Int32Array(edges.length - 1);
     this.#each(key, (row) => {
-      if (numbers[row] !== null) counts[interval(edges, numbers[row])] += 1;
+      const number = numbers[row];
+      if (number !== null) counts[interval(edges, number)] += 1;
     });
     return counts;
   }
 
-  /** @param {string} key */
+  /**
+   * @param {string} key
+   * @param {(row: number) => void} visit
+   */
   #each(key, visit) {
     const own = this.conditions.get(key) ?? this.everything;
     for (let row = 0; row < own.length; row += 1) if (this.failures[row] === own[row]) visit(row);
@@ -119,7 +139,7 @@ export class Sieve {
 
 /**
  * The interval that a number lies in; the last one holds its upper edge too.
- * @param {number[] | null} edges
+ * @param {number[]} edges
  * @param {number} number
  */
 export function interval(edges, number) {
@@ -132,10 +152,18 @@ export function interval(edges, number) {
   return low;
 }
 
+/**
+ * @param {Field} field
+ * @param {Filter} filter
+ * @returns {Passing}
+ */
 function passing({ tree, of, numbers }, filter) {
   if (!(filter instanceof Set))
-    return (row) => numbers[row] !== null && numbers[row] >= filter.low && numbers[row] <= filter.high;
-  if (tree === null) return (row) => filter.has(of[row]);
+    return (row) => {
+      const number = numbers?.[row] ?? null;
+      return number !== null && number >= filter.low && number <= filter.high;
+    };
+  if (tree === null) return (row) => filter.has(of?.[row] ?? NONE);
   const under = new Set(filter);
   for (const [node, { parent }] of tree.nodes.entries()) if (under.has(parent) && parent !== NONE) under.add(node);
   return (row) => under.has(tree.of[row]);

@@ -5,7 +5,8 @@ import { count, grouped } from "../base/words.js";
 import { NONE, numberText, valueName } from "../database/fields.js";
 
 /** @import { Database } from "../database/database.js" */
-/** @import { Field, Fields } from "../database/fields.js" */
+/** @import { ChoiceField, Field, Fields, RangeField } from "../database/fields.js" */
+/** @import { Group } from "./layout.js" */
 /** @import { Sieve } from "./sieve.js" */
 
 const MOST_SHAPES = 200;
@@ -15,6 +16,7 @@ const MOST_VALUES = 100;
  * @param {Database} database
  * @param {Fields} fields
  * @param {Sieve} sieve
+ * @param {Group[]} groups
  */
 export function galleryTables(database, fields, sieve, groups) {
   const rows = groups.flatMap((group) => [...group.rows]);
@@ -34,10 +36,14 @@ export function galleryTables(database, fields, sieve, groups) {
   };
 }
 
-/** @param {Field} field */
+/**
+ * @param {Field} field
+ * @param {number} row
+ */
 function cell(field, row) {
   if (field.numbers !== null) return numberText(field.numbers[row], field);
-  return field.of[row] === NONE ? "–" : field.names[field.of[row]];
+  const { of, names } = /** @type {ChoiceField} */ (field);
+  return of[row] === NONE ? "–" : names[of[row]];
 }
 
 /**
@@ -46,14 +52,16 @@ function cell(field, row) {
  */
 function counted(field, sieve) {
   if (field.edges !== null) {
-    const counts = sieve.countsOfIntervals(field);
+    const { edges } = field;
+    const counts = sieve.countsOfIntervals(/** @type {RangeField} */ (field));
     return [...counts].map((number, place) => [
-      `${numberText(field.edges[place], field)} to ${numberText(field.edges[place + 1], field)}`,
+      `${numberText(edges[place], field)} to ${numberText(edges[place + 1], field)}`,
       grouped(number),
     ]);
   }
-  const counts = sieve.counts(field);
-  const values = [...field.names.keys()].filter((value) => counts[value] > 0).slice(0, MOST_VALUES);
-  if (counts.at(NONE) > 0) values.push(NONE);
-  return values.map((value) => [valueName(field, value), grouped(counts.at(value))]);
+  const choice = /** @type {ChoiceField} */ (field);
+  const counts = sieve.counts(choice);
+  const values = [...choice.names.keys()].filter((value) => counts[value] > 0).slice(0, MOST_VALUES);
+  if (counts[counts.length - 1] > 0) values.push(NONE);
+  return values.map((value) => [valueName(field, value), grouped(counts.at(value) ?? 0)]);
 }

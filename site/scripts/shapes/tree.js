@@ -1,24 +1,40 @@
 // A tree of classes to walk down into, and to filter by.
 
 import { element } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 import { grouped } from "../base/words.js";
 import { NONE, valueName } from "../database/fields.js";
+
+/** @import { TreeField } from "../database/fields.js" */
+/** @import { Sieve } from "./sieve.js" */
 
 /** Nodes at the top up to which a lone one stands open. */
 const FEW_TOPS = 1;
 
 export class Tree {
+  /** @type {Set<number>} */
   #open = new Set();
+  /** @type {Map<number, HTMLElement>} */
   #items = new Map();
+  /** @type {Set<number> | null} */
+  filter = null;
+  counts = new Int32Array(0);
 
+  /**
+   * @param {TreeField} field
+   * @param {{ sieve: Sieve, change: (key: string, filter: Set<number> | null) => void }} parts
+   */
   constructor(field, { sieve, change }) {
     this.field = field;
     this.sieve = sieve;
     this.change = change;
     const { nodes, of } = field.tree;
+    /** @type {number[]} */
     this.tops = [];
-    this.children = new Map([...nodes.keys(), NONE].map((node) => [node, []]));
-    for (const [node, { parent }] of nodes.entries()) (parent < 0 ? this.tops : this.children.get(parent)).push(node);
+    /** @type {Map<number, number[]>} */
+    this.children = new Map();
+    for (const [node, { parent }] of nodes.entries())
+      (parent < 0 ? this.tops : entry(this.children, parent, () => [])).push(node);
     if (this.tops.length <= FEW_TOPS) for (const top of this.tops) this.#open.add(top);
     // Shapes without a class are found too, below all others.
     if (of.includes(NONE)) this.tops.push(NONE);
@@ -35,16 +51,18 @@ export class Tree {
 
   /** @param {number} node */
   #parent(node) {
-    return node === NONE ? undefined : this.field.tree.nodes[node].parent;
+    return node === NONE ? NONE : this.field.tree.nodes[node].parent;
   }
 
   /** @param {number} node */
   #above(node) {
+    /** @type {number[]} */
     const found = [];
     for (let above = this.#parent(node); above >= 0; above = this.#parent(above)) found.push(above);
     return found;
   }
 
+  /** @param {Set<number> | null} filter */
   show(filter) {
     const before = this.filter;
     this.filter = filter;
@@ -60,18 +78,20 @@ export class Tree {
     this.#items.clear();
     this.node.replaceChildren(...this.tops.map((node) => this.#item(node, 1)));
     if (!this.#items.has(this.active)) this.active = this.tops[0];
-    this.#items.get(this.active).tabIndex = 0;
-    if (focused) this.#items.get(this.active).focus();
+    const stop = this.#items.get(this.active);
+    if (stop) stop.tabIndex = 0;
+    if (focused) stop?.focus();
   }
 
   /**
    * @param {number} node
    * @param {number} level
+   * @returns {HTMLElement}
    */
   #item(node, level) {
-    const children = this.children.get(node);
+    const children = this.children.get(node) ?? [];
     const open = this.#open.has(node);
-    const number = this.counts.at(node);
+    const number = this.counts.at(node) ?? 0;
     const item = element(
       "li",
       {
@@ -112,9 +132,10 @@ export class Tree {
 
   /** @param {number} node */
   #checked(node) {
-    if (!this.filter) return "false";
-    if (this.filter.has(node) || this.#above(node).some((above) => this.filter.has(above))) return "true";
-    return [...this.filter].some((other) => this.#above(other).includes(node)) ? "mixed" : "false";
+    const { filter } = this;
+    if (!filter) return "false";
+    if (filter.has(node) || this.#above(node).some((above) => filter.has(above))) return "true";
+    return [...filter].some((other) => this.#above(other).includes(node)) ? "mixed" : "false";
   }
 
   /**
@@ -149,7 +170,7 @@ export class Tree {
     const item = event.target.closest("[role=treeitem]");
     if (!item) return;
     const node = Number(item.dataset.node);
-    if (event.target.closest(".chevron") && this.children.get(node).length > 0) this.#fold(node, !this.#open.has(node));
+    if (event.target.closest(".chevron") && this.children.has(node)) this.#fold(node, !this.#open.has(node));
     else this.#toggle(node);
   }
 
@@ -160,7 +181,7 @@ export class Tree {
     // In the order in which they stand.
     const order = [...this.node.querySelectorAll("[role=treeitem]")].map((item) => Number(item.dataset.node));
     const here = order.indexOf(node);
-    const parts = this.children.get(node);
+    const parts = this.children.get(node) ?? [];
     const open = this.#open.has(node);
     if (event.key === "ArrowDown") this.#go(order[here + 1]);
     else if (event.key === "ArrowUp") this.#go(order[here - 1]);
@@ -176,10 +197,11 @@ export class Tree {
 
   /** @param {number} node */
   #go(node) {
-    if (!this.#items.has(node)) return;
-    this.#items.get(this.active).tabIndex = -1;
+    const [before, next] = [this.#items.get(this.active), this.#items.get(node)];
+    if (!next) return;
+    if (before) before.tabIndex = -1;
     this.active = node;
-    this.#items.get(node).tabIndex = 0;
-    this.#items.get(node).focus();
+    next.tabIndex = 0;
+    next.focus();
   }
 }

@@ -4,11 +4,13 @@ import { element } from "../base/dom.js";
 import { linkedPage, pageAddress, readHash } from "../base/place.js";
 import { isSelection, writeSelection } from "../database/selection.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 
 /**
  * Let all links of a page carry the selection in its state.
  * @param {Database} database
+ * @param {State} state
  */
 export function carrySelection(database, state) {
   carry(() => {
@@ -37,18 +39,22 @@ export function follow(address) {
 /** @param {() => URLSearchParams} selection */
 function carry(selection) {
   /** Addresses that were written here, by link: any other selection in a link is the link's own business. */
+  /** @type {WeakMap<Element, string>} */
   const written = new WeakMap();
+  /** @param {Event & Targeted} event */
   const write = ({ target }) => {
     const link = target.closest?.("a[href]:not([download])");
-    const address = link?.getAttribute("href");
-    const page = link ? linkedPage(address) : null;
-    if (page === null) return;
+    const address = link?.getAttribute("href") ?? "";
+    const page = linkedPage(address);
+    if (!link || page === null) return;
     const all = [...page.query];
     const own = all.filter(([name]) => !isSelection(name));
     if (own.length < all.length && written.get(link) !== address) return;
-    link.setAttribute("href", pageAddress(page.file, [...own, ...selection()]));
-    written.set(link, link.getAttribute("href"));
+    const carrying = pageAddress(page.file, [...own, ...selection()]);
+    link.setAttribute("href", carrying);
+    written.set(link, carrying);
   };
   // At the last moment, not with every change: a brush changes the selection many times a second.
-  for (const name of ["pointerdown", "keydown", "click"]) document.addEventListener(name, write, { capture: true });
+  for (const name of /** @type {const} */ (["pointerdown", "keydown", "click"]))
+    document.addEventListener(name, write, { capture: true });
 }

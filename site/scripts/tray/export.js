@@ -2,6 +2,12 @@
 
 import { highestOf } from "../database/hit-range.js";
 
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * @param {Database} database
+ * @param {number[]} chosen
+ */
 export function saveCsv(database, chosen) {
   const header = ["id", "name", "class", ...database.data.methods.flatMap(({ key }) => [`nh:${key}`, `nh_max:${key}`])];
   const rows = chosen.map((index) => [
@@ -13,6 +19,10 @@ export function saveCsv(database, chosen) {
   saveText("selection.csv", "text/csv", csvText([header, ...rows]));
 }
 
+/**
+ * @param {Database} database
+ * @param {number[]} chosen
+ */
 export function saveJson(database, chosen) {
   const shapes = chosen.map((index) => ({
     id: database.ids[index],

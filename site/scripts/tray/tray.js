@@ -8,6 +8,8 @@ import { count, shortened } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { saveCsv, saveJson } from "./export.js";
 
+/** @import { Child } from "../base/dom.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 
 const PAGE = 200;
@@ -15,12 +17,15 @@ const MOST_CLASSES = 8;
 
 export class Tray {
   /**
-   * `open` is called with the shape whose picture is clicked, `point` with the one under the pointer, or null. `hint` is
-   * said while nothing is selected; without one the tray is then not there. `cover` is told how many pixels of what is
-   * above it the tray covers.
    * @param {Database} database
+   * @param {State} state
+   * @param {object} options
+   * @param {(index: number) => void} options.open is called with the shape whose picture is clicked
+   * @param {(index: number | null) => void} [options.point] with the one under the pointer
+   * @param {Child} [options.hint] said while nothing is selected; without one the tray is then not there
+   * @param {(height: number) => void} [options.cover] is told how many pixels of what is above it the tray covers
    */
-  constructor(database, state, { open, point = (_) => {}, hint = null, cover = (_) => {} }) {
+  constructor(database, state, { open, point = () => {}, hint = null, cover = () => {} }) {
     this.database = database;
     this.state = state;
     this.open = open;
@@ -37,6 +42,7 @@ export class Tray {
     this.#fill();
   }
 
+  /** @type {number | null} */
   #pending = null;
 
   // A brush changes the selection with every movement of the pointer; once a frame is enough.
@@ -63,17 +69,21 @@ export class Tray {
     this.#markOpened();
   }
 
-  /** Class by class. */
+  /**
+   * Class by class.
+   * @param {Set<number>} selection
+   */
   #sorted(selection) {
     const { groups } = this.database;
     return [...selection].sort((a, b) => groups[a] - groups[b] || a - b);
   }
 
+  /** @param {Set<number>} selection */
   #head(selection) {
     const { database } = this;
     const census = database.census(selection);
     /** @param {string} name */
-    const save = (name, to) =>
+    const save = (/** @type {string} */ name, /** @type {typeof saveCsv} */ to) =>
       element(
         "button",
         {
@@ -120,7 +130,10 @@ export class Tray {
     );
   }
 
-  /** Where else these shapes can be looked at. */
+  /**
+   * Where else these shapes can be looked at.
+   * @param {Set<number>} selection
+   * @returns {string[][]} words, and the address   */
   #links(selection) {
     const { database, here } = this;
     const query = new URLSearchParams();
@@ -137,6 +150,7 @@ export class Tray {
     ].filter(Boolean);
   }
 
+  /** @param {number[]} chosen */
   #strip(chosen) {
     const strip = element("div", {
       class: "strip",
@@ -160,6 +174,7 @@ export class Tray {
     return strip;
   }
 
+  /** @param {number} index */
   #item(index) {
     const { database } = this;
     const name = database.labelled
@@ -184,6 +199,7 @@ export class Tray {
 
   /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
+    /** @type {Record<string, number>} */
     const steps = { ArrowRight: 1, ArrowLeft: -1, Home: -Infinity, End: Infinity };
     if (!(event.key in steps)) return;
     event.preventDefault();
@@ -202,7 +218,10 @@ export class Tray {
   }
 }
 
-/** Escape drops the selection, unless it closes something first. */
+/**
+ * Escape drops the selection, unless it closes something first.
+ * @param {State} state
+ */
 export function clearOnEscape(state) {
   document.addEventListener("keydown", (event) => {
     if (event.key === "Escape" && !event.defaultPrevented && !document.querySelector("dialog[open]"))

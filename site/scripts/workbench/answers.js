@@ -276,7 +276,10 @@ export class Answers {
   #chain(work) {
     const running = new Set();
     let cancelled = false;
-    /** @param {number} [number] */
+    /**
+     * @param {number} [number]
+     * @param {string} name
+     */
     const run = async (name, parameters, report, number = 0) => {
       const job = (await this.#engine(number)).run(name, parameters, report);
       if (cancelled) job.cancel();

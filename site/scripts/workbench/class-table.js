@@ -5,12 +5,14 @@ import { difference } from "../base/figures.js";
 import { figure } from "../base/words.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 
 export class ClassTable {
   /**
    * `change(hidden)` takes other classes into use, `separate(part, groups)` ticks others: part "from" or "against".
    * @param {Database} database
+   * @param {State} state
    */
   constructor(database, state, { change, separate }) {
     this.database = database;

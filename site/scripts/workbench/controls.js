@@ -5,6 +5,7 @@ import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { contests, separationWords } from "./separation.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Gestures } from "../map/gestures.js" */
 /** @import { Desk } from "./desk.js" */
@@ -14,6 +15,7 @@ import { contests, separationWords } from "./separation.js";
  * @param {Database} database
  * @param {Chunk.Workbench} data
  * @param {Desk} desk
+ * @param {State} state
  */
 export function watchControls(database, data, state, desk) {
   /**
@@ -49,6 +51,7 @@ export function watchControls(database, data, state, desk) {
 /**
  * What the colours of NH mean, while the maps have them.
  * @param {Database} database
+ * @param {State} state
  */
 function watchRamp(database, state) {
   const node = document.getElementById("hit-key");
@@ -63,6 +66,7 @@ function watchRamp(database, state) {
 /**
  * @param {Chunk.Workbench} data
  * @param {Desk} desk
+ * @param {State} state
  */
 function watchScorer(data, state, desk) {
   const select = document.getElementById("scorer");
@@ -82,6 +86,7 @@ function watchScorer(data, state, desk) {
 /**
  * @param {Database} database
  * @param {Desk} desk
+ * @param {State} state
  */
 function watchSeparation(database, state, desk) {
   const words = document.getElementById("separation-words");
@@ -124,6 +129,7 @@ function missing({ from, against, each }, groups) {
 /**
  * How many shapes the brush has so far, before the tray shows them; else whether the maps are those of a sample.
  * @param {Desk} desk
+ * @param {State} state
  */
 function watchPicked(state, desk) {
   const node = document.getElementById("picked");
@@ -148,6 +154,7 @@ function watchPicked(state, desk) {
 /**
  * @param {Desk} desk
  * @param {Map<Found, Gestures>} gestures
+ * @param {State} state
  */
 export function watchKeys(state, desk, gestures) {
   document.addEventListener("keydown", (event) => {

@@ -9,6 +9,7 @@ import { Inquiry } from "../engine/inquiry.js";
 import { alike, History } from "./history.js";
 import { contests, separationWords } from "./separation.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Listener } from "../engine/client.js" */
@@ -44,6 +45,7 @@ export class Desk {
    * @param {Answers} answers
    * @param {{ [k: string]: LiveScene }} scenes
    * @param {(text: string) => void} announce
+   * @param {State} state
    */
   constructor(database, data, bins, state, answers, scenes, announce) {
     this.database = database;
@@ -88,12 +90,14 @@ export class Desk {
     this.use({ bins: new Set([...this.state.get("bins"), ...columns]) });
   }
 
+  /** @param {number[]} columns */
   remove(columns) {
     const bins = new Set(this.state.get("bins"));
     for (const column of columns) bins.delete(column);
     this.use({ bins });
   }
 
+  /** @param {number[]} columns */
   toggle(columns) {
     const bins = new Set(this.state.get("bins"));
     for (const column of columns) if (!bins.delete(column)) bins.add(column);

@@ -5,6 +5,7 @@ import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { FEWEST_SHAPES } from "./desk.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Answers } from "./answers.js" */
 /** @import { Desk } from "./desk.js" */
 
@@ -15,6 +16,7 @@ const BEST = 10;
  * @param {string} which
  * @param {Answers} answers
  * @param {Desk} desk
+ * @param {State} state
  */
 export function emptyMap(which, state, answers, desk) {
   const rows = answers.rows({ hidden: state.get("hidden"), sample: state.get("sample") }).length;

@@ -2,6 +2,7 @@
 
 import { element, focused } from "../base/dom.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 
 export class FeatureList {
@@ -9,6 +10,7 @@ export class FeatureList {
    * `change(features)` takes others into use.
    * @param {Bins} bins
    * @param {() => Chunk.FeatureMarks} marks
+   * @param {State} state
    */
   constructor(bins, state, marks, change) {
     this.bins = bins;

@@ -7,6 +7,7 @@ import { readHash } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Desk } from "./desk.js" */
@@ -25,6 +26,7 @@ export class Guide {
    * @param {Chunk.Workbench} data
    * @param {Bins} bins
    * @param {Desk} act
+   * @param {State} state
    */
   constructor(database, data, bins, state, act) {
     this.database = database;

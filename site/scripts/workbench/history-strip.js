@@ -5,7 +5,8 @@ import { count, figure } from "../base/words.js";
 import { pictureOfMap } from "../map/plot.js";
 import { changes } from "./history.js";
 
-/** @import { Database } from "../database/database.js" */
+/** @import { State } from "../base/state.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { History, Step } from "./history.js" */
 
 const SIZE = 56;
@@ -14,6 +15,7 @@ export class HistoryStrip {
   /**
    * @param {Database} database
    * @param {History} history
+   * @param {State} state
    */
   constructor(database, state, history, { go }) {
     this.database = database;
@@ -99,6 +101,7 @@ export class HistoryStrip {
     );
   }
 
+  /** @param {ShapeMap} map */
   #pictureOf(step, map) {
     if (this.#pictures.get(step)?.map !== map)
       this.#pictures.set(step, { map, canvas: pictureOfMap(this.database, map, SIZE, step.hidden) });

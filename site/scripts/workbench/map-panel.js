@@ -7,6 +7,7 @@ import { isBelowOne, rangeOf } from "../database/hit-range.js";
 import { emptyMap } from "./empty-map.js";
 import { StatusLine } from "./status-line.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Answers } from "./answers.js" */
@@ -38,6 +39,7 @@ class MapPanel {
    * @param {string} which
    * @param {Database} database
    * @param {Bins} bins
+   * @param {State} state
    */
   constructor(which, database, state, bins, { other, again, stop, empty }) {
     this.which = which;
