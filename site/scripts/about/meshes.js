@@ -8,12 +8,12 @@ export function watchMeshes() {
     row,
     text: row.textContent.toLocaleLowerCase(),
   }));
-  field.closest("p").hidden = false;
+  /** @type {Found} */ (field.closest("p")).hidden = false;
   field.addEventListener("input", () => {
     const words = field.value.toLocaleLowerCase().split(/\s+/);
     let found = 0;
     for (const { row, text } of rows) {
-      row.hidden = !words.every((word) => text.includes(word));
+      row.hidden = !words.every((/** @type {string} */ word) => text.includes(word));
       if (!row.hidden) found += 1;
     }
     status.textContent = field.value.trim() === "" ? "" : `${found} of ${rows.length}`;

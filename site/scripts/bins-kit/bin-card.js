@@ -97,10 +97,7 @@ export class BinCard {
     const mark = element("i", { class: "hued" });
     mark.style.background = bins.color(column);
     const means =
-      bins.isShare(column) &&
-      (bins.binOf(column) < feature.bins / 2
-        ? ["Low values: ", feature.lowMeans]
-        : ["High values: ", feature.highMeans]);
+      bins.binOf(column) < feature.bins / 2 ? ["Low values: ", feature.lowMeans] : ["High values: ", feature.highMeans];
     const score = Number.isNaN(this.scores[column])
       ? null
       : [figure(this.scores[column]), ` by ${this.scorer}, rank ${grouped(this.#rank(column))}`];
@@ -113,7 +110,7 @@ export class BinCard {
         feature.title !== feature.name && feature.title,
       ),
       element("p", {}, bins.sentence(column)),
-      means && means[1] && element("p", { class: "quiet" }, means, "."),
+      bins.isShare(column) && means[1] && element("p", { class: "quiet" }, means, "."),
       score && element("p", { class: "quiet" }, "Score ", element("b", {}, score[0]), score[1]),
     ].filter(Boolean);
   }

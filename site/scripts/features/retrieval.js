@@ -9,6 +9,7 @@ import { Curves, lineMark } from "./curves.js";
 import { Ratings } from "./ratings.js";
 
 /** @import { Children } from "../base/dom.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Choice } from "./ratings.js" */
 
 /**

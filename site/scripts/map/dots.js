@@ -89,7 +89,10 @@ export class Dots {
     const found = new Map();
     return (index) => {
       const kind = kindOf(index);
-      if (!found.has(kind)) found.set(kind, this.#marks.stamp(...look(kind), radius, outline));
+      if (!found.has(kind)) {
+        const [path, color] = look(kind);
+        found.set(kind, this.#marks.stamp(path, color, radius, outline));
+      }
       return found.get(kind);
     };
   }

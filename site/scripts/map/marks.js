@@ -1,7 +1,7 @@
 // Marks of shapes on a canvas, for all that Vega-Lite does not draw or would take too long for. They look as charts draw
 // them, so that nobody sees the one take over from the other.
 
-import { element } from "../base/dom.js";
+import { element, penOf } from "../base/dom.js";
 
 /** Opacity of marks, and of those that others stand out from. */
 export const FULL = 0.92;
@@ -15,13 +15,23 @@ const OUTLINE = 0.6;
 const MOST_PIXELS_KEPT = 2_000_000;
 
 export class Marks {
-  /** All sizes and places are in pixels of the page. */
+  /**
+   * All sizes and places are in pixels of the page.
+   * @param {Attributes} attributes of the canvas
+   */
   constructor(attributes) {
     this.node = element("canvas", attributes);
-    this.pen = this.node.getContext("2d");
+    this.pen = penOf(this.node);
+    this.density = 1;
+    /** @type {ImageData | null} */
+    this.sheet = null;
   }
 
-  /** Begin a drawing of this size. */
+  /**
+   * Begin a drawing of this size.
+   * @param {number} width
+   * @param {number} height
+   */
   begin(width, height) {
     this.density = window.devicePixelRatio || 1;
     const [wide, high] = [Math.round(width * this.density), Math.round(height * this.density)];
@@ -29,28 +39,50 @@ export class Marks {
     this.sheet = emptySheet(wide, high);
   }
 
-  /** A mark to be laid anywhere: a symbol in a colour, with an outline of another or of none. */
+  /**
+   * A mark to be laid anywhere: a symbol in a colour, with an outline of another or of none.
+   * @param {string} path
+   * @param {string} color
+   * @param {number} radius
+   * @param {string | null} [outline]
+   */
   stamp(path, color, radius, outline = null) {
     // In steps that nobody sees, or marks that grow would need a stamp for every frame.
     const size = Math.max(Math.round(4 * radius * this.density), 1) / 4;
     return stampOf(path, color, size, radius >= SMALLEST_OUTLINED ? outline : null, OUTLINE * this.density);
   }
 
-  /** Lay a mark with its centre at a place; above those laid before. */
+  /**
+   * Lay a mark with its centre at a place; above those laid before.
+   * @param {ImageData} stamp
+   * @param {number[]} place
+   * @param {number} opacity
+   */
   lay(stamp, [x, y], opacity) {
-    press(this.sheet, stamp, Math.round(x * this.density), Math.round(y * this.density), opacity);
+    press(
+      /** @type {ImageData} */ (this.sheet),
+      stamp,
+      Math.round(x * this.density),
+      Math.round(y * this.density),
+      opacity,
+    );
   }
 
   /** Show what was laid. What follows is drawn above it. */
   show() {
     this.pen.resetTransform();
-    this.pen.putImageData(this.sheet, 0, 0);
+    this.pen.putImageData(/** @type {ImageData} */ (this.sheet), 0, 0);
     this.sheet = null;
     this.pen.scale(this.density, this.density);
     this.pen.imageSmoothingQuality = "high";
   }
 
-  /** A ring about a mark. */
+  /**
+   * A ring about a mark.
+   * @param {number[]} place
+   * @param {number} radius
+   * @param {string} color
+   */
   ring([x, y], radius, color) {
     const { pen } = this;
     Object.assign(pen, { globalAlpha: 1, lineWidth: 2.5, strokeStyle: color });
@@ -59,7 +91,12 @@ export class Marks {
     pen.stroke();
   }
 
-  /** Lines from one mark to others. */
+  /**
+   * Lines from one mark to others.
+   * @param {number[]} from
+   * @param {number[][]} others
+   * @param {string} color
+   */
   tie(from, others, color) {
     const { pen } = this;
     Object.assign(pen, { globalAlpha: 0.6, lineWidth: 1, strokeStyle: color });
@@ -71,7 +108,13 @@ export class Marks {
     pen.stroke();
   }
 
-  /** A picture in the place of a mark. */
+  /**
+   * A picture in the place of a mark.
+   * @param {HTMLImageElement} image
+   * @param {number[]} place
+   * @param {number} side
+   * @param {number} opacity
+   */
   picture(image, [x, y], side, opacity) {
     this.pen.globalAlpha = opacity;
     this.pen.drawImage(image, x - side / 2, y - side / 2, side, side);
@@ -81,6 +124,10 @@ export class Marks {
 // A drawing is begun and shown at once, so all share the memory of one.
 let memory = new Uint8ClampedArray(0);
 
+/**
+ * @param {number} width
+ * @param {number} height
+ */
 function emptySheet(width, height) {
   const length = 4 * width * height;
   if (memory.length < length) memory = new Uint8ClampedArray(length);
@@ -88,14 +135,22 @@ function emptySheet(width, height) {
   return new ImageData(memory.subarray(0, length), width, height);
 }
 
+/** @type {Map<string, ImageData>} */
 const stamps = new Map();
 let pixelsKept = 0;
 
-function stampOf(...how) {
-  const key = how.join(" ");
+/**
+ * @param {string} path
+ * @param {string} color
+ * @param {number} radius
+ * @param {string | null} outline
+ * @param {number} line
+ */
+function stampOf(path, color, radius, outline, line) {
+  const key = [path, color, radius, outline, line].join(" ");
   let stamp = stamps.get(key);
   if (stamp === undefined) {
-    stamp = cut(...how);
+    stamp = cut(path, color, radius, outline, line);
     pixelsKept += stamp.width ** 2;
     if (pixelsKept > MOST_PIXELS_KEPT) {
       stamps.clear();
@@ -107,14 +162,22 @@ function stampOf(...how) {
 }
 
 /** Where stamps are drawn. */
+/** @type {CanvasRenderingContext2D | null} */
 let pad = null;
 
-/** A mark as pixels. */
+/**
+ * A mark as pixels.
+ * @param {string} path
+ * @param {string} color
+ * @param {number} radius
+ * @param {string | null} outline
+ * @param {number} line
+ */
 function cut(path, color, radius, outline, line) {
   const mark = new Path2D(path);
   // Symbols reach a little beyond their radius.
   const half = Math.ceil(1.6 * radius + 1);
-  pad ??= element("canvas").getContext("2d", { willReadFrequently: true });
+  pad ??= penOf(element("canvas"), { willReadFrequently: true });
   Object.assign(pad.canvas, { width: 2 * half, height: 2 * half });
   pad.setTransform(radius, 0, 0, radius, half, half);
   pad.fillStyle = color;
@@ -129,7 +192,10 @@ function cut(path, color, radius, outline, line) {
   return pad.getImageData(rim, rim, side, side);
 }
 
-/** How many pixels about a stamp are empty on all sides. */
+/**
+ * How many pixels about a stamp are empty on all sides.
+ * @param {ImageData} stamp
+ */
 function margin({ data, width }) {
   let least = width / 2 - 1;
   for (let place = 0; place < width * width; place += 1) {
@@ -143,6 +209,11 @@ function margin({ data, width }) {
 /**
  * Lay a stamp over an image. By hand, because this is done ten thousand times a frame: a canvas takes tens of
  * milliseconds to draw as many little pictures, and this takes a few.
+ * @param {ImageData} image
+ * @param {ImageData} stamp
+ * @param {number} x
+ * @param {number} y
+ * @param {number} opacity
  */
 function press({ data: below, width, height }, { data: above, width: side }, x, y, opacity) {
   const [left, top] = [x - side / 2, y - side / 2];
