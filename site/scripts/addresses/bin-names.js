@@ -5,7 +5,11 @@ import { joinNames } from "./names.js";
 
 const REST = /^(?:\[(\d+)\])?(?::(\d+)(?:-(\d+))?)?$/;
 
-/** Columns as text; they may come in any order. */
+/**
+ * Columns as text; they may come in any order.
+ * @param {Iterable<number>} columns
+ * @param {Chunk.Feature[]} features
+ */
 export function shortNames(columns, features) {
   const words = [];
   for (const feature of features) {
@@ -31,7 +35,12 @@ export function shortNames(columns, features) {
   return words.join(" ");
 }
 
-/** The columns that such a text names; what it does not name is passed over. */
+/**
+ * The columns that such a text names; what it does not name is passed over.
+ * @param {string | null} text
+ * @param {Chunk.Feature[]} features
+ * @returns {Set<number>}
+ */
 export function readShortNames(text, features) {
   const columns = new Set();
   for (const word of (text ?? "").split(" ")) {
@@ -45,6 +54,10 @@ export function readShortNames(text, features) {
   return columns;
 }
 
+/**
+ * @param {Chunk.Feature} feature
+ * @param {(string | undefined)[]} rest of the word: dimension, first and last bin
+ */
 function named({ start, dimensions, bins }, rest) {
   const [, dimension, low, high] = rest;
   if (dimension === undefined && low !== undefined && dimensions > 1) return [];

@@ -5,11 +5,21 @@ import { pageAddress } from "../base/place.js";
 import { shortNames } from "./bin-names.js";
 import { brushed } from "./selected.js";
 
+/** @import { Kind, Ways } from "../base/address.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+
 const SIZES = ["fewest", "1", "2", "3"];
 const READINGS = ["value", "inside"];
 const ENDS = ["most", "least"];
 
-/** `first` is the bin that is looked at unless the address names one, and the class that it is to separate. */
+/**
+ * `first` is the bin that is looked at unless the address names one, and the class that it is to separate.
+ * @param {Database} database
+ * @param {Bins} bins
+ * @param {Chunk.Selection} selection
+ * @param {{ bin: number, group: number | null }} first
+ */
 export function binsAddress(database, bins, selection, first) {
   const last = Math.max(selection.path.length - 1, 0);
   return new Address([
@@ -22,13 +32,22 @@ export function binsAddress(database, bins, selection, first) {
   ]);
 }
 
-/** Where the Workbench shows the map of some bins. */
+/**
+ * Where the Workbench shows the map of some bins.
+ * @param {number[]} columns
+ * @param {Chunk.Feature[]} features
+ */
 export function workbenchAddress(columns, features) {
   return pageAddress("workbench.html", { bins: shortNames(columns, features), map: "tsne" });
 }
 
-/** A step of the path, from 0; readers count from 1. */
+/**
+ * A step of the path, from 0; readers count from 1.
+ * @param {number} last
+ * @returns {Kind}
+ */
 function step(last) {
+  /** @param {string[]} texts */
   const read = ([word]) => {
     const place = Number(word) - 1;
     return Number.isInteger(place) && place >= 0 && place <= last ? place : undefined;
@@ -36,6 +55,11 @@ function step(last) {
   return { read, write: (place) => [String(place + 1)] };
 }
 
+/**
+ * @param {Database} database
+ * @param {Bins} bins
+ * @returns {Ways}
+ */
 function binOfClass({ classes }, bins) {
   const [ofBin, ofClass] = [named(bins.names), named(classes)];
   return {
@@ -50,12 +74,16 @@ function binOfClass({ classes }, bins) {
   };
 }
 
-/** A shape, or the one with the most or the least of the bin. */
+/**
+ * A shape, or the one with the most or the least of the bin.
+ * @param {Database} database
+ * @returns {Ways}
+ */
 function shapeOrEnd(database) {
   return {
     read(query) {
       const end = query.get("shape");
-      return ENDS.includes(end) ? end : database.indexOfId.get(query.get("id"));
+      return end !== null && ENDS.includes(end) ? end : database.indexOfId.get(query.get("id") ?? "");
     },
     write(query, shape) {
       if (ENDS.includes(shape)) query.set("shape", shape);

@@ -5,9 +5,25 @@ import { pageAddress } from "../base/place.js";
 import { readSelection, writeSelection } from "../database/selection.js";
 import { selected } from "./selected.js";
 
+/** @import { Ways } from "../base/address.js" */
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * What a group is of: a class by its number, a cluster, what a search finds, some shapes by their numbers, or all shapes
+ * that the other group does not have.
+ * @typedef {{ kind: "class", group: number } | { kind: "cluster", name: string } | { kind: "search", text: string }
+ *   | { kind: "shapes", shapes: Set<number> } | { kind: "rest" }} GroupSpec
+ * @typedef {{ likest(): { group: number, other: number }[] }} Likest  knows the classes that are most alike, first those most so
+ */
+
 const VIEWS = ["groups", "outliers", "classes"];
 const READINGS = ["value", "inside"];
 
+/**
+ * @param {Database} database
+ * @param {Chunk.Comparison} data
+ * @param {Likest} neighbours
+ */
 export function comparePageAddress(database, data, neighbours) {
   const ofClass = named(database.classes);
   return new Address([
@@ -24,13 +40,10 @@ export function comparePageAddress(database, data, neighbours) {
 }
 
 /**
- * The address of the Compare page with two groups beside each other. A group is one of
- *
- * - `{ kind: "class", group }`, a class by its number
- * - `{ kind: "cluster", name }`
- * - `{ kind: "search", text }`, the shapes that a search finds
- * - `{ kind: "shapes", shapes }`, a set of shapes by their numbers
- * - `{ kind: "rest" }`, all shapes that the other group does not have.
+ * The address of the Compare page with two groups beside each other.
+ * @param {Database} database
+ * @param {GroupSpec} a
+ * @param {GroupSpec} b
  */
 export function compareAddress(database, a, b) {
   const query = new URLSearchParams();
@@ -39,6 +52,11 @@ export function compareAddress(database, a, b) {
   return pageAddress("compare.html", query);
 }
 
+/**
+ * @param {Database} database
+ * @param {Likest} neighbours
+ * @returns {Ways}
+ */
 function twoGroups(database, neighbours) {
   return {
     read(query) {
@@ -59,6 +77,12 @@ function twoGroups(database, neighbours) {
   };
 }
 
+/**
+ * @param {URLSearchParams} query
+ * @param {Database} database
+ * @param {string} name
+ * @param {GroupSpec} group
+ */
 function writeGroup(query, database, name, group) {
   if (group.kind === "class") query.set(name, `class:${database.classes[group.group]}`);
   else if (group.kind === "cluster") query.set(name, `cluster:${group.name}`);
@@ -70,7 +94,13 @@ function writeGroup(query, database, name, group) {
   for (const [key, value] of own) query.append(`${name}-${key}`, value);
 }
 
-/** The group that an address names; null where it names none, or one that is no longer there. */
+/**
+ * The group that an address names; null where it names none, or one that is no longer there.
+ * @param {URLSearchParams} query
+ * @param {Database} database
+ * @param {string} name
+ * @returns {GroupSpec | null}
+ */
 function readGroup(query, database, name) {
   const word = query.get(name) ?? "";
   const [kind, rest] = [word.split(":", 1)[0], word.slice(word.indexOf(":") + 1)];
@@ -89,9 +119,15 @@ function readGroup(query, database, name) {
   return kind === "search" && rest !== "" ? { kind, text: rest } : null;
 }
 
-/** The groups that a page opens with: the two classes that are most alike, which are the hardest to tell apart. */
+/**
+ * The groups that a page opens with: the two classes that are most alike, which are the hardest to tell apart.
+ * @param {Database} database
+ * @param {Likest} neighbours
+ * @returns {{ a: GroupSpec | null, b: GroupSpec | null }}
+ */
 function firstGroups(database, neighbours) {
   if (database.classes.length === 0) return { a: null, b: null };
+  /** @type {{ a: GroupSpec, b: GroupSpec }} */
   const single = { a: { kind: "class", group: 0 }, b: { kind: "rest" } };
   if (database.classes.length === 1) return single;
   const [pair] = neighbours.likest();

@@ -4,8 +4,15 @@ import { Address, choice } from "../base/address.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
+/** @import { Database } from "../database/database.js" */
+/** @import { Subsets } from "../database/subsets.js" */
+
 const COLORS = ["class", "hit"];
 
+/**
+ * @param {Subsets} subsets
+ * @param {Database} database
+ */
 export function featuresAddress(subsets, database) {
   const everyone = subsets.labelled ? 0 : subsets.everything;
   const sizes = subsets.data.greedy.map(({ s }) => s);
@@ -19,8 +26,8 @@ export function featuresAddress(subsets, database) {
       name: "s",
       key: "s",
       kind: {
-        read: ([word]) => (word === "none" ? null : sizes.find((s) => s === Number(word))),
-        write: (s) => [String(s ?? "none")],
+        read: (/** @type {string[]} */ [word]) => (word === "none" ? null : sizes.find((s) => s === Number(word))),
+        write: (/** @type {number | null} */ s) => [String(s ?? "none")],
       },
       standard: sizes[0] ?? null,
     },

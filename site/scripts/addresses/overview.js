@@ -5,8 +5,12 @@ import { pageAddress } from "../base/place.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
+/** @import { Kind, Ways } from "../base/address.js" */
+/** @import { Database } from "../database/database.js" */
+
 const VIEWS = ["class", "hit", "thumbnail"];
 
+/** @param {Database} database */
 export function overviewAddress(database) {
   return new Address([
     { names: ["method", "features"], ...mapOfFeatures(database) },
@@ -19,12 +23,19 @@ export function overviewAddress(database) {
   ]);
 }
 
-/** The address of a subset's map on the Overview. */
+/**
+ * The address of a subset's map on the Overview.
+ * @param {string[]} names
+ */
 export function subsetAddress(names) {
   return pageAddress("index.html", { features: joinNames(names) });
 }
 
-/** A map, and the features that it is of where these are a subset: one that was searched, whatever else is said. */
+/**
+ * A map, and the features that it is of where these are a subset: one that was searched, whatever else is said.
+ * @param {Database} database
+ * @returns {Ways}
+ */
 function mapOfFeatures(database) {
   const { subsets } = database.data;
   return {
@@ -43,6 +54,10 @@ function mapOfFeatures(database) {
   };
 }
 
+/**
+ * @param {Database} database
+ * @returns {Ways}
+ */
 function hiddenClasses({ classes }) {
   return {
     read: (query) => {
@@ -61,6 +76,7 @@ function hiddenClasses({ classes }) {
   };
 }
 
+/** @type {Kind} */
 const camera = {
   read([word = ""]) {
     const numbers = word.split(",").map(Number);
@@ -68,5 +84,7 @@ const camera = {
     const [x, y, zoom] = numbers;
     return { x, y, zoom };
   },
-  write: ({ x, y, zoom }) => [[x, y, zoom].map((value) => Number(value.toPrecision(5))).join(",")],
+  write: ({ x, y, zoom }) => [
+    [x, y, zoom].map((/** @type {number} */ value) => Number(value.toPrecision(5))).join(","),
+  ],
 };

@@ -2,7 +2,14 @@
 
 import { readSelection, writeSelection } from "../database/selection.js";
 
-/** A row of every such address. */
+/** @import { Ways } from "../base/address.js" */
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * A row of every such address.
+ * @param {Database} database
+ * @returns {Ways & { name: "selection" }}
+ */
 export function selected(database) {
   return {
     name: "selection",
@@ -11,7 +18,10 @@ export function selected(database) {
   };
 }
 
-/** The same where a brush changes it with every movement of the pointer. */
+/**
+ * The same where a brush changes it with every movement of the pointer.
+ * @param {Database} database
+ */
 export function brushed(database) {
   return { ...selected(database), often: true };
 }

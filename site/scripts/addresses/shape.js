@@ -5,9 +5,14 @@ import { Address, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { selected } from "./selected.js";
 
+/** @import { Ways } from "../base/address.js" */
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+
 /**
  * Features and bins stay text here: which ones there are is only known with the features themselves, which are large
  * and come later. `unknown` is an id that the database does not have.
+ * @param {Database} database
  */
 export function shapePageAddress(database) {
   return new Address([
@@ -21,17 +26,27 @@ export function shapePageAddress(database) {
   ]);
 }
 
-/** The address of another shape's page, seen in the same way. */
+/**
+ * The address of another shape's page, seen in the same way.
+ * @param {Database} database
+ * @param {State} state
+ * @param {number} shape
+ */
 export function shapeAddress(database, state, shape) {
+  /** @param {string} name */
   const get = (name) => (name === "shape" ? shape : state.get(name));
   return pageAddress("shape.html", shapePageAddress(database).write({ get }));
 }
 
+/**
+ * @param {Database} database
+ * @returns {Ways}
+ */
 function shapeOrUnknown(database) {
   return {
     read(query) {
       const id = query.get("id");
-      const shape = database.indexOfId.get(id) ?? null;
+      const shape = database.indexOfId.get(id ?? "") ?? null;
       return { shape, unknown: shape === null ? id : null };
     },
     write(query, { shape, unknown }) {

@@ -6,12 +6,26 @@ import { NONE } from "../database/fields.js";
 import { readSelection, writeSelection } from "../database/selection.js";
 import { brushed } from "./selected.js";
 
+/** @import { Ways } from "../base/address.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Field, Fields } from "../database/fields.js" */
+
+/**
+ * A filter of a field: values, or nodes of its tree, by their numbers; or a range. It is never changed, only replaced.
+ * @typedef {Set<number> | { low: number, high: number }} Filter
+ */
+
 export const SIZES = { least: 56, usual: 148, most: 320 };
 
 /** What each filter's parameter starts with; the key of its field follows. */
 const [IS, LACKS, RANGE] = ["is.", "lacks.", "range."];
 
+/**
+ * @param {Database} database
+ * @param {Fields} fields
+ */
 export function galleryAddress(database, fields) {
+  /** @param {Field[]} some */
   const keys = (some) => some.map(({ key }) => key);
   const usualGroup = database.separable ? (fields.active?.key ?? "") : "";
   return new Address([
@@ -28,33 +42,59 @@ export function galleryAddress(database, fields) {
   ]);
 }
 
-/** The address of the gallery with some shapes selected, and none but these shown. */
+/**
+ * The address of the gallery with some shapes selected, and none but these shown.
+ * @param {Database} database
+ * @param {Set<number>} shapes
+ */
 export function galleryOf(database, shapes) {
   const query = new URLSearchParams([["only", ""]]);
   writeSelection(query, database, shapes);
   return pageAddress("shapes.html", query);
 }
 
-/** None but the selected shapes, where there are some. */
+/**
+ * None but the selected shapes, where there are some.
+ * @param {Database} database
+ */
 function onlySelected(database) {
   return {
+    /** @param {URLSearchParams} query */
     read: (query) => query.has("only") && readSelection(query, database).size > 0,
+    /** @param {URLSearchParams} query */
     write: (query) => query.set("only", ""),
   };
 }
 
+/**
+ * @param {Fields} fields
+ * @returns {Ways}
+ */
 function filters(fields) {
   return {
+    /** @param {URLSearchParams} query */
     read(query) {
-      const found = fields.filters.map((field) => [field.key, readFilter(query, field)]);
-      return new Map(found.filter(([, filter]) => filter !== null));
+      /** @type {Map<string, Filter>} */
+      const found = new Map();
+      for (const field of fields.filters) {
+        const filter = readFilter(query, field);
+        if (filter !== null) found.set(field.key, filter);
+      }
+      return found;
     },
     write(query, all) {
-      for (const [key, filter] of all) writeFilter(query, fields.byKey.get(key), filter);
+      for (const [key, filter] of all) {
+        const field = fields.byKey.get(key);
+        if (field) writeFilter(query, field, filter);
+      }
     },
   };
 }
 
+/**
+ * @param {URLSearchParams} query
+ * @param {Field} field
+ */
 function readFilter(query, field) {
   const range = (query.get(RANGE + field.key) ?? "").split("..").map(Number);
   if (field.edges !== null && range.length === 2 && range.every(Number.isFinite))
@@ -63,11 +103,17 @@ function readFilter(query, field) {
   const values = query
     .getAll(IS + field.key)
     .map((name) => namedValue(field, name))
-    .filter((value) => value !== undefined && value !== NONE);
+    .filter((value) => value !== undefined)
+    .filter((value) => value !== NONE);
   if (query.has(LACKS + field.key)) values.push(NONE);
   return values.length > 0 ? new Set(values) : null;
 }
 
+/**
+ * @param {URLSearchParams} query
+ * @param {Field} field
+ * @param {Filter} filter
+ */
 function writeFilter(query, field, filter) {
   if (!(filter instanceof Set)) {
     query.set(RANGE + field.key, `${filter.low}..${filter.high}`);
@@ -79,14 +125,21 @@ function writeFilter(query, field, filter) {
   }
 }
 
-/** A value by its name, a node by the names that lead to it. */
+/**
+ * A value by its name, a node by the names that lead to it.
+ * @param {Field} field
+ * @param {number} value
+ */
 function nameInAddress(field, value) {
-  return field.tree === null ? field.names[value] : field.tree.ways[value].map(encodeURIComponent).join("/");
+  return field.tree === null ? (field.names?.[value] ?? "") : field.tree.ways[value].map(encodeURIComponent).join("/");
 }
 
+/**
+ * @param {Field} field
+ * @param {string} name
+ */
 function namedValue(field, name) {
-  field.numberOfName ??= new Map(
-    (field.tree?.nodes ?? field.names ?? []).map((_, value) => [nameInAddress(field, value), value]),
-  );
+  const { length } = field.tree?.nodes ?? field.names ?? [];
+  field.numberOfName ??= new Map(Array.from({ length }, (_, value) => [nameInAddress(field, value), value]));
   return field.numberOfName.get(name);
 }

@@ -5,6 +5,9 @@ import { readShortNames, shortNames } from "./bin-names.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
+/** @import { Ways } from "../base/address.js" */
+/** @import { Database } from "../database/database.js" */
+
 const PROJECTIONS = ["tsne", "umap"];
 const COLORS = ["class", "hit"];
 
@@ -14,7 +17,11 @@ export const DEFAULT_SCORER = "rfe";
 /** All classes in use, each from the rest: what a reader who asks nothing in particular wants to know. */
 export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true });
 
-/** What is in use makes a step of the work. */
+/**
+ * What is in use makes a step of the work.
+ * @param {Database} database
+ * @param {Chunk.Workbench} data
+ */
 export function workAddress(database, data) {
   const method = PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0];
   return new Address([
@@ -29,12 +36,20 @@ export function workAddress(database, data) {
   ]);
 }
 
-/** Whether a site of chosen bins is made from just these. */
+/**
+ * Whether a site of chosen bins is made from just these.
+ * @param {Set<number>} bins
+ * @param {number[] | null} ofSite
+ */
 export function isSame(bins, ofSite) {
   return ofSite !== null && bins.size === ofSite.length && ofSite.every((column) => bins.has(column));
 }
 
-/** The classes that are not in use; named are these or the others, whichever are fewer. */
+/**
+ * The classes that are not in use; named are these or the others, whichever are fewer.
+ * @param {Database} database
+ * @returns {Ways}
+ */
 function classesInUse(database) {
   const everyone = [...database.sizes.keys()].sort((a, b) => a - b);
   return {
@@ -59,9 +74,14 @@ function classesInUse(database) {
   };
 }
 
-/** The features in use, and the chosen ones of their bins; bins of the site where the address names none. */
+/**
+ * The features in use, and the chosen ones of their bins; bins of the site where the address names none.
+ * @param {Chunk.Workbench} data
+ * @returns {Ways}
+ */
 function binsInUse({ features, bins: ofSite }) {
   const names = features.map(({ name }) => name);
+  /** @param {number} column */
   const featureOf = (column) => features.findLastIndex(({ start }) => start <= column);
   return {
     read(query) {
@@ -81,9 +101,22 @@ function binsInUse({ features, bins: ofSite }) {
   };
 }
 
-/** Which classes are to be told apart from which, each for itself or together. */
+/**
+ * Which classes are to be told apart from which, each for itself or together.
+ * @param {Database} database
+ * @returns {Ways}
+ */
 function separation(database) {
+  /**
+   * @param {URLSearchParams} query
+   * @param {string} key
+   */
   const read = (query, key) => (query.has(key) ? new Set(classesNamed(query, key, database)) : null);
+  /**
+   * @param {URLSearchParams} query
+   * @param {string} key
+   * @param {Set<number> | null} groups
+   */
   const write = (query, key, groups) => {
     for (const group of groups ?? []) query.append(key, database.classes[group]);
     if (groups?.size === 0) query.set(key, "");
@@ -102,6 +135,11 @@ function separation(database) {
   };
 }
 
+/**
+ * @param {URLSearchParams} query
+ * @param {string} key
+ * @param {Database} database
+ */
 function classesNamed(query, key, { classes }) {
   return query
     .getAll(key)

@@ -16,7 +16,8 @@ import { axisEnd } from "./bin-bars.js";
  * @property {string} scorer its title
  * @property {number[]} separated classes in use by their numbers: those to be separated,
  * @property {number[]} others and the others
- * ¦ A class, or all shapes, with the sorted values of a bin.
+ *
+ * A class, or all shapes, with the sorted values of a bin.
  * @typedef {object} Row
  * @property {boolean} apart whether it is to be separated
  * @property {string} name

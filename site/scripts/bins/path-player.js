@@ -120,12 +120,13 @@ export class PathPlayer {
         const { width, height } = this.plot.view;
         overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
         // Names come when the shapes have arrived.
-        if (!this.maps.includes(this.plot.map)) {
+        const map = this.maps.find((own) => own === this.plot.map);
+        if (map === undefined) {
           labels.clear();
           return;
         }
         const points = database.ids.flatMap((_, index) => {
-          if (Number.isNaN(this.plot.map.x[index])) return [];
+          if (Number.isNaN(map.x[index])) return [];
           const [x, y] = this.plot.screen(index);
           return [{ index, group: database.groups[index], x, y }];
         });

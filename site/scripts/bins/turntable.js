@@ -164,11 +164,13 @@ export class Turntable {
    */
   #share(index) {
     const bin = this.state.get("bin");
-    if (this.scale?.bin !== bin) {
+    let scale = this.scale;
+    if (scale === null || scale.bin !== bin) {
       const values = Array.from({ length: this.bins.rows }, (_, row) => this.bins.share(bin, row));
       const [low, high] = [Math.min(...values), Math.max(...values)];
-      this.scale = { bin, shares: values.map((value) => (high > low ? (value - low) / (high - low) : 0)) };
+      scale = { bin, shares: values.map((value) => (high > low ? (value - low) / (high - low) : 0)) };
+      this.scale = scale;
     }
-    return this.scale.shares[index];
+    return scale.shares[index];
   }
 }

@@ -4,9 +4,10 @@ import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
 import { isSame, nameOf } from "./groups.js";
 
+/** @import { GroupSpec } from "../addresses/compare.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
-/** @import { GroupSpec, Side } from "./groups.js" */
+/** @import { Side } from "./groups.js" */
 
 /** @typedef {{ spec: GroupSpec, text: string }} Offer */
 

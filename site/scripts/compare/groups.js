@@ -4,21 +4,21 @@ import { swatch } from "../base/dom.js";
 import { shortened } from "../base/words.js";
 import { findWords, searchTexts } from "../database/search.js";
 
+/** @import { GroupSpec } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
 
 /**
- * What a group is of: a class, a cluster, what a search finds, some shapes, or all others.
- * @typedef {{ kind: "class", group: number } | { kind: "cluster", name: string } | { kind: "search", text: string }
- *   | { kind: "shapes", shapes: Set<number> } | { kind: "rest" }} GroupSpec
- * ¦ @typedef {"a" | "b"} Side
- * ¦ How a group is called and marked.
+ * @typedef {"a" | "b"} Side
+ *
+ * How a group is called and marked.
  * @typedef {object} Look
  * @property {GroupSpec} spec
  * @property {Side} side
  * @property {string} name
  * @property {() => string} color
  * @property {() => SVGElement} mark
- * ¦ @typedef {Look & { shapes: number[] }} Group
+ *
+ * @typedef {Look & { shapes: number[] }} Group
  */
 
 const LONGEST = 40;

@@ -19,7 +19,8 @@ import { highestOf } from "./hit-range.js";
  * @property {boolean} [hit] whether it is a neighbourhood hit
  * @property {(row: number) => number | null} [highest] what a hit can be
  * @property {Map<string, number>} [numberOfName] values by their names in an address
- * ¦ @typedef {Chunk.Field & OwnField} Field
+ *
+ * @typedef {Chunk.Field & OwnField} Field
  * @typedef {Chunk.Tree & { ways: string[][] }} FieldTree with the names from the top down to each of its nodes
  */
 

@@ -5,7 +5,8 @@
  * @typedef {{ progress: number, partial?: any }} Progress
  * @typedef {(report: Progress) => void} Listener
  * @typedef {{ resolve: (result: any) => void, reject: (error: Error) => void, onProgress: Listener }} Waiting
- * ¦ A task at work; `done` rejects with Cancelled after `cancel()`, else with the error that ended the task.
+ *
+ * A task at work; `done` rejects with Cancelled after `cancel()`, else with the error that ended the task.
  * @template [Result=any]
  * @typedef {{ done: Promise<Result>, cancel: () => void }} Job
  */

@@ -5,9 +5,11 @@ import { Random } from "./random.js";
 /**
  * Two groups of rows without a common one, and how often they are dealt out anew.
  * @typedef {{ first: Int32Array | number[], second: Int32Array | number[], shuffles: number }} Contest
- * ¦ The values of a table, and what a squared difference in each feature counts.
+ *
+ * The values of a table, and what a squared difference in each feature counts.
  * @typedef {{ rows: number, values: Float32Array, blocks: Int32Array, weights: number[] }} Given
- * ¦ The columns of both groups, first group first, and their spread; `totals` by feature, last of all.
+ *
+ * The columns of both groups, first group first, and their spread; `totals` by feature, last of all.
  * @typedef {object} Standard
  * @property {Float32Array} points
  * @property {Float64Array} spread
@@ -16,13 +18,15 @@ import { Random } from "./random.js";
  * @property {number} columns
  * @property {number} count
  * @property {number} features
- * ¦ A share of the spread, beside what groups dealt at random have.
+ *
+ * A share of the spread, beside what groups dealt at random have.
  * @typedef {object} Share
  * @property {number} share
  * @property {number} chance mean of the deals
  * @property {number} limit exceeded in one of a hundred
  * @property {number} exceeding share of deals, the observed one included, that reach it
- * ¦ @typedef {object} Contrast
+ *
+ * @typedef {object} Contrast
  * @property {Float64Array} effect a column's share of the spread between the groups, eta squared: (difference of the means)²
  *   in relation to all squared deviations from the common mean; positive where the first group has more
  * @property {number} limit what the largest effect of any column exceeds in one of a hundred deals

@@ -8,6 +8,10 @@ import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
 import { watchColors, watchDrag, watchMapKeys } from "./controls.js";
 import { shown } from "./subset-map.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Subsets } from "../database/subsets.js" */
+
 /** What the state has of the map at first. */
 export function nothingShown() {
   return {
@@ -22,6 +26,15 @@ export function nothingShown() {
 }
 
 export class ChosenMap {
+  /** @type {MapView} */
+  view;
+
+  /**
+   * @param {Database} database
+   * @param {Subsets} subsets
+   * @param {State} state
+   * @param {(text: string) => void} announce
+   */
   constructor(database, subsets, state, announce) {
     this.database = database;
     this.subsets = subsets;
@@ -29,7 +42,10 @@ export class ChosenMap {
     this.announce = announce;
   }
 
-  /** Mark a shape, or no longer. */
+  /**
+   * Mark a shape, or no longer.
+   * @param {number} shape
+   */
   toggle(shape) {
     this.state.set({ opened: shape === this.state.get("opened") ? null : shape });
   }

@@ -2,7 +2,13 @@
 
 import { currentTheme, styleColor } from "../base/theme.js";
 
-/** Gives the colours in the theme in use: of the features, of charts, and of what is drawn beside them. */
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * Gives the colours in the theme in use: of the features, of charts, and of what is drawn beside them.
+ * @param {Chunk.Search} search
+ * @param {Database} database
+ */
 export function hues(search, database) {
   return () => ({
     ...search.marks[currentTheme()],
@@ -13,7 +19,11 @@ export function hues(search, database) {
   });
 }
 
-/** Colour what the template marks as of a feature. */
+/**
+ * Colour what the template marks as of a feature.
+ * @param {{ features: string[] }} hues
+ */
 export function paintHues({ features }) {
-  for (const mark of document.querySelectorAll("[data-hue]")) mark.style.background = features[mark.dataset.hue];
+  for (const mark of document.querySelectorAll("[data-hue]"))
+    mark.style.background = features[Number(mark.dataset.hue)];
 }

@@ -4,13 +4,20 @@ import { element, picture, swatch } from "../base/dom.js";
 import { figure, shortened } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database, Method, ShapeMap } from "../database/database.js" */
+/** @import { MapView } from "./map.js" */
+
 const MOST_CLASSES = 4;
 
 export class Card {
+  /** @param {State} state */
   constructor(state) {
     this.state = state;
     this.node = document.getElementById("card");
+    /** @type {number | null} */
     this.shown = null;
+    /** @type {ShapeMap | null} */
     this.map = null;
     state.listen((changed) => {
       if (changed.has("theme")) this.shown = null;
@@ -20,15 +27,22 @@ export class Card {
   }
 
   #show() {
+    /** @type {number | null} */
     const index = this.state.get("pointed");
+    /** @type {MapView | null} */
     const view = this.state.get("pointedFrom");
-    this.node.hidden = index === null || !view.scene.visible(index);
-    if (this.node.hidden) return;
+    this.node.hidden = index === null || !view?.scene.visible(index);
+    if (index === null || !view || this.node.hidden) return;
     const map = view.database.methods[view.scene.target];
     if (this.shown !== index || this.map !== map) this.#fill(index, view.database, map);
-    this.#place(index);
+    this.#place(index, view);
   }
 
+  /**
+   * @param {number} index
+   * @param {Database} database
+   * @param {Method} map
+   */
   #fill(index, database, map) {
     [this.shown, this.map] = [index, map];
     const group = database.groups[index];
@@ -61,8 +75,11 @@ export class Card {
     );
   }
 
-  #place(index) {
-    const view = this.state.get("pointedFrom");
+  /**
+   * @param {number} index
+   * @param {MapView} view
+   */
+  #place(index, view) {
     const box = view.surface.getBoundingClientRect();
     const [x, y] = view.screen(index);
     const { offsetWidth: width, offsetHeight: height } = this.node;
@@ -74,7 +91,11 @@ export class Card {
   }
 }
 
-/** The mark and the name of a class. */
+/**
+ * The mark and the name of a class.
+ * @param {Database} database
+ * @param {number} group
+ */
 export function classLine(database, group) {
   return element(
     "p",

@@ -1,11 +1,16 @@
 // The marks of a linked map where its chart would take too long: while they move, and where they are very many.
 
 import { element } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 import { reachOf } from "../database/hit-range.js";
 import { FADED, FULL, Marks } from "./marks.js";
 import { CHOSEN, FAINT, NORMAL } from "./scene.js";
 
+/** @import { MapView } from "./map.js" */
+/** @import { Emphasis } from "./scene.js" */
+
 /** From faint to chosen, so that nothing lies on what the reader looks for. */
+/** @type {Emphasis[]} */
 const LEVELS = [FAINT, NORMAL, CHOSEN];
 
 /** Among pictures, dots keep in the background. */
@@ -16,8 +21,10 @@ const MOST_PICTURES_KEPT = 1500;
 
 export class Dots {
   #marks = new Marks({ class: "dots", hidden: true, "aria-hidden": "true" });
+  /** @type {Map<number, HTMLImageElement>} */
   #pictures = new Map();
 
+  /** @param {MapView} view */
   constructor(view) {
     this.view = view;
     view.node.after(this.#marks.node);
@@ -46,6 +53,7 @@ export class Dots {
     if (!this.#marks.node.hidden) this.#show(false);
   }
 
+  /** @param {boolean} drawn */
   #show(drawn) {
     this.#marks.node.hidden = !drawn;
     this.view.node.style.visibility = drawn ? "hidden" : "";
@@ -54,6 +62,8 @@ export class Dots {
   /**
    * The shapes of a level of emphasis that are in view, each with its place.
    * @returns {Generator<[number, [number, number]]>}
+   * @param {Emphasis} level
+   * @param {number} reach
    */
   *#placesAt(level, reach) {
     const { scene, width, height } = this.view;
@@ -66,13 +76,19 @@ export class Dots {
     }
   }
 
-  /** The stamp of a shape: each kind is looked up once, for all shapes that are of it. */
+  /**
+   * The stamp of a shape: each kind is looked up once, for all shapes that are of it.
+   * @param {number} radius
+   * @returns {(index: number) => ImageData}
+   */
   #stamps(radius) {
     const { view } = this;
     const { database, scene } = view;
     const { marks } = database;
     const { symbols, plain } = database.data.marks;
+    /** @returns {[string, string]} */
     const none = () => [plain, marks.unlabelled];
+    /** @type {Record<MapView["name"], [(index: number) => number | null, (kind: any) => [string, string]]>} */
     const kinds = {
       class: [
         (index) => database.groups[index],
@@ -86,14 +102,11 @@ export class Dots {
     };
     const [kindOf, look] = kinds[view.name];
     const outline = view.name === "thumbnail" ? null : marks.outline;
+    /** @type {Map<number | null, ImageData>} */
     const found = new Map();
     return (index) => {
       const kind = kindOf(index);
-      if (!found.has(kind)) {
-        const [path, color] = look(kind);
-        found.set(kind, this.#marks.stamp(path, color, radius, outline));
-      }
-      return found.get(kind);
+      return entry(found, kind, () => this.#marks.stamp(...look(kind), radius, outline));
     };
   }
 
@@ -109,31 +122,41 @@ export class Dots {
     }
   }
 
+  /** @param {number} index */
   #picture(index) {
-    if (!this.#pictures.has(index)) {
-      if (this.#pictures.size >= MOST_PICTURES_KEPT) this.#pictures.clear();
-      this.#pictures.set(
-        index,
-        element("img", {
-          src: this.view.database.picture(index),
-          decoding: "async",
-          onload: () => this.view.scene.draw(),
-        }),
-      );
-    }
-    return this.#pictures.get(index);
+    if (this.#pictures.size >= MOST_PICTURES_KEPT && !this.#pictures.has(index)) this.#pictures.clear();
+    return entry(this.#pictures, index, () =>
+      element("img", {
+        src: this.view.database.picture(index),
+        decoding: "async",
+        onload: () => this.view.scene.draw(),
+      }),
+    );
   }
 }
 
-/** The colour of a neighbourhood hit, between those of the ramp. */
+/**
+ * The colour of a neighbourhood hit, between those of the ramp.
+ * @param {string[]} ramp
+ * @param {number} hit
+ */
 function shade(ramp, hit) {
   const place = hit * (ramp.length - 1);
   const low = Math.min(Math.floor(place), ramp.length - 2);
   return mixed(ramp[low], ramp[low + 1], place - low);
 }
 
-/** A colour between two, which are written as #rrggbb. */
+/**
+ * A colour between two, which are written as #rrggbb.
+ * @param {string} one
+ * @param {string} other
+ * @param {number} share
+ */
 function mixed(one, other, share) {
+  /**
+   * @param {string} color
+   * @param {number} at
+   */
   const part = (color, at) => Number.parseInt(color.slice(at, at + 2), 16);
   return `rgb(${[1, 3, 5].map((at) => Math.round(part(one, at) + share * (part(other, at) - part(one, at)))).join(" ")})`;
 }

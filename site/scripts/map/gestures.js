@@ -3,7 +3,18 @@
 import { toggled } from "../database/selection.js";
 import { ShapeBrush } from "./brush.js";
 
+/** @import { Fingers, Place } from "./brush.js" */
+/** @import { MapView } from "./map.js" */
+/** @import { Camera } from "./scene.js" */
+
 export class Gestures extends ShapeBrush {
+  /**
+   * @param {MapView} view
+   * @param {object} ways
+   * @param {(index: number) => void} ways.open is told of the shape that is clicked
+   * @param {(name: string) => void} ways.promote of a small map that is to be the large one
+   * @param {(index: number) => void} ways.announce of the shape that keys went to
+   */
   constructor(view, { open, promote, announce }) {
     super(view.surface, view.brush, view, view.state);
     this.view = view;
@@ -26,12 +37,20 @@ export class Gestures extends ShapeBrush {
     return this.scene.camera();
   }
 
+  /**
+   * @param {Place} place
+   * @param {PointerEvent} event
+   */
   hover(place, { pointerType }) {
     const index = this.view.at(...place, pointerType === "mouse" ? 6 : 14);
     this.surface.classList.toggle("on-shape", index !== null);
     this.state.set({ pointed: index, pointedFrom: this.view });
   }
 
+  /**
+   * @param {Place} place
+   * @param {PointerEvent} event
+   */
   click(place, { pointerType, shiftKey }) {
     const index = this.view.at(...place, pointerType === "mouse" ? 6 : 16);
     if (!this.view.large) this.promote(this.view.name);
@@ -40,12 +59,22 @@ export class Gestures extends ShapeBrush {
     else this.state.set({ selection: new Set() });
   }
 
+  /**
+   * @param {Place} from
+   * @param {Place} to
+   * @param {Camera} camera
+   */
   move([fromX, fromY], [toX, toY], camera) {
     const { scale } = this.view;
     this.state.set({ pointed: null });
     this.scene.look({ ...camera, x: camera.x - (toX - fromX) / scale, y: camera.y + (toY - fromY) / scale });
   }
 
+  /**
+   * @param {Fingers} before
+   * @param {Fingers} now
+   * @param {Camera} camera
+   */
   pinch(before, now, camera) {
     const zoom = (camera.zoom * now.spread) / before.spread;
     const whole = this.view.scale / this.scene.camera().zoom;
@@ -60,10 +89,12 @@ export class Gestures extends ShapeBrush {
     });
   }
 
+  /** @param {number} index */
   #toggle(index) {
     this.state.set({ selection: toggled(this.state.get("selection"), index) });
   }
 
+  /** @param {WheelEvent} event */
   #wheel(event) {
     // Where the page itself scrolls, the wheel belongs to it unless the reader asks for zoom.
     const scrolls = document.documentElement.scrollHeight > window.innerHeight + 1;
@@ -73,7 +104,11 @@ export class Gestures extends ShapeBrush {
     this.zoom(Math.exp((-event.deltaY * lines * (event.ctrlKey ? 4 : 1)) / 500), this.placeOf(event));
   }
 
-  /** Zoom by a factor with one place of the screen held still; the middle unless another is given. */
+  /**
+   * Zoom by a factor with one place of the screen held still; the middle unless another is given.
+   * @param {number} factor
+   * @param {Place} [place]
+   */
   zoom(factor, place = [this.view.width / 2, this.view.clearHeight / 2]) {
     const camera = this.scene.camera();
     const zoom = Math.min(Math.max(camera.zoom * factor, 1), 40);
@@ -82,8 +117,10 @@ export class Gestures extends ShapeBrush {
     this.scene.look({ x: x + (camera.x - x) * keep, y: y + (camera.y - y) * keep, zoom });
   }
 
+  /** @param {KeyboardEvent} event */
   #key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    /** @type {Record<string, Place>} */
     const directions = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
     const pointed = this.state.get("pointed");
     if (event.key in directions) {
@@ -98,17 +135,22 @@ export class Gestures extends ShapeBrush {
     event.preventDefault();
   }
 
+  /** @param {Place} way */
   #pan([dx, dy]) {
     const camera = this.scene.camera();
     const step = 80 / this.view.scale;
     this.scene.look({ ...camera, x: camera.x + dx * step, y: camera.y - dy * step });
   }
 
-  /** Go to the nearest shape that lies more in a direction than beside it. */
+  /**
+   * Go to the nearest shape that lies more in a direction than beside it.
+   * @param {Place} way
+   */
   #step([dx, dy]) {
     const { view, scene } = this;
     const from = this.state.get("pointed");
     const [x, y] = from === null ? [view.width / 2, view.clearHeight / 2] : view.screen(from);
+    /** @type {[number | null, number]} */
     let [best, least] = [null, Infinity];
     for (let index = 0; index < view.database.count; index += 1) {
       if (index === from || !scene.visible(index)) continue;

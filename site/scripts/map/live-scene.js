@@ -5,6 +5,13 @@ import { calm } from "../base/dom.js";
 import { bounds } from "../database/database.js";
 import { Scene } from "./scene.js";
 
+/** @import { Bounds, ShapeMap } from "../database/database.js" */
+
+/**
+ * Where shapes are going: two numbers a shape, no numbers for one that is not on the map.
+ * @typedef {{ x: ArrayLike<number>, y: ArrayLike<number> }} Places
+ */
+
 /** In this many milliseconds a shape goes two thirds of its way. */
 const PACE = 70;
 
@@ -15,17 +22,27 @@ export class LiveScene extends Scene {
   /** Whether shapes are on their way; views then draw moving marks and leave the chart alone. */
   moving = false;
 
+  /** @type {(Places & { bounds: Bounds }) | null} */
   #goal = null;
-  #last = false;
+  /** @type {ShapeMap | null} the finished map, once there is one */
+  #last = null;
+  /** @type {number | null} */
   #frame = null;
   #time = 0;
 
-  /** Where a layout in progress has the shapes: two numbers a shape, no numbers for one that is not on the map. */
+  /**
+   * Where a layout in progress has the shapes.
+   * @param {ArrayLike<number>} x
+   * @param {ArrayLike<number>} y
+   */
   stream(x, y) {
     if (!calm()) this.#glide({ x, y }, null);
   }
 
-  /** The finished map, as the database has maps. */
+  /**
+   * The finished map, as the database has maps.
+   * @param {ShapeMap} map
+   */
   show(map) {
     if (calm()) this.#arrive(map);
     else this.#glide(map, map);
@@ -36,6 +53,10 @@ export class LiveScene extends Scene {
     if (this.moving) this.show(this.database.methods[this.target]);
   }
 
+  /**
+   * @param {Places} goal
+   * @param {ShapeMap | null} last
+   */
   #glide(goal, last) {
     if (this.#goal === null) this.state.set({ [this.cameraName]: null });
     this.#goal = { ...goal, bounds: bounds(goal) };
@@ -57,7 +78,7 @@ export class LiveScene extends Scene {
     const now = performance.now();
     const share = 1 - Math.exp(-Math.max(now - this.#time, 1) / PACE);
     this.#time = now;
-    const goal = this.#goal;
+    const goal = /** @type {Places & { bounds: Bounds }} */ (this.#goal);
     let farthest = 0;
     for (let index = 0; index < this.x.length; index += 1) {
       const [dx, dy] = [goal.x[index] - this.x[index], goal.y[index] - this.y[index]];
@@ -65,6 +86,7 @@ export class LiveScene extends Scene {
       this.y[index] += share * dy;
       farthest = Math.max(farthest, Math.abs(dx) || 0, Math.abs(dy) || 0);
     }
+    /** @param {keyof Bounds} name */
     const mix = (name) => this.bounds[name] + share * (goal.bounds[name] - this.bounds[name]);
     this.bounds = { x: mix("x"), y: mix("y"), width: mix("width"), height: mix("height") };
     if (this.#last && farthest < STILL * Math.max(goal.bounds.width, goal.bounds.height)) {
@@ -75,6 +97,7 @@ export class LiveScene extends Scene {
     this.#frame = requestAnimationFrame(() => this.#step());
   }
 
+  /** @param {ShapeMap} map */
   #arrive(map) {
     if (this.#frame !== null) cancelAnimationFrame(this.#frame);
     this.#frame = null;

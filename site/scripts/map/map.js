@@ -2,17 +2,29 @@
 
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 import { Dots } from "./dots.js";
 import { Labels } from "./labels.js";
 import { CHOSEN, crowded } from "./scene.js";
 
+/** @import { Scene } from "./scene.js" */
+
+/** @typedef {"class" | "hit" | "thumbnail"} MapName what its marks tell */
+
 export class MapView {
+  width = 0;
+  height = 0;
+
+  /**
+   * @param {Scene} scene
+   * @param {Found} figure
+   */
   constructor(scene, figure) {
     this.scene = scene;
     this.database = scene.database;
     this.state = scene.state;
     this.figure = figure;
-    this.name = figure.dataset.view;
+    this.name = /** @type {MapName} */ (figure.dataset.view);
     this.surface = figure.querySelector(".surface");
     this.node = element("div", { class: "chart", "aria-hidden": "true" });
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
@@ -22,11 +34,19 @@ export class MapView {
     this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
     this.brush = this.overlay.appendChild(svg("rect", { class: "brush" }));
     this.surface.append(this.node, this.overlay);
+    /** @type {boolean[]} */
     this.pictured = [];
+    /** @type {Map<string, any>} */
     this.sent = new Map();
     this.started = false;
+    /** @type {Dots | null} */
     this.dots = null;
+    /** @type {number[] | null} */
     this.order = null;
+    /** @type {any} Vega's view, where a chart draws the map */
+    this.vega = null;
+    this.running = false;
+    this.stale = false;
     this.measure();
   }
 
@@ -78,6 +98,7 @@ export class MapView {
   get scale() {
     const { width, height } = this.scene.bounds;
     const margin = Math.max(this.large ? 36 : 12, this.name === "thumbnail" ? this.#wholeSize / 2 : 0);
+    /** @param {number} size */
     const room = (size) => Math.max(size - 2 * margin, 8);
     return Math.min(room(this.width) / width, room(this.clearHeight) / height) * this.scene.camera().zoom;
   }
@@ -89,15 +110,24 @@ export class MapView {
     return { scale, left: this.width / 2 - camera.x * scale, top: this.clearHeight / 2 + camera.y * scale };
   }
 
+  /** @param {number} index */
   screen(index) {
     return this.toScreen(this.scene.x[index], this.scene.y[index]);
   }
 
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
   toScreen(x, y) {
     const { scale, left, top } = this.lay();
     return [left + x * scale, top - y * scale];
   }
 
+  /**
+   * @param {number} x
+   * @param {number} y
+   */
   toPlane(x, y) {
     const camera = this.scene.camera();
     const scale = this.scale;
@@ -124,10 +154,16 @@ export class MapView {
     return Math.min(Math.max(room, this.large ? Math.min(44, this.width / 11) : 15), this.large ? 110 : 40);
   }
 
-  /** The visible shape at a place on the screen, or null. */
+  /**
+   * The visible shape at a place on the screen, or null.
+   * @param {number} x
+   * @param {number} y
+   * @param {number} reach
+   */
   at(x, y, reach) {
     const { scale, left, top } = this.lay();
     const [pictureReach, markReach] = [this.pictureSize / 2, this.markRadius + reach];
+    /** @type {[number | null, number]} */
     let [best, least] = [null, Infinity];
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
@@ -138,9 +174,16 @@ export class MapView {
     return best;
   }
 
-  /** Visible shapes in a rectangle of the screen. */
+  /**
+   * Visible shapes in a rectangle of the screen.
+   * @param {number} west
+   * @param {number} north
+   * @param {number} east
+   * @param {number} south
+   */
   inside(west, north, east, south) {
     const { scale, left, top } = this.lay();
+    /** @type {number[]} */
     const found = [];
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
@@ -235,6 +278,7 @@ export class MapView {
   /** What is pointed at and what is open. */
   drawRings() {
     this.#drawTies();
+    /** @param {number} index */
     const radius = (index) => (this.pictured[index] ? this.pictureSize / 2 + 2 : this.markRadius + 4);
     for (const [ring, index] of [
       [this.opened, this.state.get("opened")],
@@ -266,8 +310,17 @@ export class MapView {
     if (this.name !== "thumbnail") return;
     const { emphasis } = this.scene;
     const apart = this.pictureSize * (this.database.count > MOST_PICTURES ? 0.8 : 0.5);
+    /** @type {Map<number, [number, number][]>} */
     const taken = new Map();
+    /**
+     * @param {number} column
+     * @param {number} row
+     */
     const cell = (column, row) => row * 100000 + column;
+    /**
+     * @param {number} x
+     * @param {number} y
+     */
     const free = (x, y) => {
       const [column, row] = [Math.floor(x / apart), Math.floor(y / apart)];
       for (let i = -1; i <= 1; i += 1) {
@@ -277,9 +330,7 @@ export class MapView {
           }
         }
       }
-      const key = cell(column, row);
-      if (!taken.has(key)) taken.set(key, []);
-      taken.get(key).push([x, y]);
+      entry(taken, cell(column, row), () => []).push([x, y]);
       return true;
     };
     const half = this.pictureSize / 2;
@@ -327,6 +378,7 @@ export class MapView {
 /** More pictures than this make a map slow, and none of them readable. */
 const MOST_PICTURES = 500;
 
+/** @param {number} index */
 function scatter(index) {
   return Math.imul(index + 1, 0x9e3779b1) >>> 0;
 }

@@ -4,6 +4,24 @@ import { calm } from "../base/dom.js";
 import { bounds } from "../database/database.js";
 import { FADED, Marks } from "./marks.js";
 
+/** @import { Database } from "../database/database.js" */
+
+/**
+ * How a shape is drawn.
+ * @typedef {{ path: string, color: string, radius: number, alpha: number }} Mark
+ *
+ * Where shapes are.
+ * @typedef {{ x: ArrayLike<number>, y: ArrayLike<number> }} Places
+ *
+ * @typedef {object} Options
+ * @property {(index: number) => Mark} mark
+ * @property {(index: number) => boolean} [first] puts shapes below the others
+ * @property {() => Set<number>} [selection] the shapes that stand out, all where there are none
+ * @property {number} [margin]
+ * @property {string | null} [label]
+ * @property {(marks: Marks) => void} [drawn] is called after every drawing, and may draw more
+ */
+
 const DURATION = 450;
 
 /**
@@ -25,14 +43,17 @@ export function mapOf({ x, y }, { rows, coordinateSteps }, count) {
 export class Plot {
   #marks;
 
+  /** @type {number | undefined} */
+  #frame;
+  view = { x: 0, y: 0, scale: 1, width: 0, height: 0 };
+
   /**
-   * `mark(index)` says how a shape is drawn: `{ color, path, radius, alpha }`; `first(index)` puts shapes below the
-   * others; `selection()` are the shapes that stand out, all where there are none; `drawn(marks)` is called after every
-   * drawing, and may draw more.
+   * @param {Database} database
+   * @param {Options} options
    */
   constructor(
     database,
-    { mark, first = (_) => false, selection = () => NOBODY, margin = 8, label = null, drawn = (_) => {} },
+    { mark, first = () => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} },
   ) {
     this.database = database;
     this.mark = mark;
@@ -47,13 +68,18 @@ export class Plot {
       "aria-hidden": label === null ? "true" : null,
     });
     this.node = this.#marks.node;
+    /** @type {Places | null} */
     this.map = null;
     new ResizeObserver(() => this.draw()).observe(this.node);
   }
 
-  /** Show a map; shapes go there from where they are, unless that would be too much movement. */
+  /**
+   * Show a map; shapes go there from where they are, unless that would be too much movement.
+   * @param {Places} map
+   * @param {{ travel?: boolean }} [how]
+   */
   show(map, { travel = false } = {}) {
-    cancelAnimationFrame(this.#frame);
+    if (this.#frame !== undefined) cancelAnimationFrame(this.#frame);
     const from = this.map;
     if (!travel || from === null || calm()) {
       this.map = map;
@@ -70,19 +96,27 @@ export class Plot {
     step();
   }
 
-  #frame = null;
-
-  /** Where a shape is, in pixels. */
+  /**
+   * Where a shape is, in pixels.
+   * @param {number} index
+   */
   screen(index) {
     const { x, y, scale, width, height } = this.view;
-    return [width / 2 + (this.map.x[index] - x) * scale, height / 2 - (this.map.y[index] - y) * scale];
+    const map = /** @type {Places} */ (this.map);
+    return [width / 2 + (map.x[index] - x) * scale, height / 2 - (map.y[index] - y) * scale];
   }
 
-  /** The shape at a point, or null. */
+  /**
+   * The shape at a point, or null.
+   * @param {number} left
+   * @param {number} top
+   * @param {number} reach
+   */
   at(left, top, reach) {
+    /** @type {[number | null, number]} */
     let [best, least] = [null, reach];
     for (let index = 0; index < this.database.count; index += 1) {
-      if (Number.isNaN(this.map.x[index])) continue;
+      if (!this.map || Number.isNaN(this.map.x[index])) continue;
       const [x, y] = this.screen(index);
       const distance = Math.hypot(x - left, y - top);
       if (distance < least) [best, least] = [index, distance];
@@ -90,7 +124,13 @@ export class Plot {
     return best;
   }
 
-  /** The shapes in a rectangle. */
+  /**
+   * The shapes in a rectangle.
+   * @param {number} left
+   * @param {number} top
+   * @param {number} right
+   * @param {number} bottom
+   */
   inside(left, top, right, bottom) {
     return [...this.database.ids.keys()].filter((index) => {
       const [x, y] = this.screen(index);
@@ -108,6 +148,7 @@ export class Plot {
     this.view = { x: extent.x, y: extent.y, scale, width, height };
     const { outline } = database.marks;
     const chosen = this.selection();
+    /** @param {number} index */
     const faded = (index) => chosen.size > 0 && !chosen.has(index);
     marks.begin(width, height);
     for (const below of [true, false]) {
@@ -122,9 +163,16 @@ export class Plot {
   }
 }
 
+/** @type {Set<number>} */
 const NOBODY = new Set();
 
-/** A map as a small square picture, without the shapes of `hidden` classes. */
+/**
+ * A map as a small square picture, without the shapes of `hidden` classes.
+ * @param {Database} database
+ * @param {Places} map
+ * @param {number} size
+ * @param {Set<number>} [hidden]
+ */
 export function pictureOfMap(database, map, size, hidden = NOBODY) {
   const marks = new Marks({ class: "few-plot", "aria-hidden": "true" });
   const { x, y, width, height } = bounds(map);
@@ -144,8 +192,17 @@ export function pictureOfMap(database, map, size, hidden = NOBODY) {
   return marks.node;
 }
 
+/**
+ * @param {Places} from
+ * @param {Places} to
+ * @param {number} share
+ */
 function between(from, to, share) {
+  /**
+   * @param {ArrayLike<number>} a
+   * @param {ArrayLike<number>} b
+   */
   const mix = (a, b) =>
-    b.map((value, index) => (Number.isNaN(a[index]) ? value : a[index] + share * (value - a[index])));
+    Float64Array.from(b, (value, index) => (Number.isNaN(a[index]) ? value : a[index] + share * (value - a[index])));
   return { x: mix(from.x, to.x), y: mix(from.y, to.y) };
 }

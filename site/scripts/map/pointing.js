@@ -4,10 +4,18 @@ import { element, picture, svg, swatch } from "../base/dom.js";
 import { toggled } from "../database/selection.js";
 import { ShapeBrush } from "./brush.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Plot } from "./plot.js" */
+
 const REACH = 14;
 const GAP = 14;
 
 export class Pointing {
+  /** @type {number | null} */
+  shown = null;
+
+  /** @param {Database} database */
   constructor(database) {
     this.database = database;
     this.node = element("div", { class: "card", hidden: true });
@@ -18,8 +26,13 @@ export class Pointing {
   /**
    * Watch a plot in its surface; `choose` is told of the shape that was clicked. With a `state`, its selection is what
    * a box has in it, as on all maps, and a click beside all shapes drops it.
+   * @param {HTMLElement} surface
+   * @param {Plot} plot
+   * @param {(index: number) => void} choose
+   * @param {State | null} [state]
    */
   watch(surface, plot, choose, state = null) {
+    /** @param {MouseEvent} event */
     const at = (event) => plot.at(event.offsetX, event.offsetY, REACH);
     const brush = state && new PlotBrush(surface, plot, state);
     surface.addEventListener("pointermove", (event) => {
@@ -37,6 +50,10 @@ export class Pointing {
     });
   }
 
+  /**
+   * @param {number} index
+   * @param {{ clientX: number, clientY: number }} event
+   */
   #show(index, { clientX, clientY }) {
     const { database, node } = this;
     if (this.shown !== index) {
@@ -59,6 +76,11 @@ export class Pointing {
       this.shown = index;
     }
     node.hidden = false;
+    /**
+     * @param {number} at
+     * @param {number} size
+     * @param {number} whole
+     */
     const room = (at, size, whole) => (at + GAP + size < whole ? at + GAP : Math.max(at - GAP - size, 0));
     node.style.transform = `translate(${room(clientX, node.offsetWidth, window.innerWidth)}px, ${room(clientY, node.offsetHeight, window.innerHeight)}px)`;
   }
@@ -70,23 +92,31 @@ export class Pointing {
 
 /** A mouse draws boxes on a plot; a finger scrolls the page. */
 class PlotBrush extends ShapeBrush {
+  /** @type {number | null} */
   #frame = null;
 
+  /**
+   * @param {HTMLElement} surface
+   * @param {Plot} plot
+   * @param {State} state
+   */
   constructor(surface, plot, state) {
     const box = svg("rect", { class: "brush" });
     surface.append(svg("svg", { class: "overlay", "aria-hidden": "true" }, box));
     super(surface, box, plot, state);
+    this.shapes = plot;
     state.listen((changed) => {
       if (changed.has("selection")) this.#frame ??= requestAnimationFrame(() => this.#redraw());
     });
   }
 
+  /** @param {PointerEvent} event */
   takes({ pointerType, button }) {
     return pointerType === "mouse" && button === 0;
   }
 
   #redraw() {
     this.#frame = null;
-    this.plot.draw();
+    this.shapes.draw();
   }
 }

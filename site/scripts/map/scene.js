@@ -3,6 +3,30 @@
 
 import { calm, coarse } from "../base/dom.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Bounds, Database } from "../database/database.js" */
+/** @import { MapView } from "./map.js" */
+
+/**
+ * The part of the plane in view: its middle, and how much it is magnified.
+ * @typedef {{ x: number, y: number, zoom: number }} Camera
+ *
+ * How present a shape is.
+ * @typedef {0 | 1 | 2 | 3} Emphasis
+ *
+ * What scenes and views read of the state of a page; the camera by the name that the scene has for it.
+ * @typedef {object} MapValues
+ * @property {number} method the map that is shown
+ * @property {Set<number>} hidden classes
+ * @property {Set<number>} selection
+ * @property {Set<number> | null} matches shapes that a search finds
+ * @property {number | null} opened
+ * @property {number | null} pointed
+ * @property {MapView | null} pointedFrom
+ * @property {number | null} pointedGroup
+ * @property {"move" | "select"} drag
+ */
+
 const DURATION = 650;
 const COVER_DURATION = 180;
 const LARGEST_ZOOM = 40;
@@ -13,21 +37,32 @@ export const FAINT = 1;
 export const NORMAL = 2;
 export const CHOSEN = 3;
 
-/** Whether there are so many shapes that maps draw them themselves: a chart would take a second for every change. */
+/**
+ * Whether there are so many shapes that maps draw them themselves: a chart would take a second for every change.
+ * @param {Database} database
+ */
 export function crowded(database) {
   return database.count > CROWD;
 }
 
 /** The part of a page's state that says what is under the pointer: nothing, at first. */
+/** @type {Readonly<Pick<MapValues, "pointed" | "pointedFrom" | "pointedGroup">>} */
 export const NOTHING_POINTED = Object.freeze({ pointed: null, pointedFrom: null, pointedGroup: null });
 
-/** The part that says what dragging does, at first: fingers move a map, a mouse selects. */
+/**
+ * The part that says what dragging does, at first: fingers move a map, a mouse selects.
+ * @returns {Pick<MapValues, "drag">}
+ */
 export function dragging() {
   return { drag: coarse() ? "move" : "select" };
 }
 
 export class Scene {
-  /** `camera` names the state's value for the part of the plane in view. */
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {string} [camera] names the state's value for the part of the plane in view
+   */
   constructor(database, state, camera = "camera") {
     this.database = database;
     this.state = state;
@@ -37,9 +72,13 @@ export class Scene {
     this.progress = 1;
     this.x = Float64Array.from(database.methods[this.target].x);
     this.y = Float64Array.from(database.methods[this.target].y);
+    /** @type {Bounds} */
     this.bounds = database.bounds[this.target];
+    /** @type {Emphasis[]} */
     this.emphasis = [];
-    this.matches = null;
+    this.present = 0;
+    this.moving = false;
+    /** @type {MapView[]} */
     this.views = [];
     this.covered = 0;
     this.weigh();
@@ -63,25 +102,31 @@ export class Scene {
     this.#settling = setTimeout(() => this.#settle(), 160);
   }
 
+  /** @type {number | null} */
   #frame = null;
   #frames = 0;
-  #settling = null;
+  /** @type {number | undefined} */
+  #settling;
 
   /** The large map first, each in a frame of its own, so that no frame takes long. */
   #settle() {
-    const views = [...this.views].sort((a, b) => b.large - a.large);
+    const views = [...this.views].sort((a, b) => Number(b.large) - Number(a.large));
     const next = () => {
-      views.shift().settle();
+      views.shift()?.settle();
       if (views.length > 0) this.#settling = setTimeout(next, 0);
     };
     next();
   }
 
+  /** @param {number} index */
   visible(index) {
     return this.emphasis[index] > HIDDEN;
   }
 
-  /** Keep the large map clear of `height` pixels at its bottom, where the tray lies; the map makes room, it does not jump. */
+  /**
+   * Keep the large map clear of `height` pixels at its bottom, where the tray lies; the map makes room, it does not jump.
+   * @param {number} height
+   */
   cover(height) {
     this.#uncover?.abort();
     this.#uncover = new AbortController();
@@ -93,10 +138,15 @@ export class Scene {
     });
   }
 
+  /** @type {AbortController | null} */
   #uncover = null;
+  /** @type {AbortController | null} */
   #voyage = null;
 
-  /** Move all points to another projection, on a straight way; the camera goes back to showing all of it. */
+  /**
+   * Move all points to another projection, on a straight way; the camera goes back to showing all of it.
+   * @param {number} target
+   */
   #travel(target) {
     this.origin = this.target;
     this.target = target;
@@ -107,6 +157,10 @@ export class Scene {
     this.#voyage = new AbortController();
     animate(DURATION, this.#voyage.signal, (linear) => {
       this.#place(eased(linear));
+      /**
+       * @param {number} a
+       * @param {number} b
+       */
       const mix = (a, b) => a + this.progress * (b - a);
       this.bounds = {
         x: mix(from.x, to.x),
@@ -123,6 +177,7 @@ export class Scene {
     });
   }
 
+  /** @param {number} progress */
   #place(progress) {
     this.progress = progress;
     const [from, to] = [this.database.methods[this.origin], this.database.methods[this.target]];
@@ -148,27 +203,44 @@ export class Scene {
     });
   }
 
+  /** @returns {Camera} */
   camera() {
     const camera = this.state.get(this.cameraName);
     return camera === null ? { x: this.bounds.x, y: this.bounds.y, zoom: 1 } : this.#bounded(camera);
   }
 
-  /** Look at another part of the plane; kept so that some of the map always stays in view. */
+  /**
+   * Look at another part of the plane; kept so that some of the map always stays in view.
+   * @param {Camera} camera
+   */
   look(camera) {
     const bounded = this.#bounded(camera);
     this.state.set({ [this.cameraName]: bounded.zoom <= 1.001 ? null : bounded });
   }
 
-  /** The address may hold any numbers. */
+  /**
+   * The address may hold any numbers.
+   * @param {Camera} camera
+   */
   #bounded(camera) {
     const zoom = Math.min(Math.max(camera.zoom, 1), LARGEST_ZOOM);
+    /**
+     * @param {number} value
+     * @param {number} centre
+     * @param {number} size
+     */
     const within = (value, centre, size) => Math.min(Math.max(value, centre - size / 2), centre + size / 2);
     const { x, y, width, height } = this.bounds;
     return { x: within(camera.x, x, width), y: within(camera.y, y, height), zoom };
   }
 }
 
-/** Call `step` with every frame, with the share of time gone, the last time with 1; once only for who wants calm. */
+/**
+ * Call `step` with every frame, with the share of time gone, the last time with 1; once only for who wants calm.
+ * @param {number} duration
+ * @param {AbortSignal} signal
+ * @param {(share: number) => void} step
+ */
 function animate(duration, signal, step) {
   const started = performance.now();
   const frame = () => {
@@ -180,6 +252,7 @@ function animate(duration, signal, step) {
   frame();
 }
 
+/** @param {number} t */
 function eased(t) {
   return t < 0.5 ? 4 * t ** 3 : 1 - (2 - 2 * t) ** 3 / 2;
 }

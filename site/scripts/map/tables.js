@@ -5,8 +5,15 @@ import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 import { highestOf, rangeOf } from "../database/hit-range.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
+
 const MOST_ROWS = 500;
 
+/**
+ * @param {Database} database
+ * @param {State} state
+ */
 export function mapTables(database, state) {
   const method = database.methods[state.get("method")];
   const selection = state.get("selection");
@@ -41,7 +48,13 @@ export function mapTables(database, state) {
   return { title: `The ${method.title} map in figures`, tables };
 }
 
-/** Where the first of some shapes lie on a map, and what share of their neighbours is of their class. */
+/**
+ * Where the first of some shapes lie on a map, and what share of their neighbours is of their class.
+ * @param {string} title
+ * @param {Database} database
+ * @param {ShapeMap} method
+ * @param {number[]} indices
+ */
 export function shapesTable(title, database, method, indices) {
   return table(
     title,

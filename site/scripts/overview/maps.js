@@ -7,18 +7,30 @@ import { Scene } from "../map/scene.js";
 import { arrange, swap, VIEWS } from "./arrangement.js";
 import { tellReading } from "./readings.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+
 export class LinkedMaps {
+  /**
+   * @param {Database} database
+   * @param {State} state
+   * @param {(text: string) => void} announce
+   */
   constructor(database, state, announce) {
     this.database = database;
     this.state = state;
     this.scene = new Scene(database, state);
-    this.figures = new Map([...document.querySelectorAll("figure.map")].map((node) => [node.dataset.view, node]));
+    this.figures = new Map([...document.querySelectorAll("figure.map")].map((node) => [node.dataset.view ?? "", node]));
     arrange(this.figures, state.get("view"));
-    this.views = new Map(VIEWS.map((name) => [name, new MapView(this.scene, this.figures.get(name))]));
+    /** @param {string} name */
+    const viewOf = (name) => new MapView(this.scene, /** @type {Found} */ (this.figures.get(name)));
+    this.views = new Map(VIEWS.map((name) => [name, viewOf(name)]));
     this.scene.views = [...this.views.values()];
+    /** @type {ConstructorParameters<typeof Gestures>[1]} */
     const does = {
       open: (opened) => state.set({ opened }),
       promote: (view) => state.set({ view }),
+      /** @param {number} index */
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
     };
     this.gestures = new Map([...this.views].map(([name, view]) => [name, new Gestures(view, does)]));
@@ -29,9 +41,12 @@ export class LinkedMaps {
     this.#tellReadings();
   }
 
-  /** The map in the large place. */
+  /**
+   * The map in the large place.
+   * @returns {MapView}
+   */
   get large() {
-    return this.views.get(this.state.get("view"));
+    return /** @type {MapView} */ (this.views.get(this.state.get("view")));
   }
 
   async start() {

@@ -8,10 +8,11 @@ import { element } from "../base/dom.js";
 /**
  * @param {HTMLElement} figure
  * @param {Database} database
+ * @param {State} state
  */
 export function tellReading(figure, database, state) {
   const notes = database.methods.map(({ note }) => element("span", {}, note));
-  const shown = element("span", { class: "shown" }, reading(figure.dataset.view, database, state));
+  const shown = element("span", { class: "shown" }, reading(figure.dataset.view ?? "", database, state));
   figure.querySelector(".reading").replaceChildren(...notes, shown);
 }
 

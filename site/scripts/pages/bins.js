@@ -35,10 +35,12 @@ async function main() {
     },
   });
   const pointing = new Pointing(database);
+  /** @param {number} shape */
   const choose = (shape) => {
     state.set({ shape });
     goToLook();
   };
+  /** @param {number[]} columns */
   const open = (columns) => workbenchAddress(columns, data.features);
   if (selection.minimal.length > 0) new ClassCards(database, selection, state, chips, { open }).render();
   if (selection.path.length > 0)

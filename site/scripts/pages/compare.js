@@ -22,6 +22,7 @@ async function main() {
   const database = new Database(overview, currentTheme);
   const neighbours = new Neighbours(database, data, bytes);
   // The values of all bins are large where shapes are many: they come when they are first needed.
+  /** @type {Promise<Bins> | null} */
   let loaded = null;
   const bins = () =>
     (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
@@ -30,6 +31,7 @@ async function main() {
   const outliers = new Outliers(database, data, neighbours, state, { bins, announce });
   const matrix = new Matrix(database, data, neighbours, state, { announce });
   new Tabs(state);
+  /** @param {number} index */
   const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
   new Tray(database, state, { open });
   carrySelection(database, state);

@@ -30,6 +30,7 @@ async function main() {
   const maps = new LinkedMaps(database, state, announce);
   const { scene, gestures } = maps;
   // Pictures beside the map point at their shape on it.
+  /** @param {number | null} pointed */
   const point = (pointed) => state.set({ pointed, pointedFrom: maps.large });
   const classes = new ClassList(database, state);
   const detail = new Detail(database, state, { point });

@@ -24,6 +24,7 @@ async function main() {
   carrySelection(database, state);
   let opened = false;
   const links = new ShapeLinks(database, state, { opened: () => (opened = true) });
+  /** @param {number} shape */
   const go = (shape) => {
     opened = true;
     state.set({ shape, unknown: null });
@@ -49,7 +50,8 @@ async function main() {
   });
   clearOnEscape(state);
   new Tray(database, state, { open: go });
-  let byFeatures = { similar: null, histograms: null };
+  /** @type {Partial<Awaited<ReturnType<typeof showFeatures>>>} */
+  let byFeatures = {};
   watchTables(() => shapeTables(database, state, { facts, ...byFeatures }));
   const load = async () => {
     byFeatures = await showFeatures(database, state, { links, portrait });

@@ -22,6 +22,7 @@ async function main() {
     values: { matches: null, opened: null },
   });
   const gallery = new Gallery(database, fields, state, announce);
+  /** @param {number} index */
   const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
   new Tray(database, state, { open });
   carrySelection(database, state);

@@ -12,7 +12,8 @@ import { entry } from "../base/entry.js";
  * A similar shape: its distance, and for each feature the share of all other shapes that are farther in it alone, those
  * equally far counted half; 0.5 where a feature tells nothing.
  * @typedef {{ row: number, distance: number, closer: number[] }} Similar
- * ¦ Squared distances from a row in each feature alone, and those of the other rows rising.
+ *
+ * Squared distances from a row in each feature alone, and those of the other rows rising.
  * @typedef {{ row: number, byFeature: Float64Array[], sorted: Float64Array[] }} Squares
  */
 

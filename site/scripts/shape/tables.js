@@ -13,8 +13,8 @@ import { whole } from "./similar-shapes.js";
 /**
  * @param {Database} database
  * @param {State} state
- * @param {{ facts: Facts, similar: SimilarShapes | null, histograms: Histograms | null }} parts those of the features are null
- *   as long as these are not there
+ * @param {{ facts: Facts, similar?: SimilarShapes, histograms?: Histograms }} parts those of the features are missing as long as
+ *   these are not there
  */
 export function shapeTables(database, state, { facts, similar, histograms }) {
   const shape = state.get("shape");

@@ -4,9 +4,10 @@ import { element } from "../base/dom.js";
 import { count, grouped, shortened } from "../base/words.js";
 import { numberText, valueName } from "../database/fields.js";
 
+/** @import { Filter } from "../addresses/shapes.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Field, Fields } from "../database/fields.js" */
-/** @import { Filter, Sieve } from "./sieve.js" */
+/** @import { Sieve } from "./sieve.js" */
 
 const MOST_NAMES = 3;
 const LONGEST = 40;

@@ -5,10 +5,11 @@ import { count, grouped } from "../base/words.js";
 import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
 import { Tree } from "./tree.js";
 
+/** @import { Filter } from "../addresses/shapes.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { ChoiceField, Field, Fields, RangeField, TreeField } from "../database/fields.js" */
-/** @import { Filter, Sieve } from "./sieve.js" */
+/** @import { Sieve } from "./sieve.js" */
 
 /**
  * What filters work with.

@@ -14,12 +14,23 @@ import { Panel } from "./panel.js";
 import { search, watchSearch } from "./search.js";
 import { Sieve } from "./sieve.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Fields } from "../database/fields.js" */
+
 const SAY_AFTER = 500;
 
 export class Gallery {
+  /** @type {Cells | null} */
   #cells = null;
-  #cellsOf = null;
+  #cellsOf = "";
 
+  /**
+   * @param {Database} database
+   * @param {Fields} fields
+   * @param {State} state
+   * @param {(text: string) => void} announce
+   */
   constructor(database, fields, state, announce) {
     this.database = database;
     this.fields = fields;
@@ -47,8 +58,10 @@ export class Gallery {
     if (state.get("at") !== null) this.grid.start(state.get("at"));
   }
 
+  /** @param {Set<string>} changed */
   #follow(changed) {
     const { state } = this;
+    /** @param {...string} names */
     const has = (...names) => names.some((name) => changed.has(name));
     if (has("query")) search(this.database, state);
     // Who takes back the last of the selected shapes sees all again.
@@ -73,11 +86,12 @@ export class Gallery {
     this.showActions();
   }
 
+  /** @param {boolean} fromTop */
   #arrange(fromTop) {
     const { database, fields, state, sieve } = this;
     const how = { group: state.get("group"), sort: state.get("sort"), down: state.get("down") };
     const cellsOf = JSON.stringify([how, state.get("theme")]);
-    if (this.#cellsOf !== cellsOf) {
+    if (this.#cells === null || this.#cellsOf !== cellsOf) {
       this.#cells = new Cells(database, fields, how);
       this.#cellsOf = cellsOf;
     }

@@ -8,9 +8,11 @@
  * @property {string} [note]
  * @property {number | null} [group] the class that it is
  * @property {number[]} rows its shapes
- * ¦ A row: the head of a group, or shapes, which count from `start` to `end` within the sequence.
+ *
+ * A row: the head of a group, or shapes, which count from `start` to `end` within the sequence.
  * @typedef {{ block: number, top: number, height: number, head: boolean, start: number, end: number }} Row
- * ¦ @typedef {object} Layout
+ *
+ * @typedef {object} Layout
  * @property {Row[]} rows from top to bottom
  * @property {{ top: number, height: number, folded: boolean }[]} blocks a group each
  * @property {number[]} sequence all shapes that are not folded away

@@ -3,14 +3,11 @@
 import { entry } from "../base/entry.js";
 import { NONE } from "../database/fields.js";
 
+/** @import { Filter } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Field, Fields, RangeField, TreeField } from "../database/fields.js" */
 
-/**
- * A filter: values, or nodes of a tree; or a range. It is never changed, only replaced.
- * @typedef {Set<number> | { low: number, high: number }} Filter
- * @typedef {(row: number) => boolean} Passing
- */
+/** @typedef {(row: number) => boolean} Passing */
 
 export class Sieve {
   /** @type {WeakMap<Filter, Uint8Array>} */

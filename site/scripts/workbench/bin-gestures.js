@@ -2,10 +2,22 @@
 
 import { Brush } from "../map/brush.js";
 
+/** @import { Fingers, Place } from "../map/brush.js" */
+/** @import { BinChart } from "./bin-chart.js" */
+/** @import { BinPlot } from "./bin-plot.js" */
+
+/**
+ * What stands under a press as it begins: a place, where exactly, and how wide bars are.
+ * @typedef {{ place: number, point: number, step: number }} Held
+ */
+
 const LEAP = 10;
 
 export class BinGestures extends Brush {
-  /** `plot` is the BinPlot; `chart` is asked to point, to mark a range and to choose. */
+  /**
+   * @param {BinPlot} plot
+   * @param {BinChart} chart is asked to point, to mark a range and to choose
+   */
   constructor(plot, chart) {
     super(plot.surface);
     this.plot = plot;
@@ -31,15 +43,24 @@ export class BinGestures extends Brush {
     return Math.abs(x - fromX);
   }
 
+  /** @param {Place} at */
   hold([x]) {
     const { scale } = this.plot;
     return { place: this.plot.at(x, true), point: scale.placeOf(x), step: scale.step };
   }
 
+  /**
+   * @param {Place} at
+   * @param {PointerEvent} event
+   */
   hover([x], { pointerType }) {
     if (pointerType === "mouse") this.chart.point(this.#columnAt(x));
   }
 
+  /**
+   * @param {Place} at
+   * @param {PointerEvent} event
+   */
   click([x], { pointerType, button }) {
     const column = this.#columnAt(x);
     if (button === 1 || column === null) return;
@@ -52,6 +73,11 @@ export class BinGestures extends Brush {
     this.chart.point(null);
   }
 
+  /**
+   * @param {Place} _from
+   * @param {Place} to
+   * @param {Held} held
+   */
   draw(_from, [x], { place }) {
     const { plot } = this;
     if (plot.places.length === 0) return;
@@ -67,21 +93,33 @@ export class BinGestures extends Brush {
     this.chart.mark(null);
   }
 
+  /**
+   * @param {Place} _from
+   * @param {Place} to
+   * @param {Held} held
+   */
   move(_from, [x], { point }) {
     this.chart.point(null);
     this.plot.hold(point, x);
   }
 
-  /** What was between the fingers stays between them. */
+  /**
+   * What was between the fingers stays between them.
+   * @param {Fingers} before
+   * @param {Fingers} now
+   * @param {Held} held
+   */
   pinch(before, now, { point, step }) {
     this.plot.hold(point, now.middle[0], (step * now.spread) / before.spread);
   }
 
+  /** @param {number} x */
   #columnAt(x) {
     const place = this.plot.at(x);
     return place === null ? null : this.plot.places[place];
   }
 
+  /** @param {WheelEvent} event */
   #wheel(event) {
     const lines = event.deltaMode === 1 ? 18 : 1;
     const sideways = event.shiftKey ? event.deltaX || event.deltaY : event.deltaX;
@@ -98,10 +136,12 @@ export class BinGestures extends Brush {
     this.chart.point(null);
   }
 
+  /** @param {KeyboardEvent} event */
   #key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { plot, chart } = this;
     const leap = Math.max(LEAP, Math.floor(plot.span / 10));
+    /** @type {Record<string, number>} */
     const steps = {
       ArrowLeft: -1,
       ArrowRight: 1,
@@ -115,7 +155,7 @@ export class BinGestures extends Brush {
       if (chart.range) chart.apply(chart.marked);
       else if (chart.pointed !== null) chart.toggle(chart.pointed);
     } else if (event.key === "Delete" || event.key === "Backspace") {
-      chart.giveUp(chart.range ? chart.marked : [chart.pointed]);
+      chart.giveUp(chart.range ? chart.marked : chart.pointed === null ? [] : [chart.pointed]);
     } else if (event.key === "+" || event.key === "=") plot.zoom(1.5);
     else if (event.key === "-") plot.zoom(1 / 1.5);
     else if (event.key === "0") plot.lookAtAll();
@@ -124,6 +164,10 @@ export class BinGestures extends Brush {
     event.preventDefault();
   }
 
+  /**
+   * @param {number} number
+   * @param {boolean} extend
+   */
   #walk(number, extend) {
     const { plot, chart } = this;
     const { places, placeOf } = plot;

@@ -9,7 +9,8 @@
  * @property {Set<number>} hidden classes that are not
  * @property {Set<number>} features
  * @property {Set<number>} bins
- * ¦ @typedef {Use & { originalMap: ShapeMap | null, refinedMap: ShapeMap | null }} Step
+ *
+ * @typedef {Use & { originalMap: ShapeMap | null, refinedMap: ShapeMap | null }} Step
  */
 
 const MOST_STEPS = 200;
