@@ -249,6 +249,17 @@ def test_the_brush_on_the_workbench_moves_nothing_below_it(open_page):
     assert counted(page) == 80
 
 
+@pytest.mark.parametrize("file", ["index.html", "shapes.html", "workbench.html"])
+def test_on_a_small_desk_all_that_the_tray_offers_lies_in_it(open_page, file):
+    page = open_page("workbench", f"{file}#select=class000%2F0001", viewport={"width": 1000, "height": 700})
+    tray = page.locator("#tray").bounding_box()
+    for way in page.locator(".tray-ways > *").all():
+        place = way.bounding_box()
+        # What is clicked reaches as far beyond as the space around its words.
+        assert place["x"] + place["width"] <= tray["x"] + tray["width"] + 8
+        assert place["y"] + place["height"] <= tray["y"] + tray["height"]
+
+
 def test_shapes_that_a_search_left_out_stay_selected_without_a_place(open_page):
     page = open_page("sampled", "features.html")
     box(page, MAPS["features.html"])
