@@ -67,10 +67,10 @@ def colour(window, selector) -> str:
     )
 
 
-def seen(window, selector) -> np.ndarray:
-    """What is on the screen at an element, without its rim; (h, w, 3)."""
+def seen(window, selector, rim=6) -> np.ndarray:
+    """What is on the screen at an element, without its rim of some pixels; (h, w, 3)."""
     left, top, width, height = map(round, place(window, selector))
-    return window.picture()[top + 6 : top + height - 6, left + 6 : left + width - 6]
+    return window.picture()[top + rim : top + height - rim, left + rim : left + width - rim]
 
 
 def point_at_a_shape(window, selector=LARGE) -> tuple[float, float]:
@@ -263,6 +263,27 @@ def test_a_shape_is_turned_in_3d(visit):
     eventually(
         window, lambda: (np.abs(before - seen(window, "#stage canvas")).max(axis=2) > 12).mean() > 0.02
     )
+
+
+def test_a_page_is_no_wider_than_its_window_whatever_its_choices_say(visit):
+    window = visit("bins", f"shape.html#id={SHAPE}")
+    window.until("() => document.querySelector('.histogram select option')")
+    assert window.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_a_box_looks_ticked_only_when_it_is(visit):
+    window = visit("museum", "shapes.html")
+    tick = ".facet-values input[type=checkbox]"
+
+    def as_bright_as_paper() -> bool:
+        return abs(seen(window, tick, rim=2).mean() - window.picture()[3, 3].mean()) < 40
+
+    for _ in ("light", "dark"):
+        eventually(window, as_bright_as_paper)
+        window.click(tick)
+        eventually(window, lambda: not as_bright_as_paper())
+        window.click(tick)
+        window.click("#theme")
 
 
 def test_a_bar_of_the_ranking_chooses_its_subset(visit):
