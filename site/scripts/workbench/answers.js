@@ -8,8 +8,21 @@ import { startEngine } from "../engine/client.js";
 import { contests } from "./separation.js";
 
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database } from "../database/database.js" */
-/** @import { Listener } from "../engine/client.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Engine, Job, Listener } from "../engine/client.js" */
+/** @import { Use } from "./history.js" */
+/** @import { Separation } from "./separation.js" */
+
+/**
+ * What is asked of: what is in use, all shapes or a sample of them.
+ * @typedef {Use & { sample: boolean }} Asked
+ * @typedef {Pick<Asked, "hidden" | "sample">} AskedShapes
+ * ¦ Places of all shapes while a map is being made.
+ * @typedef {(x: number[], y: number[]) => void} Partial
+ * ¦ Runs a task of the engines; those of scores take turns with several.
+ * @typedef {(name: string, parameters: object, report?: Listener, number?: number) => Promise<any>} Run
+ * ¦ @typedef {{ method: string, rows: ArrayLike<number> & Iterable<number>, columns: Int32Array, by: "features" | "bins" }} Layout
+ */
 
 const SCORE_STEPS = 65535;
 
@@ -19,7 +32,9 @@ const SCORING = Math.min(Math.max((navigator.hardwareConcurrency ?? 2) - 1, 1), 
 const MOST_CONTESTS = 500;
 
 export class Answers {
+  /** @type {Promise<Engine>[]} */
   #engines = [];
+  /** @type {Map<string, Float64Array>} */
   #contests = new Map();
 
   /**
@@ -62,7 +77,10 @@ export class Answers {
     });
   }
 
-  /** The shapes of the classes in use, or of a large database a sample of them. */
+  /**
+   * The shapes of the classes in use, or of a large database a sample of them.
+   * @param {AskedShapes} asked
+   */
   rows({ hidden, sample }) {
     const { groups } = this.database;
     const rows = Int32Array.from(groups.keys()).filter((row) => !hidden.has(groups[row]));
@@ -71,7 +89,9 @@ export class Answers {
 
   /**
    * Whether a map of all shapes that answers the question travels with the site.
-   * @param {string} which
+   * @param {"original" | "refined"} which
+   * @param {string} projection
+   * @param {Asked} asked
    */
   hasMap(which, projection, { hidden, sample, features, bins }) {
     const { database, data } = this;
@@ -82,15 +102,26 @@ export class Answers {
     );
   }
 
-  /** The columns of the features in use. */
+  /**
+   * The columns of the features in use.
+   * @param {Set<number>} features
+   */
   columns(features) {
     return Int32Array.from({ length: this.bins.count }, (_, column) => column).filter((column) =>
       features.has(this.bins.featureOf(column)),
     );
   }
 
-  /** The map of the classes in use under the features in use. */
+  /**
+   * The map of the classes in use under the features in use.
+   * @param {string} projection
+   * @param {Asked} step
+   * @param {Listener} report
+   * @param {Partial} partial
+   * @returns {Job<ShapeMap>}
+   */
   original(projection, step, report, partial) {
+    /** @type {Layout} */
     const asked = { method: projection, rows: this.rows(step), columns: this.columns(step.features), by: "features" };
     return this.#chain(async (run) => {
       const offline = this.hasMap("original", projection, step)
@@ -100,9 +131,17 @@ export class Answers {
     });
   }
 
-  /** The map of the classes in use under the chosen bins. */
+  /**
+   * The map of the classes in use under the chosen bins.
+   * @param {string} projection
+   * @param {Asked} step
+   * @param {Listener} report
+   * @param {Partial} partial
+   * @returns {Job<ShapeMap>}
+   */
   refined(projection, step, report, partial) {
     const columns = Int32Array.from(step.bins).sort();
+    /** @type {Layout} */
     const asked = { method: projection, rows: this.rows(step), columns, by: "bins" };
     const offline = this.hasMap("refined", projection, step) ? this.#siteMap(projection) : null;
     return this.#chain(async (run) => offline ?? this.#layout(run, asked, report, partial));
@@ -110,7 +149,11 @@ export class Answers {
 
   /**
    * Relative scores of all columns; no numbers for those of features that are not in use.
+   * @param {string} scorer
+   * @param {Separation} separation
+   * @param {Asked} step
    * @param {Listener} report
+   * @returns {Job<Float64Array>}
    */
   scores(scorer, separation, step, report) {
     const { hidden, features } = step;
@@ -132,6 +175,7 @@ export class Answers {
       report({ progress: done.reduce((sum, share) => sum + share, 0) / asked.length });
     };
     return this.#chain(async (run) => {
+      /** @type {Float64Array[]} */
       const found = [];
       let next = 0;
       // Contests know nothing of each other, so several engines share them.
@@ -140,13 +184,15 @@ export class Answers {
         for (let number = next++; number < asked.length; number = next++) {
           const { positive, negative } = asked[number];
           const key = JSON.stringify([scorer, step.sample, positive, negative, [...features].sort()]);
-          if (!this.#contests.has(key)) {
+          let scores = this.#contests.get(key);
+          if (scores === undefined) {
             const contest = { positive: rowsOf(positive), negative: rowsOf(negative) };
             const task = { method: scorer, contests: [contest], columns, seed: this.data.seed };
-            const { scores } = await run("score", task, ({ progress }) => tell(number, progress), engine);
+            const answer = await run("score", task, ({ progress }) => tell(number, progress), engine);
+            scores = /** @type {Float64Array} */ (answer.scores);
             this.#remember(key, scores);
           }
-          found[number] = this.#contests.get(key);
+          found[number] = scores;
           tell(number, 1);
         }
       };
@@ -159,13 +205,19 @@ export class Answers {
     });
   }
 
-  /** @param {string} key */
+  /**
+   * @param {string} key
+   * @param {Float64Array} scores
+   */
   #remember(key, scores) {
     this.#contests.set(key, scores);
-    if (this.#contests.size > MOST_CONTESTS) this.#contests.delete(this.#contests.keys().next().value);
+    if (this.#contests.size > MOST_CONTESTS) this.#contests.delete([...this.#contests.keys()][0]);
   }
 
-  /** Without labels nothing is to be separated; then a bin says most where shapes differ most. */
+  /**
+   * Without labels nothing is to be separated; then a bin says most where shapes differ most.
+   * @param {Pick<Use, "features">} use
+   */
   spread({ features }) {
     const all = new Float64Array(this.bins.count).fill(NaN);
     for (const column of this.columns(features)) {
@@ -185,7 +237,12 @@ export class Answers {
     return this.database.classes.map((_, group) => group).filter((group) => !hidden.has(group));
   }
 
-  /** The map of all shapes under some features, if it travels with the site. */
+  /**
+   * The map of all shapes under some features, if it travels with the site.
+   * @param {string} projection
+   * @param {Set<number>} features
+   * @returns {Promise<ShapeMap | null>}
+   */
   async #offlineMap(projection, features) {
     const { database, bins } = this;
     const { subsets } = database.data;
@@ -196,11 +253,20 @@ export class Answers {
     return place === undefined ? null : searched.map(place, database.classes.length);
   }
 
-  /** The map that the whole site shows. */
+  /**
+   * The map that the whole site shows.
+   * @param {string} projection
+   */
   #siteMap(projection) {
     return this.database.data.methods.find(({ key }) => key === projection) ?? null;
   }
 
+  /**
+   * @param {string} scorer
+   * @param {Separation} separation
+   * @param {Set<number>} hidden
+   * @param {Set<number>} features
+   */
   #offlineScores(scorer, separation, hidden, features) {
     const { data, database, bins } = this;
     const groups = database.classes.map((_, group) => group);
@@ -232,7 +298,14 @@ export class Answers {
     return scores;
   }
 
-  /** Lay out some shapes, then measure the map. */
+  /**
+   * Lay out some shapes, then measure the map.
+   * @param {Run} run
+   * @param {Layout} layout
+   * @param {Listener} report
+   * @param {Partial} partial
+   * @returns {Promise<ShapeMap>}
+   */
   async #layout(run, { method, rows, columns, by }, report, partial) {
     const { database, data } = this;
     // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
@@ -242,12 +315,17 @@ export class Answers {
       { length: 2 * rows.length },
       (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]],
     );
-    /** @param {number} place */
+    /**
+     * @param {Float32Array} xy
+     * @param {number} place
+     * @returns {number[]}
+     */
     const spread = (xy, place) => {
       const all = new Array(database.count).fill(NaN);
-      rows.forEach((row, index) => (all[row] = xy[2 * index + place]));
+      for (let index = 0; index < rows.length; index += 1) all[rows[index]] = xy[2 * index + place];
       return all;
     };
+    /** @type {Listener} */
     const listen = (told) => {
       report({ progress: told.progress * 0.97 });
       if (told.partial) partial(spread(told.partial.xy, 0), spread(told.partial.xy, 1));
@@ -256,10 +334,10 @@ export class Answers {
     const groups = Int32Array.from(rows, (row) => database.groups[row]);
     const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
     const hits = new Array(database.count).fill(null);
-    rows.forEach((row, index) => (hits[row] = known(hit[index])));
+    for (let index = 0; index < rows.length; index += 1) hits[rows[index]] = known(hit[index]);
     return {
       key: "live",
-      ...this.titles.get(method),
+      ...(this.titles.get(method) ?? { title: method }),
       features: [],
       x: spread(xy, 0),
       y: spread(xy, 1),
@@ -272,14 +350,17 @@ export class Answers {
     };
   }
 
-  /** Several tasks of the engines as one job; maps are made by the first engine, which is not kept waiting by scores. */
+  /**
+   * Several tasks of the engines as one job; maps are made by the first engine, which is not kept waiting by scores.
+   * @template Result
+   * @param {(run: Run) => Promise<Result>} work
+   * @returns {Job<Result>}
+   */
   #chain(work) {
+    /** @type {Set<Job>} */
     const running = new Set();
     let cancelled = false;
-    /**
-     * @param {number} [number]
-     * @param {string} name
-     */
+    /** @type {Run} */
     const run = async (name, parameters, report, number = 0) => {
       const job = (await this.#engine(number)).run(name, parameters, report);
       if (cancelled) job.cancel();
@@ -296,6 +377,7 @@ export class Answers {
   }
 }
 
+/** @param {number | undefined} value */
 function known(value) {
   return value === undefined || Number.isNaN(value) ? null : value;
 }

@@ -7,6 +7,28 @@ import { ranked } from "../bins-kit/bin-list.js";
 import { BinGestures } from "./bin-gestures.js";
 import { BinPlot } from "./bin-plot.js";
 
+/** @import { Children } from "../base/dom.js" */
+/** @import { Bins } from "../database/bins.js" */
+
+/**
+ * What the chart asks for, and says: it keeps no choice of its own, and is told by `draw`.
+ * @typedef {object} Ways
+ * @property {(column: number) => void} onToggle
+ * @property {(columns: number[]) => void} onRange to add several
+ * @property {(columns: number[]) => void} onRemove
+ * @property {(column: number | null, box: (Box & { free: number }) | null) => void} onPoint which bar is pointed at, and where it
+ *   stands in the window, for the card
+ * @property {(text: string) => void} announce
+ * ¦ @typedef {{ left: number, top: number, width: number, height: number }} Box
+ * @typedef {"score" | "feature"} Order
+ * ¦ @typedef {object} Shown
+ * @property {Float64Array} scores relative, a column; NaN for columns that are not in use
+ * @property {Set<number>} chosen
+ * @property {boolean} [busy]
+ * @property {Set<number> | null} [matched] columns that something else on the page points at
+ * @property {string | null} [separation] in words, what the scores separate
+ */
+
 const QUICK = [5, 10, 30];
 const ORDERS = {
   score: ["By score", "The best bins first"],
@@ -14,10 +36,34 @@ const ORDERS = {
 };
 
 export class BinChart {
+  // The parts that a choice is made with.
+  /** @type {HTMLInputElement} */
+  field;
+  /** @type {HTMLElement} */
+  finding;
+  /** @type {HTMLButtonElement} */
+  take;
+  /** @type {HTMLInputElement} */
+  number;
+  /** @type {HTMLElement} */
+  numbers;
+  /** @type {HTMLButtonElement} */
+  add;
+  /** @type {HTMLButtonElement} */
+  remove;
+  /** @type {HTMLButtonElement} */
+  clear;
+  /** @type {HTMLButtonElement} */
+  closer;
+  /** @type {HTMLElement} */
+  reading;
+  /** @type {HTMLElement} */
+  key;
+
   /**
-   * `bins` is a `Bins`. The chart keeps no choice of its own: it asks with `onToggle(column)`, `onRange(columns)` to
-   * add several and `onRemove(columns)`, and is told by `draw`. `onPoint(column, box)` says which bar is pointed at and
-   * where it stands in the window, for the card; `onPoint(null)` that none is.
+   * @param {HTMLElement} node
+   * @param {Bins} bins
+   * @param {Ways} ways
    */
   constructor(node, bins, { onToggle, onRange, onRemove, onPoint, announce }) {
     this.node = node;
@@ -28,14 +74,23 @@ export class BinChart {
     this.onPoint = onPoint;
     this.announce = announce;
     this.plot = new BinPlot(bins);
-    this.scores = null;
+    /** @type {Float64Array} */
+    this.scores = new Float64Array(0);
+    /** @type {Set<number>} */
     this.chosen = new Set();
+    /** @type {Set<number> | null} */
     this.emphasised = null;
+    /** @type {Set<number> | null} */
     this.found = null;
+    /** @type {string | null} */
+    this.separation = null;
+    /** @type {Order} */
     this.order = "score";
     this.ranking = new Int32Array();
     this.rankOf = new Int32Array(bins.count);
+    /** @type {number | null} */
     this.pointed = null;
+    /** @type {[number, number] | null} */
     this.range = null;
     this.#build();
     this.gestures = new BinGestures(this.plot, this);
@@ -43,10 +98,16 @@ export class BinChart {
   }
 
   // Where the arrow keys go on from a bin that has just moved away.
+  /** @type {{ before: number | undefined, after: number | undefined } | null} */
   #beside = null;
 
   #build() {
     const { plot } = this;
+    /**
+     * @param {string} words
+     * @param {string} title
+     * @param {() => void} onclick
+     */
     const button = (words, title, onclick) =>
       element("button", { type: "button", class: "plain", title, onclick }, words);
     this.closer = button("", "Show the first bars with their names", () => plot.lookClose());
@@ -109,6 +170,10 @@ export class BinChart {
   }
 
   #choiceTools() {
+    /**
+     * @param {string} id
+     * @param {() => void} onclick
+     */
     const action = (id, onclick) => element("button", { type: "button", class: "plain", id, onclick });
     this.number = element("input", {
       type: "number",
@@ -150,8 +215,8 @@ export class BinChart {
   }
 
   /**
-   * Show scores and a choice. `scores` has a relative score a column, NaN for columns that are not in use; `matched`
-   * are columns that something else on the page points at; `separation` says in words what the scores separate.
+   * Show scores and a choice.
+   * @param {Shown} shown
    */
   draw({ scores, chosen, busy = false, matched = null, separation = null }) {
     const arranged = scores !== this.scores || chosen !== this.chosen;
@@ -184,6 +249,7 @@ export class BinChart {
   /** Put the bars into their order, the chosen first. */
   #arrange() {
     const { chosen, ranking } = this;
+    /** @type {number[][]} */
     const groups = Array.from({ length: 2 * this.bins.features.length }, () => []);
     for (const column of ranking)
       groups[(this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(
@@ -201,7 +267,10 @@ export class BinChart {
 
   // Choosing
 
-  /** Choose a bin or give it up. It moves away, but the arrow keys go on from where it was. */
+  /**
+   * Choose a bin or give it up. It moves away, but the arrow keys go on from where it was.
+   * @param {number} column
+   */
   toggle(column) {
     const { places, placeOf } = this.plot;
     const place = placeOf[column];
@@ -212,7 +281,10 @@ export class BinChart {
     this.announce(`${this.bins.names[column]} ${words}, ${count(size, "bin")} chosen`);
   }
 
-  /** Add what of some columns is not chosen yet; where all are chosen, remove them. */
+  /**
+   * Add what of some columns is not chosen yet; where all are chosen, remove them.
+   * @param {number[]} columns
+   */
   apply(columns) {
     if (columns.length === 0) return;
     const fresh = columns.filter((column) => !this.chosen.has(column));
@@ -220,7 +292,10 @@ export class BinChart {
     else this.giveUp(columns);
   }
 
-  /** Remove those of some columns that are chosen. */
+  /**
+   * Remove those of some columns that are chosen.
+   * @param {number[]} columns
+   */
   giveUp(columns) {
     const kept = columns.filter((column) => this.chosen.has(column));
     this.#change(
@@ -230,6 +305,7 @@ export class BinChart {
     );
   }
 
+  /** @param {number[]} columns */
   #add(columns) {
     this.#change(
       this.onRange,
@@ -238,6 +314,11 @@ export class BinChart {
     );
   }
 
+  /**
+   * @param {(columns: number[]) => void} ask
+   * @param {number[]} columns
+   * @param {string} words
+   */
   #change(ask, columns, words) {
     this.mark(null);
     if (columns.length === 0) return;
@@ -258,9 +339,14 @@ export class BinChart {
     return this.#first(this.ranking.toReversed(), (column) => this.chosen.has(column));
   }
 
-  /** As many columns as are wanted for which something holds. */
+  /**
+   * As many columns as are wanted for which something holds.
+   * @param {Iterable<number>} columns
+   * @param {(column: number) => boolean} holds
+   */
   #first(columns, holds) {
     const wanted = this.#wanted;
+    /** @type {number[]} */
     const found = [];
     for (const column of columns) {
       if (found.length === wanted) break;
@@ -299,10 +385,11 @@ export class BinChart {
     this.finding.textContent = this.#finding(matches);
   }
 
+  /** @param {number[]} matches */
   #finding(matches) {
     if (this.found === null) return "";
     if (matches.length === 0) return this.found.size > 0 ? "not in use" : "none found";
-    const place = matches.indexOf(this.pointed);
+    const place = matches.indexOf(this.pointed ?? -1);
     return place < 0 ? `${grouped(matches.length)} found` : `${grouped(place + 1)} of ${grouped(matches.length)}`;
   }
 
@@ -317,6 +404,7 @@ export class BinChart {
     return [...(this.found ?? [])].filter((column) => placeOf[column] >= 0).sort((a, b) => placeOf[a] - placeOf[b]);
   }
 
+  /** @param {KeyboardEvent} event */
   #searchKey(event) {
     if (event.key === "Enter" || event.key === "ArrowDown" || event.key === "ArrowUp") {
       this.#visit(event.key === "ArrowUp" || event.shiftKey ? -1 : 1);
@@ -328,14 +416,17 @@ export class BinChart {
     event.preventDefault();
   }
 
-  /** Point at the next match, or the one before. */
+  /**
+   * Point at the next match, or the one before.
+   * @param {1 | -1} direction
+   */
   #visit(direction) {
     const matches = this.#matches();
     if (matches.length === 0) {
       this.announce(this.#finding(matches));
       return;
     }
-    const from = matches.indexOf(this.pointed);
+    const from = matches.indexOf(this.pointed ?? -1);
     const next = from < 0 && direction < 0 ? matches.length - 1 : (from + direction + matches.length) % matches.length;
     this.visit(matches[next]);
     this.finding.textContent = this.#finding(matches);
@@ -343,7 +434,10 @@ export class BinChart {
 
   // Pointing
 
-  /** Point at a column, or at none with null. */
+  /**
+   * Point at a column, or at none with null.
+   * @param {number | null} column
+   */
   point(column) {
     if (column === this.pointed) return;
     this.pointed = column;
@@ -357,7 +451,10 @@ export class BinChart {
     );
   }
 
-  /** Point at a column wherever it stands, and say which it is. */
+  /**
+   * Point at a column wherever it stands, and say which it is.
+   * @param {number} column
+   */
   visit(column) {
     this.plot.reveal(this.plot.placeOf[column]);
     this.point(column);
@@ -366,7 +463,10 @@ export class BinChart {
     );
   }
 
-  /** Point at the bar some places further; beside the old place of one that has just been chosen. */
+  /**
+   * Point at the bar some places further; beside the old place of one that has just been chosen.
+   * @param {number} number
+   */
   step(number) {
     const { places, placeOf } = this.plot;
     if (places.length === 0) return;
@@ -375,7 +475,10 @@ export class BinChart {
     this.visit(beside ?? places[Math.min(Math.max(from + number, 0), places.length - 1)]);
   }
 
-  /** Mark a range of places, from one to another in any order. */
+  /**
+   * Mark a range of places, from one to another in any order.
+   * @param {[number, number] | null} range
+   */
   mark(range) {
     this.range = range;
     this.#show();
@@ -394,6 +497,7 @@ export class BinChart {
 
   #read() {
     const { bins, pointed } = this;
+    /** @type {(Children | false)[]} */
     let parts;
     if (this.range !== null) {
       const columns = this.marked;
@@ -419,6 +523,7 @@ export class BinChart {
     this.reading.replaceChildren(...parts.filter(Boolean).map((part) => element("span", {}, part)));
   }
 
+  /** @param {number} feature */
   #hued(feature) {
     const mark = element("i", { class: "hued" });
     mark.style.background = this.bins.colorOf(feature);
@@ -427,6 +532,7 @@ export class BinChart {
 
   /** How many of the chosen bins each feature has. */
   #census() {
+    /** @type {Map<number, number>} */
     const counts = new Map();
     for (const column of this.chosen)
       counts.set(this.bins.featureOf(column), (counts.get(this.bins.featureOf(column)) ?? 0) + 1);
@@ -458,11 +564,19 @@ export class BinChart {
   }
 }
 
+/**
+ * @template {string} Value
+ * @param {string} label
+ * @param {string} name
+ * @param {Record<Value, string[]>} options words and a title by value
+ * @param {Value} checked
+ * @param {(value: Value) => void} changed
+ */
 function radios(label, name, options, checked, changed) {
   return element(
     "div",
     { class: "choice", role: "radiogroup", "aria-label": label, id: name },
-    Object.entries(options).map(([value, [words, title]]) =>
+    /** @type {[Value, string[]][]} */ (Object.entries(options)).map(([value, [words, title]]) =>
       element(
         "label",
         { title },

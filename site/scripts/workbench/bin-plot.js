@@ -1,11 +1,20 @@
 // The bars of the bins on a canvas: where each stands, which part is in view, and what is marked.
 
-import { calm, element, svg } from "../base/dom.js";
+import { calm, element, penOf, svg } from "../base/dom.js";
 import { styleColor } from "../base/theme.js";
 import { axisEnd, edges, paintBars, paintRows } from "../bins-kit/bin-bars.js";
 import { BinScale } from "../bins-kit/bin-scale.js";
 import { showBox } from "../map/brush.js";
 import { BinStrip } from "./bin-strip.js";
+
+/** @import { Bars } from "../bins-kit/bin-bars.js" */
+/** @import { Bins } from "../database/bins.js" */
+
+/**
+ * Where bars are painted: the width, where they stand, how high they may rise, and colours by feature.
+ * @typedef {{ width: number, base: number, room: number, colors: string[] }} Frame
+ * @typedef {{ start: number, width: number }} Run chosen bins that stand side by side, in pixels of the screen
+ */
 
 /** Letters of a name below a bar. */
 const NAME = 12;
@@ -22,22 +31,42 @@ const MOVEMENT = 280;
 const MOST_MOVING = 4000;
 
 export class BinPlot {
+  width = 10;
+  height = 10;
+  density = 1;
+  foot = FOOT[0];
+  top = 1;
+  /** @type {string[]} */
+  colors = [];
+  ink = "";
+  accent = "";
+  family = "";
+
+  /** @param {Bins} bins */
   constructor(bins) {
     this.bins = bins;
+    /** @type {Float64Array} */
     this.scores = new Float64Array(bins.count);
+    /** @type {Set<number>} */
     this.chosen = new Set();
+    /** @type {Set<number> | null} */
     this.matched = null;
+    /** @type {Int32Array} */
     this.places = new Int32Array();
     this.placeOf = new Int32Array(bins.count).fill(-1);
     this.position = new Float32Array(bins.count);
     this.level = new Float32Array(bins.count);
     this.feature = Uint16Array.from({ length: bins.count }, (_, column) => bins.featureOf(column));
+    /** @type {number[]} */
     this.features = [];
     this.from = new Float32Array(bins.count);
     this.to = new Float32Array(bins.count);
     this.scale = new BinScale();
+    /** @type {number[]} */
     this.taken = [];
+    /** @type {number | null} */
     this.pointed = null;
+    /** @type {[number, number] | null} */
     this.range = null;
     this.canvas = element("canvas");
     this.pointer = svg("rect", { class: "column pointed" });
@@ -71,8 +100,10 @@ export class BinPlot {
     );
   }
 
-  #frame = null;
-  #movement = null;
+  /** @type {number | undefined} */
+  #frame;
+  /** @type {number | undefined} */
+  #movement;
 
   /** Take the colours of the theme in use. */
   start() {
@@ -99,11 +130,15 @@ export class BinPlot {
     this.#paintStrip();
   }
 
+  /** @param {number} length */
   #pixels(length) {
     return Math.round(length * this.density);
   }
 
-  /** Show bars in an order; they move from where they were, and grow or shrink to their scores. */
+  /**
+   * Show bars in an order; they move from where they were, and grow or shrink to their scores.
+   * @param {{ scores: Float64Array, chosen: Set<number>, places: Int32Array }} bars
+   */
   show({ scores, chosen, places }) {
     const first = this.places.length === 0;
     const [position, level] = [this.position.slice(), this.level.slice()];
@@ -114,6 +149,7 @@ export class BinPlot {
       level[column] = 0;
     });
     this.placeOf.fill(-1);
+    /** @type {Set<number>} */
     const features = new Set();
     places.forEach((column, place) => {
       this.placeOf[column] = place;
@@ -135,8 +171,13 @@ export class BinPlot {
     this.#travel(position, level, first || calm() || places.length > MOST_MOVING ? 0 : MOVEMENT);
   }
 
+  /**
+   * @param {Float32Array} position
+   * @param {Float32Array} level
+   * @param {number} duration
+   */
   #travel(position, level, duration) {
-    cancelAnimationFrame(this.#movement);
+    if (this.#movement !== undefined) cancelAnimationFrame(this.#movement);
     const begin = performance.now();
     const step = () => {
       const share = duration === 0 ? 1 : Math.min((performance.now() - begin) / duration, 1);
@@ -145,20 +186,27 @@ export class BinPlot {
         this.position[column] = position[column] + gone * (place - position[column]);
         this.level[column] = level[column] + gone * (this.scores[column] / this.top - level[column]);
       });
-      this.#movement = share < 1 ? requestAnimationFrame(step) : null;
+      this.#movement = share < 1 ? requestAnimationFrame(step) : undefined;
       this.#paint();
       this.#paintStrip();
     };
     step();
   }
 
-  /** Mark columns among all others, or none with null. */
+  /**
+   * Mark columns among all others, or none with null.
+   * @param {Set<number> | null} matched
+   */
   match(matched) {
     this.matched = matched;
     this.#redraw();
   }
 
-  /** Mark one column, and the places of a range. */
+  /**
+   * Mark one column, and the places of a range.
+   * @param {number | null} pointed
+   * @param {[number, number] | null} range
+   */
   mark(pointed, range) {
     this.pointed = pointed;
     this.range = range;
@@ -195,7 +243,11 @@ export class BinPlot {
     this.#moved();
   }
 
-  /** Zoom by a factor with one point of the surface held still: what is pointed at, the best bars, or the middle. */
+  /**
+   * Zoom by a factor with one point of the surface held still: what is pointed at, the best bars, or the middle.
+   * @param {number} factor
+   * @param {number} [x]
+   */
   zoom(factor, x = this.#centre()) {
     this.hold(this.scale.placeOf(x), x, this.scale.step * factor);
   }
@@ -206,12 +258,18 @@ export class BinPlot {
     return this.scale.left === 0 ? 0 : this.width / 2;
   }
 
-  /** Show a place, which may have a fraction, at a point of the surface. */
+  /**
+   * Show a place, which may have a fraction, at a point of the surface.
+   * @param {number} place
+   * @param {number} x
+   * @param {number} [step]
+   */
   hold(place, x, step) {
     this.scale.hold(place, x, step);
     this.#moved();
   }
 
+  /** @param {number} pixels */
   pan(pixels) {
     this.hold(this.scale.left, -pixels);
   }
@@ -221,19 +279,29 @@ export class BinPlot {
     return Math.min(this.scale.placeOf(this.width), this.places.length) - this.scale.left;
   }
 
+  /** @param {number} place */
   reveal(place) {
     if (this.scale.xOf(place) < -0.5 || this.scale.xOf(place + 1) > this.width + 0.5)
       this.hold(place + 0.5, this.width / 2);
   }
 
-  /** The place under a point of the surface, or null; `nearest` takes the bar beside it where there is none. */
-  at(x, nearest = false) {
+  /**
+   * The place under a point of the surface, or null; `nearest` takes the bar beside it where there is none.
+   * @template {boolean} [Nearest=false]
+   * @param {number} x
+   * @param {Nearest} [nearest]
+   * @returns {Nearest extends true ? number : number | null}
+   */
+  at(x, nearest) {
     const place = Math.floor(this.scale.placeOf(x));
     if (nearest) return Math.min(Math.max(place, 0), this.places.length - 1);
-    return place >= 0 && place < this.places.length ? place : null;
+    return /** @type {any} */ (place >= 0 && place < this.places.length ? place : null);
   }
 
-  /** Where a bar stands in the window. */
+  /**
+   * Where a bar stands in the window.
+   * @param {number} place
+   */
   box(place) {
     const { left, top } = this.surface.getBoundingClientRect();
     const x = this.scale.xOf(place);
@@ -252,9 +320,9 @@ export class BinPlot {
   }
 
   #paint() {
-    cancelAnimationFrame(this.#frame);
-    this.#frame = null;
-    const context = this.canvas.getContext("2d");
+    if (this.#frame !== undefined) cancelAnimationFrame(this.#frame);
+    this.#frame = undefined;
+    const context = penOf(this.canvas);
     context.clearRect(0, 0, this.canvas.width, this.canvas.height);
     this.message.hidden = this.places.length > 0;
     this.#placeMarks();
@@ -263,13 +331,14 @@ export class BinPlot {
     const frame = { width: this.canvas.width, base, room: base - this.#pixels(4), colors: this.colors };
     const { scale, density } = this;
     const inView = this.places.subarray(Math.floor(scale.left), Math.ceil(scale.placeOf(this.width)));
-    const visible = this.#movement === null ? inView : this.places;
+    const visible = this.#movement === undefined ? inView : this.places;
     for (const column of visible) {
       this.from[column] = scale.xOf(this.position[column]) * density;
       this.to[column] = scale.xOf(this.position[column] + 1) * density;
     }
     const bars = { columns: visible, from: this.from, to: this.to, level: this.level, feature: this.feature };
-    const found = this.matched && visible.filter((column) => this.matched.has(column));
+    const { matched } = this;
+    const found = matched && visible.filter((column) => matched.has(column));
     const runs = this.#runsInView();
     this.#paintLevels(context, frame);
     this.#paintGround(context, runs, frame);
@@ -288,10 +357,15 @@ export class BinPlot {
     else this.#paintMatrix(context, { ...bars, columns: found ?? visible }, frame);
   }
 
+  /** @param {number} width */
   #line(width) {
     return Math.max(this.#pixels(width), 1);
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Frame} frame
+   */
   #paintLevels(context, { width, base, room }) {
     context.fillStyle = this.ink;
     context.globalAlpha = 0.1;
@@ -300,7 +374,12 @@ export class BinPlot {
     context.globalAlpha = 1;
   }
 
-  /** Chosen bins stand on a tinted ground. */
+  /**
+   * Chosen bins stand on a tinted ground.
+   * @param {CanvasRenderingContext2D} context
+   * @param {Run[]} runs
+   * @param {Frame} frame
+   */
   #paintGround(context, runs, { base, room }) {
     context.fillStyle = this.accent;
     context.globalAlpha = 0.14;
@@ -308,12 +387,23 @@ export class BinPlot {
     context.globalAlpha = 1;
   }
 
-  /** Their border; where they are too narrow for one each, those side by side share a frame. */
+  /**
+   * Their border; where they are too narrow for one each, those side by side share a frame.
+   * @param {CanvasRenderingContext2D} context
+   * @param {Bars} bars
+   * @param {Run[]} runs
+   * @param {Frame} frame
+   */
   #paintBorders(context, bars, runs, { base, room }) {
     context.fillStyle = context.strokeStyle = this.accent;
     for (const { start, width } of runs) context.fillRect(start, base, width, this.#line(3));
     const framed = this.scale.chosenWidth < BORDERED;
     const line = (context.lineWidth = this.#line(this.scale.chosenWidth < 10 ? 1 : 2));
+    /**
+     * @param {number} start
+     * @param {number} width
+     * @param {number} height
+     */
     const frame = (start, width, height) =>
       context.strokeRect(start + line / 2, base - height + line / 2, width - line, height);
     if (framed) {
@@ -337,15 +427,21 @@ export class BinPlot {
 
   /** First and last places of chosen bins that stand side by side. */
   #runs() {
+    /** @type {[number, number][]} */
     const runs = [];
     for (const place of this.taken) {
-      if (runs.at(-1)?.[1] === place - 1) runs.at(-1)[1] = place;
+      if (runs.length > 0 && runs.at(-1)[1] === place - 1) runs.at(-1)[1] = place;
       else runs.push([place, place]);
     }
     return runs;
   }
 
-  /** Ticks below matches: a bar of no height, or one among thousands, would not be seen. */
+  /**
+   * Ticks below matches: a bar of no height, or one among thousands, would not be seen.
+   * @param {CanvasRenderingContext2D} context
+   * @param {Int32Array} found
+   * @param {Frame} frame
+   */
   #paintTicks(context, found, { base }) {
     for (const column of found) {
       const [from, to] = [this.from[column], this.to[column]];
@@ -354,6 +450,11 @@ export class BinPlot {
     }
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Bars} bars
+   * @param {Frame} frame
+   */
   #paintMatrix(context, bars, { width, base, colors }) {
     const height = Math.max(Math.floor(this.#rowHeight * this.density), 1);
     paintRows(context, bars, {
@@ -366,6 +467,11 @@ export class BinPlot {
     });
   }
 
+  /**
+   * @param {CanvasRenderingContext2D} context
+   * @param {Int32Array} visible
+   * @param {Frame} frame
+   */
   #paintNames(context, visible, { base }) {
     Object.assign(context, { fillStyle: this.ink, textAlign: "right", textBaseline: "middle" });
     // On a low window, names are a little smaller rather than cut.
@@ -399,6 +505,11 @@ export class BinPlot {
     this.#span(this.brush, this.range, 1);
   }
 
+  /**
+   * @param {Element} frame
+   * @param {[number, number] | null} range
+   * @param {number} least
+   */
   #span(frame, range, least) {
     if (range === null) {
       showBox(frame, null);

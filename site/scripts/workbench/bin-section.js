@@ -6,7 +6,22 @@ import { BinChart } from "./bin-chart.js";
 import { separationWords, sides } from "./separation.js";
 import { StatusLine } from "./status-line.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Answers } from "./answers.js" */
+/** @import { Desk } from "./desk.js" */
+
 export class BinSection {
+  /**
+   * @param {Database} database
+   * @param {Chunk.Workbench} data
+   * @param {Bins} bins
+   * @param {State} state
+   * @param {Answers} answers
+   * @param {Desk} desk
+   * @param {(text: string) => void} announce
+   */
   constructor(database, data, bins, state, answers, desk, announce) {
     this.database = database;
     this.data = data;
@@ -18,7 +33,7 @@ export class BinSection {
       onToggle: (column) => desk.toggle([column]),
       onRange: (columns) => desk.add(columns),
       onRemove: (columns) => desk.remove(columns),
-      onPoint: (column, box) => (column === null ? this.card.hide() : this.card.show(column, box)),
+      onPoint: (column, box) => (column === null || box === null ? this.card.hide() : this.card.show(column, box)),
       announce,
     });
     this.status = new StatusLine(document.getElementById("scores-status"), {
@@ -51,7 +66,7 @@ export class BinSection {
     this.card.know({
       scores,
       scorer: database.separable
-        ? data.scorers.find(({ key }) => key === state.get("scorer")).title
+        ? (data.scorers.find(({ key }) => key === state.get("scorer"))?.title ?? "")
         : "standard deviation",
       separated: positive,
       others: groups.filter((group) => !positive.includes(group)),

@@ -1,15 +1,28 @@
 // The whole of the bars in a strip, and on it the window that is shown large: drag it, or one of its ends.
 
-import { element } from "../base/dom.js";
+import { element, penOf } from "../base/dom.js";
 import { paintBars } from "../bins-kit/bin-bars.js";
+
+/** @import { Bars } from "../bins-kit/bin-bars.js" */
+
+/**
+ * How bars are painted: colours by feature, that of chosen ones, and pixels of the screen a pixel of the page.
+ * @typedef {{ colors: string[], accent: string, density: number }} Paints
+ * ¦ Bars by column, each at a position from 0.
+ * @typedef {Pick<Bars, "columns" | "level" | "feature"> & { position: Float32Array }} PlacedBars
+ */
 
 /** Pixels below which the ends of the window leave nothing between them. */
 const NARROW = 40;
 
 export class BinStrip {
+  /** @type {{ kind: "from" | "to" | "move", offset: number } | null} */
   #drag = null;
 
-  /** `look(from, to, last)` is asked to show what lies between two shares of the whole; `last` says that the end must stay. */
+  /**
+   * @param {(from: number, to: number, last: boolean) => void} look is asked to show what lies between two shares of the
+   *   whole; `last` says that the end must stay
+   */
   constructor(look) {
     this.look = look;
     this.from = 0;
@@ -27,12 +40,18 @@ export class BinStrip {
     for (const name of ["pointerup", "pointercancel"]) this.node.addEventListener(name, () => (this.#drag = null));
   }
 
-  /** Paint all bars, and lines under the runs of chosen ones. */
+  /**
+   * Paint all bars, and lines under the runs of chosen ones.
+   * @param {PlacedBars} bars
+   * @param {number} count
+   * @param {[number, number][]} runs
+   * @param {Paints} paints
+   */
   paint(bars, count, runs, { colors, accent, density }) {
     const [width, height] = [Math.round(this.node.clientWidth * density), Math.round(this.node.clientHeight * density)];
     Object.assign(this.canvas, { width, height });
     if (count === 0 || width === 0) return;
-    const context = this.canvas.getContext("2d");
+    const context = penOf(this.canvas);
     const line = Math.round(2 * density);
     const step = width / count;
     const from = bars.position.map((position) => position * step);
@@ -74,7 +93,7 @@ export class BinStrip {
     const share = this.#share(event);
     const width = this.to - this.from;
     const grip = event.target.closest(".grip");
-    if (grip) this.#drag = { kind: grip.classList.contains("from") ? "from" : "to" };
+    if (grip) this.#drag = { kind: grip.classList.contains("from") ? "from" : "to", offset: 0 };
     else {
       const inside = this.window.isSameNode(event.target);
       this.#drag = { kind: "move", offset: inside ? share - this.from : width / 2 };

@@ -7,12 +7,20 @@ import { ofAtMost, rangeOf } from "../database/hit-range.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Separation } from "./separation.js" */
+
+/** @typedef {"from" | "against"} Part of what is to be separated */
+
+/** @type {Part[]} */
+const PARTS = ["from", "against"];
 
 export class ClassTable {
   /**
-   * `change(hidden)` takes other classes into use, `separate(part, groups)` ticks others: part "from" or "against".
    * @param {Database} database
    * @param {State} state
+   * @param {object} ways
+   * @param {(hidden: Set<number>) => void} ways.change takes other classes into use
+   * @param {(part: Part, groups: number[]) => void} ways.separate ticks others
    */
   constructor(database, state, { change, separate }) {
     this.database = database;
@@ -24,7 +32,7 @@ export class ClassTable {
     this.groups = [...database.classes.keys(), ...(database.sizes.has(-1) ? [-1] : [])];
     document.getElementById("classes-all").addEventListener("click", () => change(new Set()));
     document.getElementById("classes-none").addEventListener("click", () => change(new Set(this.groups)));
-    for (const part of ["from", "against"]) {
+    for (const part of PARTS) {
       const all = document.getElementById(part === "from" ? "separate-all" : "against-all");
       all.addEventListener("click", () =>
         separate(part, this.#ticked(part).size < database.classes.length ? [...database.classes.keys()] : []),
@@ -78,7 +86,7 @@ export class ClassTable {
       },
       "only",
     );
-    const ticks = new Map(["from", "against"].map((part) => [part, group >= 0 && this.#tick(part, group, name)]));
+    const ticks = new Map(group < 0 ? [] : PARTS.map((part) => [part, this.#tick(part, group, name)]));
     /** @param {number | null} value */
     const point = (value) => () => state.set({ pointedGroup: value });
     const node = element(
@@ -108,9 +116,9 @@ export class ClassTable {
   }
 
   /**
-   * @param {string} part
-   * @param {string} name
+   * @param {Part} part
    * @param {number} group
+   * @param {string} name
    */
   #tick(part, group, name) {
     const label = part === "from" ? `Separate ${name}` : `Separate from ${name}`;
@@ -128,9 +136,14 @@ export class ClassTable {
     return input;
   }
 
-  /** @param {string} part */
+  /**
+   * @param {Part} part
+   * @returns {Set<number>}
+   */
   #ticked(part) {
-    return new Set(this.state.get("separation")[part] ?? (part === "from" ? this.database.classes.keys() : []));
+    /** @type {Separation} */
+    const separation = this.state.get("separation");
+    return new Set(separation[part] ?? (part === "from" ? this.database.classes.keys() : []));
   }
 
   /** @param {number} group */
@@ -150,13 +163,12 @@ export class ClassTable {
     const hidden = state.get("hidden");
     const chosen = state.get("separation").against !== null;
     this.table.toggleAttribute("data-against", chosen);
-    for (const [group, { node, use, only, ticks }] of this.rows) {
+    for (const [group, { node, use, only, ticks }] of this.rows ?? []) {
       const used = !hidden.has(group);
       node.classList.toggle("unused", !used);
       use.setAttribute("aria-pressed", String(used));
       only.disabled = used && hidden.size === this.groups.length - 1;
       for (const [part, tick] of ticks) {
-        if (!tick) continue;
         tick.disabled = !used;
         tick.checked = used && this.#ticked(part).has(group);
       }

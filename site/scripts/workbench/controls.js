@@ -76,7 +76,7 @@ function watchScorer(data, state, desk) {
   );
   const show = () => {
     select.value = state.get("scorer");
-    words.textContent = data.scorers.find(({ key }) => key === select.value).explanation;
+    words.textContent = data.scorers.find(({ key }) => key === select.value)?.explanation ?? "";
   };
   select.addEventListener("change", () => desk.change({ scorer: select.value }));
   state.listen((changed) => changed.has("scorer") && show());

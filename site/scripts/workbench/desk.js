@@ -11,10 +11,25 @@ import { contests, separationWords } from "./separation.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database } from "../database/database.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { Listener } from "../engine/client.js" */
+/** @import { Standing } from "../engine/inquiry.js" */
 /** @import { LiveScene } from "../map/live-scene.js" */
 /** @import { Answers } from "./answers.js" */
+/** @import { Step, Use } from "./history.js" */
+/** @import { Separation } from "./separation.js" */
+
+/**
+ * The questions that a reader keeps asking: for the two maps, and for the scores of the bins.
+ * @typedef {"original" | "refined"} Which
+ * @typedef {Which | "scores"} Question
+ * ¦ What a reader may ask by.
+ * @typedef {object} Manner
+ * @property {string} [scorer]
+ * @property {Separation} [separation]
+ * @property {string} [projection]
+ * @property {boolean} [sample]
+ */
 
 /** Fewer shapes have no map worth the name. */
 export const FEWEST_SHAPES = 3;
@@ -43,7 +58,7 @@ export class Desk {
    * @param {Chunk.Workbench} data
    * @param {Bins} bins
    * @param {Answers} answers
-   * @param {{ [k: string]: LiveScene }} scenes
+   * @param {Record<Which, LiveScene>} scenes
    * @param {(text: string) => void} announce
    * @param {State} state
    */
@@ -57,11 +72,10 @@ export class Desk {
     this.announce = announce;
     this.history = new History();
     this.history.push(this.#step());
-    /** @param {string} name */
-    const tell = (name) => (status) => state.set({ [`${name}Status`]: status });
-    this.inquiries = Object.fromEntries(
-      ["original", "refined", "scores"].map((name) => [name, new Inquiry(tell(name))]),
-    );
+    /** @param {Question} name */
+    const inquiry = (name) => new Inquiry((/** @type {Standing} */ status) => state.set({ [`${name}Status`]: status }));
+    /** @type {Record<Question, Inquiry>} */
+    this.inquiries = { original: inquiry("original"), refined: inquiry("refined"), scores: inquiry("scores") };
     const content = document.getElementById("content");
     state.listen((changed) => {
       if ([...changed].some((name) => name.endsWith("Status"))) content.setAttribute("aria-busy", String(this.busy));
@@ -73,7 +87,8 @@ export class Desk {
   /**
    * Take other classes, features or bins into use, and ask other questions with it. Bins of a feature that is not in use
    * go with it.
-   * @param {{}} [questions]
+   * @param {Partial<Use>} patch
+   * @param {Manner} [questions]
    */
   use(patch, questions = {}) {
     this.state.set(questions);
@@ -132,9 +147,12 @@ export class Desk {
     this.announce(`Step ${place + 1} of ${this.history.steps.length}`);
   }
 
-  /** The address was changed from outside: by the browser's own way back, or by hand. */
+  /**
+   * The address was changed from outside: by the browser's own way back, or by hand.
+   * @param {Use & Manner} found
+   */
   arrive({ hidden, features, bins, ...questions }) {
-    const step = { hidden, features, bins };
+    const step = { hidden, features, bins, originalMap: null, refinedMap: null };
     const known = this.history.find(step);
     if (known < 0) this.history.push(step);
     else this.history.at = known;
@@ -142,6 +160,7 @@ export class Desk {
     this.#show(this.history.current);
   }
 
+  /** @returns {Step} */
   #step() {
     const { state } = this;
     return {
@@ -153,6 +172,7 @@ export class Desk {
     };
   }
 
+  /** @param {Use} use */
   #show({ hidden, features, bins }) {
     this.state.set({ hidden, features, bins, step: this.history.current });
     this.ask();
@@ -160,13 +180,19 @@ export class Desk {
 
   // Questions
 
-  /** Ask by another scorer, for another separation, with another projection, or of a sample. */
+  /**
+   * Ask by another scorer, for another separation, with another projection, or of a sample.
+   * @param {Manner} values
+   */
   change(values) {
     this.state.set(values);
     this.ask();
   }
 
-  /** Ask for what is not known yet. */
+  /**
+   * Ask for what is not known yet.
+   * @param {Question[]} what
+   */
   ask(what = ["original", "refined", "scores"]) {
     const ways = {
       original: () => this.#askMap("original"),
@@ -176,6 +202,10 @@ export class Desk {
     for (const name of what) ways[name]();
   }
 
+  /**
+   * @param {"from" | "against"} part
+   * @param {number[]} groups
+   */
   separate(part, groups) {
     this.change({ separation: { ...this.state.get("separation"), [part]: new Set(groups) } });
   }
@@ -185,21 +215,19 @@ export class Desk {
     return Object.keys(this.inquiries).some((name) => this.state.get(`${name}Status`).kind === "working");
   }
 
-  /** @param {string} name */
+  /** @param {Question} name */
   stop(name) {
     const stopped = this.inquiries[name].stop();
-    if (stopped) this.scenes[name]?.rest();
+    if (stopped && name !== "scores") this.scenes[name].rest();
     return stopped;
   }
 
   /** Stop all work in progress; true if there was any. */
   stopAll() {
-    return Object.keys(this.inquiries)
-      .map((name) => this.stop(name))
-      .some(Boolean);
+    return /** @type {Question[]} */ (Object.keys(this.inquiries)).map((name) => this.stop(name)).some(Boolean);
   }
 
-  /** @param {string} which */
+  /** @param {Which} which */
   #askMap(which) {
     const { state, answers, history } = this;
     const inquiry = this.inquiries[which];
@@ -222,7 +250,9 @@ export class Desk {
         projection,
         asked,
         report,
-        (x, y) => state.get(`${which}Status`).kind === "working" && scene.stream(x, y),
+        (/** @type {ArrayLike<number>} */ x, /** @type {ArrayLike<number>} */ y) => {
+          if (state.get(`${which}Status`).kind === "working") scene.stream(x, y);
+        },
       );
     inquiry.ask(key, start, (map) => {
       step[`${which}Map`] = map;
@@ -233,7 +263,10 @@ export class Desk {
     });
   }
 
-  /** @param {string} which */
+  /**
+   * @param {Which} which
+   * @param {ShapeMap} map
+   */
   #say(which, map) {
     if (map.hitOfAll === null) {
       this.announce(`The ${which} map is ready.`);
@@ -292,6 +325,7 @@ export class Desk {
   }
 }
 
+/** @param {Set<number>} members */
 function sorted(members) {
   return [...members].sort((a, b) => a - b).join();
 }

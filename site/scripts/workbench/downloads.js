@@ -7,14 +7,26 @@ import { highestOf, rangeOf } from "../database/hit-range.js";
 import { csvText, saveText } from "../tray/export.js";
 
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database } from "../database/database.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
+
+/**
+ * All there is at this moment.
+ * @typedef {object} Work
+ * @property {Set<number>} chosen
+ * @property {Float64Array | null} scores
+ * @property {ShapeMap | null} originalMap
+ * @property {ShapeMap | null} refinedMap
+ * @property {string[]} words what it is made from
+ * @property {string} address
+ */
 
 const FILE = "bins.txt";
 
 /**
- * Open the dialog of downloads; `work` says what there is at this moment.
+ * Open the dialog of downloads.
  * @param {Database} database
  * @param {Bins} bins
+ * @param {() => Work} work
  */
 export function watchDownloads(database, bins, work) {
   const dialog = document.getElementById("export");
@@ -38,6 +50,7 @@ export function watchDownloads(database, bins, work) {
 /**
  * @param {Database} database
  * @param {Bins} bins
+ * @param {Work} work
  */
 function content(database, bins, work) {
   const { chosen, originalMap, refinedMap, scores } = work;
@@ -84,6 +97,7 @@ function content(database, bins, work) {
 /**
  * One name a line, best first, under a header that says where they come from.
  * @param {Bins} bins
+ * @param {Work} work
  */
 function binsText(bins, { chosen, scores, words, refinedMap, address }) {
   const order =
@@ -97,23 +111,24 @@ function binsText(bins, { chosen, scores, words, refinedMap, address }) {
   return `${header.map((line) => `# ${line.replace(/\s+/g, " ")}`).join("\n")}\n${order.map((column) => bins.names[column]).join("\n")}\n`;
 }
 
-/** @param {Database} database */
+/**
+ * @param {Database} database
+ * @param {ShapeMap | null} original
+ * @param {ShapeMap | null} refined
+ */
 function mapsCsv(database, original, refined) {
-  const maps = [
-    ["original", original],
-    ["refined", refined],
-  ].filter(([, map]) => map !== null);
+  const maps = Object.entries({ original, refined }).flatMap(([name, map]) => (map === null ? [] : [{ name, map }]));
   const header = [
     "id",
     "class",
-    ...maps.flatMap(([name]) => [`${name}:x`, `${name}:y`, `${name}:nh`, `${name}:nh_max`]),
+    ...maps.flatMap(({ name }) => [`${name}:x`, `${name}:y`, `${name}:nh`, `${name}:nh_max`]),
   ];
   /** @param {number | null} value */
   const number = (value) => (value === null || Number.isNaN(value) ? "" : value);
   const rows = database.ids.map((id, index) => [
     id,
     database.groups[index] < 0 ? "" : database.className(database.groups[index]),
-    ...maps.flatMap(([, map]) => [
+    ...maps.flatMap(({ map }) => [
       number(map.x[index]),
       number(map.y[index]),
       number(map.hit[index]),
@@ -123,7 +138,11 @@ function mapsCsv(database, original, refined) {
   return csvText([header, ...rows]);
 }
 
-/** @param {Bins} bins */
+/**
+ * @param {Bins} bins
+ * @param {Float64Array} scores
+ * @param {Set<number>} chosen
+ */
 function scoresCsv(bins, scores, chosen) {
   const rows = [...ranked(scores)].map((column, place) => [
     bins.names[column],
@@ -137,9 +156,12 @@ function scoresCsv(bins, scores, chosen) {
 /**
  * @param {Database} database
  * @param {Bins} bins
+ * @param {Work} work
  */
 function allJson(database, bins, { chosen, scores, words, originalMap, refinedMap }) {
+  /** @param {number | null} value */
   const number = (value) => (value === null || Number.isNaN(value) ? null : value);
+  /** @param {ShapeMap | null} one */
   const map = (one) =>
     one && {
       nh_s: one.hitOfAll,

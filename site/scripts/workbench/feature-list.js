@@ -7,10 +7,10 @@ import { element, focused } from "../base/dom.js";
 
 export class FeatureList {
   /**
-   * `change(features)` takes others into use.
    * @param {Bins} bins
-   * @param {() => Chunk.FeatureMarks} marks
    * @param {State} state
+   * @param {() => Chunk.FeatureMarks} marks
+   * @param {(features: Set<number>) => void} change takes others into use
    */
   constructor(bins, state, marks, change) {
     this.bins = bins;
@@ -89,7 +89,10 @@ export class FeatureList {
     );
   }
 
-  /** @param {number} index */
+  /**
+   * @param {number} index
+   * @param {boolean} last
+   */
   #toggle(index, last) {
     if (last) return;
     const features = new Set(this.state.get("features"));

@@ -7,6 +7,7 @@ import { readHash } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 
+/** @import { Children } from "../base/dom.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
@@ -20,6 +21,9 @@ const MANY = 40;
 const LEAST = 0.0005;
 
 export class Guide {
+  /** @type {number | null} */
+  step = null;
+
   /**
    * `act` are the same actions that the controls of the page do.
    * @param {Database} database
@@ -81,21 +85,24 @@ export class Guide {
   }
 
   render() {
-    if (this.step === null || this.example === null) return;
+    const { step, example } = this;
+    if (step === null || example === null) return;
     const focused = this.node.contains(document.activeElement);
-    const steps = this.#steps();
-    const { words, action, todo } = steps[this.step]();
+    const steps = this.#steps(example);
+    const { words, action, todo } = steps[step]();
     const last = steps.length - 1;
     this.node.replaceChildren(
-      element(
-        "b",
-        { class: "which" },
-        this.step < last ? `Example, step ${this.step + 1} of ${last}` : "Example, the end",
-      ),
+      element("b", { class: "which" }, step < last ? `Example, step ${step + 1} of ${last}` : "Example, the end"),
       element("p", { "aria-live": "polite" }, words),
       element(
         "button",
-        { type: "button", class: "plain strong", id: "do-it", disabled: todo === null, onclick: () => this.#do(todo) },
+        {
+          type: "button",
+          class: "plain strong",
+          id: "do-it",
+          disabled: todo === null,
+          onclick: () => this.#do(step === last ? null : todo),
+        },
         action,
       ),
       element(
@@ -114,20 +121,25 @@ export class Guide {
     if (focused) this.node.querySelector("#do-it:not(:disabled)")?.focus();
   }
 
+  /** @param {(() => void) | null} todo null at the end */
   #do(todo) {
-    if (this.step === this.#steps().length - 1) {
+    if (todo === null) {
       this.#dismiss();
       return;
     }
-    this.step += 1;
+    this.step = (this.step ?? 0) + 1;
     todo();
     this.render();
   }
 
-  /** What each step says and does; the last one only says how it ended. */
-  #steps() {
+  /**
+   * What each step says and does; the last one only says how it ended.
+   * @param {Chunk.MixedClasses} example
+   * @returns {(() => { words: Children, action: string, todo: (() => void) | null })[]}
+   */
+  #steps(example) {
     const { act, state } = this;
-    const [one, other] = this.example.classes;
+    const [one, other] = example.classes;
     const pair = [this.#name(one), " and ", this.#name(other)];
     const others = [...this.database.sizes.keys()].filter((group) => group !== one && group !== other);
     /** @param {string} name */
@@ -144,7 +156,7 @@ export class Guide {
       () => ({
         words: [
           ...pair,
-          ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(this.example.mixed * 100)} % are of the other of the two.`,
+          ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(example.mixed * 100)} % are of the other of the two.`,
         ],
         action: "Show only these two",
         todo: () => act.use({ hidden: new Set(others) }),

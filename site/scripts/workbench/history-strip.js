@@ -7,7 +7,7 @@ import { changes } from "./history.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
-/** @import { History, Step } from "./history.js" */
+/** @import { History, Step, Use } from "./history.js" */
 
 const SIZE = 56;
 
@@ -16,6 +16,7 @@ export class HistoryStrip {
    * @param {Database} database
    * @param {History} history
    * @param {State} state
+   * @param {{ go: (place: number) => void }} ways goes to a step
    */
   constructor(database, state, history, { go }) {
     this.database = database;
@@ -35,6 +36,7 @@ export class HistoryStrip {
   }
 
   // By step: a strip is made anew with every step, its pictures only with every map.
+  /** @type {WeakMap<Use, { map: ShapeMap, canvas: HTMLCanvasElement }>} */
   #pictures = new WeakMap();
 
   render() {
@@ -51,7 +53,7 @@ export class HistoryStrip {
 
   /**
    * Scroll the strip to a step, and nothing but the strip: on a phone it lies far below what one looks at.
-   * @param {Element | null} step
+   * @param {Element} step
    */
   #reveal(step) {
     const [strip, box] = [this.list.getBoundingClientRect(), step.getBoundingClientRect()];
@@ -101,15 +103,21 @@ export class HistoryStrip {
     );
   }
 
-  /** @param {ShapeMap} map */
+  /**
+   * @param {Step} step
+   * @param {ShapeMap} map
+   */
   #pictureOf(step, map) {
-    if (this.#pictures.get(step)?.map !== map)
-      this.#pictures.set(step, { map, canvas: pictureOfMap(this.database, map, SIZE, step.hidden) });
-    return this.#pictures.get(step).canvas;
+    const known = this.#pictures.get(step);
+    if (known?.map === map) return known.canvas;
+    const canvas = pictureOfMap(this.database, map, SIZE, step.hidden);
+    this.#pictures.set(step, { map, canvas });
+    return canvas;
   }
 
   /** @param {KeyboardEvent & Targeted} event */
   #key(event) {
+    /** @type {Record<string, number>} */
     const steps = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity };
     if (!(event.key in steps)) return;
     event.preventDefault();

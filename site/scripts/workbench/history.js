@@ -16,6 +16,7 @@
 const MOST_STEPS = 200;
 
 export class History {
+  /** @type {Step[]} */
   steps = [];
   at = -1;
 
@@ -31,7 +32,10 @@ export class History {
     return this.at < this.steps.length - 1;
   }
 
-  /** A new step after the current one; what had been undone is gone. */
+  /**
+   * A new step after the current one; what had been undone is gone.
+   * @param {Step} step
+   */
   push(step) {
     this.steps.length = this.at + 1;
     this.steps.push(step);
@@ -39,7 +43,10 @@ export class History {
     this.at = this.steps.length - 1;
   }
 
-  /** The step nearest to the current one that has the same classes, features and bins; -1 if there is none. */
+  /**
+   * The step nearest to the current one that has the same classes, features and bins; -1 if there is none.
+   * @param {Use} step
+   */
   find(step) {
     let best = -1;
     for (const [place, other] of this.steps.entries()) {
@@ -49,23 +56,40 @@ export class History {
   }
 }
 
-/** Whether two steps have the same classes, features and bins. */
+/**
+ * Whether two steps have the same classes, features and bins.
+ * @param {Use} one
+ * @param {Use} other
+ */
 export function alike(one, other) {
-  return ["hidden", "features", "bins"].every((name) => sameMembers(one[name], other[name]));
+  return /** @type {(keyof Use)[]} */ (["hidden", "features", "bins"]).every((name) =>
+    sameMembers(one[name], other[name]),
+  );
 }
 
+/**
+ * @param {Set<number>} one
+ * @param {Set<number>} other
+ */
 function sameMembers(one, other) {
   return one.size === other.size && [...one].every((member) => other.has(member));
 }
 
+/** @type {{ name: keyof Use, word: string, sign: number }[]} */
 const CHANGES = [
   { name: "bins", word: "bin", sign: 1 },
   { name: "hidden", word: "class", sign: -1 },
   { name: "features", word: "feature", sign: 1 },
 ];
 
-/** What a step added and removed, as [how many, of what]: [[10, "bin"], [-1, "feature"]]. */
+/**
+ * What a step added and removed, as [how many, of what]: [[10, "bin"], [-1, "feature"]].
+ * @param {Use} before
+ * @param {Use} after
+ * @returns {[number, string][]}
+ */
 export function changes(before, after) {
+  /** @type {[number, string][]} */
   const found = [];
   for (const { name, word, sign } of CHANGES) {
     const more = [...after[name]].filter((member) => !before[name].has(member)).length;

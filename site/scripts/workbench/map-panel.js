@@ -9,19 +9,20 @@ import { StatusLine } from "./status-line.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database } from "../database/database.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { Answers } from "./answers.js" */
-/** @import { Desk } from "./desk.js" */
+/** @import { Desk, Which } from "./desk.js" */
 
 /**
  * What stands around the two maps; the refined one is compared with the original one.
  * @param {Database} database
+ * @param {State} state
  * @param {Bins} bins
  * @param {Answers} answers
  * @param {Desk} desk
  */
 export function mapPanels(database, state, bins, answers, desk) {
-  return Object.entries({ original: null, refined: "originalMap" }).map(
+  return /** @type {[Which, string | null][]} */ (Object.entries({ original: null, refined: "originalMap" })).map(
     ([which, other]) =>
       new MapPanel(which, database, state, bins, {
         other,
@@ -34,12 +35,15 @@ export function mapPanels(database, state, bins, answers, desk) {
 
 class MapPanel {
   /**
-   * `other` names the state's map that this one is compared with, or is null; `again` restarts work that was stopped,
-   * `empty` says what to show, as elements, where there is no map and none is being made.
-   * @param {string} which
+   * @param {Which} which
    * @param {Database} database
    * @param {Bins} bins
    * @param {State} state
+   * @param {object} options
+   * @param {string | null} options.other names the state's map that this one is compared with
+   * @param {() => void} options.again restarts work that was stopped
+   * @param {() => void} options.stop
+   * @param {() => Node[]} options.empty what to show where there is no map and none is being made
    */
   constructor(which, database, state, bins, { other, again, stop, empty }) {
     this.which = which;
@@ -121,18 +125,21 @@ class MapPanel {
     );
   }
 
+  /** @param {ShapeMap | null} map */
   #showEmpty(map) {
     this.blank.hidden = map !== null || this.state.get(`${this.which}Status`).kind !== "none";
     if (!this.blank.hidden) this.blank.replaceChildren(...this.empty());
   }
 }
 
+/** @param {Set<number>} bins */
 function chosenWords({ size }) {
   return size === 0 ? "" : count(size, "bin");
 }
 
 /**
  * "all 8 features", "Agd, Sc".
+ * @param {Set<number>} features
  * @param {Chunk.Feature[]} all
  */
 function featureWords(features, all) {

@@ -7,9 +7,19 @@ import { Gestures } from "../map/gestures.js";
 import { LiveScene } from "../map/live-scene.js";
 import { MapView } from "../map/map.js";
 
+/** @import { State } from "../base/state.js" */
+/** @import { Which } from "./desk.js" */
+
+/** @type {Which[]} */
 const WHICH = ["original", "refined"];
 
 export class WorkMaps {
+  /**
+   * @param {Chunk.Overview} overview
+   * @param {Database} database
+   * @param {State} state
+   * @param {(text: string) => void} announce
+   */
   constructor(overview, database, state, announce) {
     this.state = state;
     // Each map has a database of its own: the same shapes, one layout.
@@ -17,13 +27,15 @@ export class WorkMaps {
     const scenes = WHICH.map(
       (which) => new LiveScene(new Database({ ...overview, methods }, currentTheme), state, `${which}Camera`),
     );
-    this.scenes = Object.fromEntries(WHICH.map((which, place) => [which, scenes[place]]));
+    /** @type {Record<Which, LiveScene>} */
+    this.scenes = { original: scenes[0], refined: scenes[1] };
     this.views = scenes.map((scene, place) => {
       const view = new MapView(scene, document.querySelector(`figure[data-map="${WHICH[place]}"]`));
       view.name = state.get("color");
       scene.views = [view];
       return view;
     });
+    /** @type {ConstructorParameters<typeof Gestures>[1]} */
     const does = {
       open: (shape) => this.toggle(shape),
       promote: () => {},
@@ -33,7 +45,10 @@ export class WorkMaps {
     state.listen((changed) => changed.has("color") && this.#recolor());
   }
 
-  /** Mark a shape on both maps, or no longer. */
+  /**
+   * Mark a shape on both maps, or no longer.
+   * @param {number} shape
+   */
   toggle(shape) {
     this.state.set({ opened: shape === this.state.get("opened") ? null : shape });
   }

@@ -22,11 +22,12 @@ export class StatusLine {
       this.bar,
       element("button", { type: "button", class: "plain", title: "Stop (Escape)", onclick: stop }, "Stop"),
     ];
+    /** @param {string} words */
     this.again = (words) => element("button", { type: "button", class: "plain", onclick: again }, words);
   }
 
   /** @param {Standing} standing */
-  show({ kind, progress, message }) {
+  show({ kind, progress = 0, message }) {
     if (kind === "working") {
       this.bar.value = progress;
       this.#waiting ??= setTimeout(() => this.#put(...this.working), PATIENCE);

@@ -7,7 +7,7 @@ import { binTables } from "../bins-kit/bin-list.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database } from "../database/database.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
 
 const MOST_ROWS = 500;
 
@@ -20,8 +20,16 @@ export function workTables(database, bins, state) {
   const [original, refined] = [state.get("originalMap"), state.get("refinedMap")];
   const hidden = state.get("hidden");
   const groups = [...database.classes.keys()].filter((group) => !hidden.has(group));
+  /**
+   * @param {number | null} before
+   * @param {number | null} after
+   */
   const change = (before, after) => (before === null || after === null ? "–" : difference(after - before));
-  /** @param {string} name */
+  /**
+   * @param {string} name
+   * @param {number | null} before
+   * @param {number | null} after
+   */
   const row = (name, before, after) => [name, figure(before), figure(after), change(before, after)];
   /** @param {number} group */
   const hits = (group) =>
@@ -31,7 +39,10 @@ export function workTables(database, bins, state) {
     .map((_, index) => index)
     .filter((index) => !hidden.has(database.groups[index]))
     .slice(0, MOST_ROWS);
-  /** @param {number} index */
+  /**
+   * @param {ShapeMap | null} map
+   * @param {number} index
+   */
   const place = (map, index) => (map === null ? ["–", "–"] : [figure(map.x[index]), figure(map.y[index])]);
   return {
     title: "The Workbench in figures",
