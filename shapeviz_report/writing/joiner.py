@@ -8,6 +8,8 @@ file and the line, instead of a script that fails in a reader's browser::
     import { name, other } from "./module.js";
     export function name() {}          export async function name() {}          export function* name() {}
     export const name = ...;           export class Name {}
+
+What ``/** ... */`` says on lines of its own is for the type checker and for those who write modules; it is left out.
 """
 
 from __future__ import annotations
@@ -177,7 +179,7 @@ def _read(entry: Path) -> dict[Path, _Module]:
 
 
 def _statements(text: str) -> Iterator[tuple[int, str]]:
-    """The lines of a module with their numbers, an import of several lines as one."""
+    """The lines of a module with their numbers, an import of several lines as one, and without comments on types."""
     lines = enumerate(text.splitlines(), start=1)
     for number, line in lines:
         if line == "import {":
@@ -185,4 +187,11 @@ def _statements(text: str) -> Iterator[tuple[int, str]]:
                 line += f" {more.strip()}"
                 if more.startswith("}"):
                     break
+        elif line.strip() == "/**":
+            for _, more in lines:
+                if more.strip() == "*/":
+                    break
+            continue
+        elif line.lstrip().startswith("/** ") and line.endswith(" */"):
+            continue
         yield number, line

@@ -26,6 +26,7 @@ APART = ("engine", "viewer")
 LONGEST_ENTRY = 80
 
 _IMPORT = re.compile(r'^import \{[^}]*\} from "([^"]+)";$', re.MULTILINE)
+_TYPE_IMPORT = re.compile(r'^/\*\* @import \{[^}]*\} from "([^"]+)" \*/$', re.MULTILINE)
 
 
 def _scripts() -> Path:
@@ -33,12 +34,13 @@ def _scripts() -> Path:
 
 
 def _imports() -> list[tuple[Path, Path]]:
-    """Every import that leaves its room: who imports, and what; below the folder of scripts."""
+    """Every import that leaves its room, those of types too: who imports, and what; below the folder of scripts."""
     root = _scripts()
     pairs = [
         (path.relative_to(root), (path.parent / source).resolve().relative_to(root))
         for path in sorted(root.rglob("*.js"))
-        for source in _IMPORT.findall(path.read_text(encoding="utf-8"))
+        for pattern in (_IMPORT, _TYPE_IMPORT)
+        for source in pattern.findall(path.read_text(encoding="utf-8"))
     ]
     return [(one, other) for one, other in pairs if one.parts[0] != other.parts[0]]
 

@@ -32,6 +32,33 @@ def test_a_module_runs_once_before_those_that_import_it(modules):
     assert script.index("function two()") < script.index("const one") < script.index("console.log")
 
 
+def test_comments_that_say_types_are_left_out_and_code_beside_one_stays(modules):
+    entry = modules(
+        main="\n".join(
+            [
+                '/** @import { One } from "./a.js" */',
+                "// Kept.",
+                "/**",
+                " * Twice a number.",
+                " * @param {number} value",
+                " */",
+                "function twice(value) {",
+                "  /** @type {number} */",
+                "  const two = 2;",
+                "  return /** @type {number} */ (two * value);",
+                "}",
+                "/** @type {any} */ (globalThis).answer = twice(21);",
+            ]
+        )
+    )
+    script = join(entry)
+    for left_out in ("@param", "@import", "  /** @type {number} */\n"):
+        assert left_out not in script
+    assert "// Kept." in script
+    assert "return /** @type {number} */ (two * value);" in script
+    assert "(globalThis).answer = twice(21);" in script
+
+
 def test_an_import_may_take_several_lines(modules):
     entry = modules(
         main='import {\n  one,\n  two,\n} from "./a.js";\nconsole.log(one, two);',
