@@ -43,7 +43,7 @@ def chromium(folder: Path, environment: Mapping[str, str]) -> Iterator[Wire]:
     binary = program("chromium")
     port = free_port()
     with running([program("chromium-driver"), f"--port={port}"], folder, environment):
-        wire = eventually(lambda: Http(port))
+        wire = reached(lambda: Http(port))
         wire.send("NewSession", wanted({"goog:chromeOptions": {"binary": binary, "args": CHROMIUM}}))
         yield wire
         wire.send("DeleteSession", {})
@@ -59,7 +59,7 @@ def firefox(folder: Path, environment: Mapping[str, str]) -> Iterator[Wire]:
     command = [program("firefox-esr"), "--marionette", "--no-remote", "--profile", str(profile)]
     with running(command, folder, environment):
         # Firefox takes a free port, and writes down which.
-        wire = eventually(lambda: Marionette(int((profile / "MarionetteActivePort").read_text())))
+        wire = reached(lambda: Marionette(int((profile / "MarionetteActivePort").read_text())))
         wire.send("NewSession", wanted({}))
         yield wire
 
@@ -73,7 +73,7 @@ def webkit(folder: Path, environment: Mapping[str, str]) -> Iterator[Wire]:
     # Layers that are put together by a graphics card have none here.
     own = {"XDG_CONFIG_HOME": str(folder), "WEBKIT_DISABLE_COMPOSITING_MODE": "1"}
     with running([program("webkit2gtk-driver"), f"--port={port}"], folder, {**environment, **own}):
-        wire = eventually(lambda: Http(port))
+        wire = reached(lambda: Http(port))
         wire.send("NewSession", wanted({}))
         yield wire
         wire.send("DeleteSession", {})
@@ -154,7 +154,7 @@ def free_port() -> int:
         return server.getsockname()[1]
 
 
-def eventually(connected: Callable[[], Wire], seconds: float = 60) -> Wire:
+def reached(connected: Callable[[], Wire], seconds: float = 60) -> Wire:
     """The wire to a program that is about to listen."""
     end = time.monotonic() + seconds
     while True:

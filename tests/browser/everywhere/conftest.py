@@ -68,7 +68,13 @@ def visit(browser_window, heard_site) -> Iterator[Callable[..., Window]]:
     A complaint of the browser's fails the test.
     """
 
+    visited = False
+
     def load(name: str, file: str, address: str | None = None) -> Window:
+        nonlocal visited
+        if visited:
+            assert complaints(browser_window) == []
+        visited = True
         browser_window.visit(address or f"{heard_site(name)}/{file}")
         drawn(browser_window)
         return browser_window
