@@ -78,6 +78,13 @@ def test_what_starts_a_page_only_wires():
     )
 
 
+def test_marks_are_drawn_in_one_place():
+    """Where Vega does not: any other would look a little different beside it."""
+    root = _scripts()
+    drawing = [path for path in root.rglob("*.js") if "Path2D" in path.read_text(encoding="utf-8")]
+    assert drawing == [root / "map" / "marks.js"], "lay a stamp of map/marks.js instead"
+
+
 def test_no_script_is_left_over():
     root = _scripts()
     imported = {
