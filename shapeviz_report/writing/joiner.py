@@ -189,7 +189,7 @@ def _statements(text: str) -> Iterator[tuple[int, str]]:
                     break
         elif line.strip() == "/**":
             for _, more in lines:
-                if more.strip() == "*/":
+                if more.endswith("*/"):
                     break
             continue
         elif line.lstrip().startswith("/** ") and line.endswith(" */"):

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
+import pytest
+
 from shapeviz_report.pages import PAGES
+from shapeviz_report.writing.assets import join_scripts
 from shapeviz_report.writing.resources import site_folder
 
 #: From the scripts that start a page down to what knows nothing of the site. Rooms of one layer do not meet.
@@ -99,3 +104,17 @@ def test_no_script_is_left_over():
     }
     unused = set(root.rglob("*.js")) - imported - starts - {root / "engine" / "worker.js"}
     assert unused == set()
+
+
+#: Reads scripts without running them.
+_PARSE = "for (const file of process.argv.slice(1)) new vm.Script(fs.readFileSync(file, 'utf8'), { filename: file })"
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_the_scripts_of_a_site_are_scripts(tmp_path):
+    for name, text in join_scripts().items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    paths = sorted(tmp_path.iterdir())
+    read = subprocess.run(["node", "-e", _PARSE, *paths], capture_output=True, text=True, check=False)
+    assert read.stderr == ""
+    assert "@param" not in "".join(path.read_text(encoding="utf-8") for path in paths if path.stem != "vega")

@@ -133,7 +133,8 @@ export class Tray {
   /**
    * Where else these shapes can be looked at.
    * @param {Set<number>} selection
-   * @returns {string[][]} words, and the address   */
+   * @returns {string[][]} words, and the address
+   */
   #links(selection) {
     const { database, here } = this;
     const query = new URLSearchParams();

@@ -41,7 +41,7 @@ def test_comments_that_say_types_are_left_out_and_code_beside_one_stays(modules)
                 "/**",
                 " * Twice a number.",
                 " * @param {number} value",
-                " */",
+                " * and so on */",
                 "function twice(value) {",
                 "  /** @type {number} */",
                 "  const two = 2;",
