@@ -38,28 +38,6 @@ exit codes:
 QUERYING = ("time_limit", "memory_limit", "cache")
 """Options of a build that a query has as well."""
 
-STAGES = {
-    "read": "Reading the database",
-    "generate": "Generating shapes",
-    "check": "Checking meshes",
-    "prepare": "Preparing meshes",
-    "sample": "Finding value ranges",
-    "describe": "Describing shapes",
-    "render": "Drawing thumbnails",
-    "examine": "Outlining meshes",
-    "compare": "Comparing look-alikes",
-    "cluster": "Finding clusters",
-    "project": "Projecting",
-    "search": "Searching features",
-    "bins": "Scoring bins",
-    "select": "Searching bins",
-    "retrieve": "Rating retrieval",
-    "paint": "Painting bins",
-    "score": "Scoring maps",
-    "write": "Writing the site",
-}
-"""What a person reads of each stage."""
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
@@ -481,17 +459,16 @@ class TerminalProgress:
     """A bar with the time left on a terminal; on anything else a line every ten seconds."""
 
     @contextmanager
-    def stage(self, name: str, total: int) -> Iterator[Callable[[], None]]:
+    def stage(self, doing: str, total: int) -> Iterator[Callable[[], None]]:
         """See :class:`shapeviz_report.building.progress.Progress`."""
-        title = STAGES[name]
         if total == 0:
-            _complain(title)
+            _complain(doing)
             yield lambda: None
             return
         live = sys.stderr.isatty()
         with tqdm(
             total=total,
-            desc=f"{title:<22}",
+            desc=f"{doing:<22}",
             bar_format="{desc} {bar:24} {n_fmt:>6} of {total_fmt}  {elapsed} gone, {remaining} left",
             mininterval=0.2 if live else 10.0,
             maxinterval=1.0 if live else 10.0,

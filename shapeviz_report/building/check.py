@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from shapeviz_report.bins import read_bins
-from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import find_copies
 from shapeviz_report.building.reading import load_all_external, plan_examining, read_published
 from shapeviz_report.building.runner import Runner
+from shapeviz_report.building.stages import EXAMINE
 from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
@@ -47,7 +47,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
     root = (config.cache or default_root()).absolute()
     check_cache(root, database_path)
     clock = Clock(progress or QuietProgress())
-    with clock.stage("read"):
+    with clock.stage("read", "Reading the database"):
         database = read_published(database_path, config, read_publication(config))
         external = load_all_external(config.external, len(database.shapes))
         if config.bins is not None:
@@ -59,9 +59,8 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         paths = {s.id: s.path.absolute() for s in database.shapes}
         within = None if config.outside else database.root
 
-        examined = run.each(
-            "check", stages.EXAMINE, paths, plan_examining(paths, within), stages.read_examined
-        )
+        checking = replace(EXAMINE, name="check", doing="Checking meshes")
+        examined = run.each(checking, paths, plan_examining(paths, within))
         copies = find_copies(run, paths, within, examined)
     cache.tell()
     repairs = {shape: result.value[0] for shape, result in examined.items()}

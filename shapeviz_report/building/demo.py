@@ -6,10 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from shapeviz_report import demo
-from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_places
 from shapeviz_report.building.pipeline import build_report
 from shapeviz_report.building.progress import Progress, QuietProgress
+from shapeviz_report.building.stages import GENERATE
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root, discard
 from shapeviz_report.config import Config
@@ -26,18 +26,18 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
     check_renderer()
     progress = progress or QuietProgress()
     cache = Cache((config.cache or default_root()).absolute())
-    root = cache.root / "demo" / f"{stages.GENERATE.version}-{config.seed}"
+    root = cache.root / "demo" / f"{GENERATE.version}-{config.seed}"
     shapes = [(c.name, i, config.seed) for c in demo.CLASSES for i in range(demo.PER_CLASS)]
-    kept = {task: cache.load("generated", stages.GENERATE.key(*task)) for task in shapes}
+    kept = {task: cache.load(GENERATE.folder, GENERATE.key(*task)) for task in shapes}
     made = {task: content for task, content in kept.items() if content is not None}
     tasks = [task for task in shapes if task not in made]
     if tasks:
-        with open_executor(config) as executor, progress.stage("generate", len(tasks)) as advance:
-            for outcome in executor.run(stages.generate_shape, tasks):
+        with open_executor(config) as executor, progress.stage(GENERATE.doing, len(tasks)) as advance:
+            for outcome in executor.run(GENERATE.compute, tasks):
                 task = tasks[outcome.index]
                 if outcome.reason is not None:
-                    raise DatabaseError(f"The demo shape {task} cannot be made: {outcome.reason}.")
-                cache.store("generated", stages.GENERATE.key(*task), outcome.value)
+                    raise DatabaseError(GENERATE.failing.format(task=task, reason=outcome.reason))
+                cache.store(GENERATE.folder, GENERATE.key(*task), outcome.value)
                 made[task] = outcome.value
                 advance()
     cache.tell()

@@ -89,7 +89,7 @@ def build_report(
     check_places(destination, config, root, database_path)
     check_renderer()
     clock = Clock(progress or QuietProgress())
-    with clock.stage("read"):
+    with clock.stage("read", "Reading the database"):
         publication = read_publication(config)
         database = read_published(database_path, config, publication)
         check_meshes(destination, database)
@@ -110,9 +110,9 @@ def build_report(
             key = stages.PREPARE.key(stages.identify(paths[shape], files), config.edge_length)
             return Task(key, lambda: (files, config.edge_length))
 
-        prepared = run.each("prepare", stages.PREPARE, paths, plan_preparing, stages.read_facts)
+        prepared = run.each(stages.PREPARE, paths, plan_preparing)
 
-        def plan(stage: stages.Stage, shape: str, *options: Any) -> Task:
+        def plan(stage: stages.Stage[Any], shape: str, *options: Any) -> Task:
             """A task that starts from the prepared mesh."""
             source = prepared[shape].key
             key = stage.key(source, *(o.tobytes() if isinstance(o, np.ndarray) else o for o in options))
@@ -124,29 +124,21 @@ def build_report(
             edges = fixed_edges()
         else:
             share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), *SAMPLED_OF_A_SHAPE))
-            samples = run.each(
-                "sample", stages.SAMPLE, prepared, lambda s: plan(stages.SAMPLE, s, share), stages.read_array
-            )
+            samples = run.each(stages.SAMPLE, prepared, lambda s: plan(stages.SAMPLE, s, share))
             edges = quantile_edges([s.value for s in samples.values()]) if samples else fixed_edges()
         pictures = run.each(
-            "render",
-            stages.RENDER,
-            prepared,
-            lambda s: plan(stages.RENDER, s, config.thumbnail_size, config.up),
-            stages.read_picture,
+            stages.RENDER, prepared, lambda s: plan(stages.RENDER, s, config.thumbnail_size, config.up)
         )
         views = {shape: result.value[1] for shape, result in pictures.items()}
 
         def plan_describing(shape: str) -> Task:
             return plan(stages.DESCRIBE, shape, views[shape], edges, preset.by_area)
 
-        described = run.each("describe", stages.DESCRIBE, pictures, plan_describing, stages.read_features)
+        described = run.each(stages.DESCRIBE, pictures, plan_describing)
         shapes = tuple(s for s in database.shapes if s.id in described)
         if not shapes:
             raise DatabaseError(*_nothing_usable(database_path, failures))
-        examined = run.each(
-            "examine", stages.EXAMINE, described, plan_examining(paths, within), stages.read_examined
-        )
+        examined = run.each(stages.EXAMINE, described, plan_examining(paths, within))
         copies = find_copies(run, paths, within, examined)
         groups = group_copies(copies, [s.id for s in shapes])
         rows = [i for i, s in enumerate(database.shapes) if s.id in described]
@@ -194,7 +186,7 @@ def build_report(
             for s in shapes
         )
     cache.tell()
-    with clock.stage("score"):
+    with clock.stage("score", "Scoring maps"):
         maps: dict[str, tuple[Projection, Quality]] = {
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
             for name, projection in projections.items()
@@ -239,7 +231,7 @@ def build_report(
         copies=copies,
         without_copies=without_copies,
     )
-    with clock.stage("write"):
+    with clock.stage("write", "Writing the site"):
         write_site(report, destination, single_file=config.single_file)
     return report
 

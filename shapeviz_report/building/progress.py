@@ -15,8 +15,8 @@ logger = logging.getLogger(__name__)
 class Progress(Protocol):
     """Told how far a build is."""
 
-    def stage(self, name: str, total: int) -> AbstractContextManager[Callable[[], None]]:
-        """Enter a stage of ``total`` steps (0: unknown); the function it gives is called after each."""
+    def stage(self, doing: str, total: int) -> AbstractContextManager[Callable[[], None]]:
+        """Enter a stage, told in words, of ``total`` steps (0: unknown); the function it gives is called after each."""
         ...
 
 
@@ -24,9 +24,9 @@ class QuietProgress:
     """Progress as log records: one when a stage begins."""
 
     @contextmanager
-    def stage(self, name: str, total: int) -> Iterator[Callable[[], None]]:
+    def stage(self, doing: str, total: int) -> Iterator[Callable[[], None]]:
         """See :class:`Progress`."""
-        logger.info("%s (%d)", name, total) if total else logger.info("%s", name)
+        logger.info("%s (%d)", doing, total) if total else logger.info("%s", doing)
         yield lambda: None
 
 
@@ -39,10 +39,10 @@ class Clock:
     cpu_seconds: dict[str, float] = field(default_factory=dict)
 
     @contextmanager
-    def stage(self, name: str, total: int = 0) -> Iterator[Callable[[float], None]]:
+    def stage(self, name: str, doing: str, total: int = 0) -> Iterator[Callable[[float], None]]:
         """Time a stage; the function it gives takes the CPU seconds of a worker, once for each step done."""
         wall, cpu, workers = time.perf_counter(), time.process_time(), 0.0
-        with self.progress.stage(name, total) as advance:
+        with self.progress.stage(doing, total) as advance:
 
             def step(worker_cpu: float) -> None:
                 nonlocal workers

@@ -349,24 +349,24 @@ def _measure(
     try:
         files = collect_files(mesh)
         edge_length = float(site.summary["parameters"]["edge_length"])
-        with progress.stage("prepare", 0):
+        with progress.stage(stages.PREPARE.doing, 0):
             key = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
             prepared = _compute(executor, cache, stages.PREPARE, key, lambda: (files, edge_length))
-        facts = stages.read_facts(prepared)
-        with progress.stage("describe", 0):
+        facts = stages.PREPARE.read(prepared)
+        with progress.stage(stages.MEASURE.doing, 0):
             by_area = site.preset.by_area
             key = stages.MEASURE.key(key, site.edges.tobytes(), by_area)
             measured = _compute(executor, cache, stages.MEASURE, key, lambda: (prepared, site.edges, by_area))
     except MeshError as error:
         raise MeshError(f"the mesh {mesh} cannot be used: {error}") from error
     cache.tell()
-    return facts, stages.read_array(measured)
+    return facts, stages.MEASURE.read(measured)
 
 
 def _compute(
     executor: Executor,
     cache: Cache,
-    stage: stages.Stage,
+    stage: stages.Stage[Any],
     key: str,
     arguments: Callable[[], tuple[Any, ...]],
 ) -> bytes:
@@ -374,7 +374,7 @@ def _compute(
     content = cache.load(stage.folder, key)
     if content is not None:
         return content
-    (outcome,) = executor.run(stage.function, [arguments()])
+    (outcome,) = executor.run(stage.compute, [arguments()])
     if outcome.reason is not None:
         raise MeshError(outcome.reason)
     cache.store(stage.folder, key, outcome.value)

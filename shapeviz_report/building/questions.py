@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,18 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.bins import features_of
-from shapeviz_report.building import stages
 from shapeviz_report.building.runner import Result, Runner, Task
+from shapeviz_report.building.stages import (
+    CLUSTER,
+    COMPARE,
+    PAINT,
+    PROJECT,
+    RETRIEVE,
+    SCORE,
+    SEARCH,
+    SELECT,
+    identify,
+)
 from shapeviz_report.clusters import describe_clusters
 from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline, join_copies, pair_outlines
@@ -34,6 +45,7 @@ from shapeviz_report.types import (
     FeatureSearch,
     FeatureTable,
     FloatArray,
+    HeldOutBins,
     IntArray,
     Match,
     Painting,
@@ -58,28 +70,31 @@ folds of 56 shapes tell NH_s to 0.01."""
 
 
 def find_copies(
-    run: Runner, paths: Mapping[str, Path], within: Path | None, examined: Mapping[str, Result]
+    run: Runner,
+    paths: Mapping[str, Path],
+    within: Path | None,
+    examined: Mapping[str, Result[tuple[dict[str, int], Outline]]],
 ) -> tuple[Copy, ...]:
     """The shapes that are the same shape again; those whose comparison fails are taken for different."""
-    outlines: dict[str, Outline] = {shape: result.value[1] for shape, result in examined.items()}
+    outlines = {shape: result.value[1] for shape, result in examined.items()}
     certain, possible = pair_outlines(outlines)
     found: dict[tuple[str, str], Match | None] = {}
-    with run.clock.stage("compare", len(possible)) as step:
+    with run.clock.stage(COMPARE.name, COMPARE.doing, len(possible)) as step:
 
         def plan(pair: tuple[str, str]) -> Task:
             first, second = (collect_files(paths[shape], within) for shape in pair)
-            names = [stages.identify(paths[shape], files) for shape, files in zip(pair, (first, second))]
-            return Task(stages.COMPARE.key(*names), lambda: (first, second))
+            names = [identify(paths[shape], files) for shape, files in zip(pair, (first, second))]
+            return Task(COMPARE.key(*names), lambda: (first, second))
 
         def take(pair: tuple[str, str], _: str, content: bytes, cpu_seconds: float) -> None:
-            found[pair] = stages.read_match(content)
+            found[pair] = COMPARE.read(content)
             step(cpu_seconds)
 
         def drop(pair: tuple[str, str], reason: str, cpu_seconds: float) -> None:
             logger.warning("Whether %s and %s are copies is not known: %s", *pair, reason)
             step(cpu_seconds)
 
-        run.find(stages.COMPARE, possible, plan, take, drop)
+        run.find(COMPARE, possible, plan, take, drop)
     return join_copies(certain, found, list(outlines))
 
 
@@ -94,12 +109,8 @@ def find_clusters(
     stand_in: bool,
 ) -> Clusters | None:
     """Groups of the shapes by their features alone, with names."""
-    key = stages.CLUSTER.key(scaled.shape, sha256(scaled.tobytes()).hexdigest(), config.seed)
-    task = Task.of(key, scaled, config.seed)
-    found = run.all(
-        "cluster", stages.CLUSTER, {"all": task}, lambda _, reason: f"Clustering the shapes failed: {reason}."
-    )
-    partition = stages.read_partition(found["all"])
+    key = CLUSTER.key(scaled.shape, sha256(scaled.tobytes()).hexdigest(), config.seed)
+    partition = run.all(CLUSTER, {"all": Task.of(key, scaled, config.seed)})["all"]
     if partition is None:
         return None
     preset = PRESETS[config.preset]
@@ -116,7 +127,6 @@ def project_all(
 ) -> dict[str, Projection]:
     """The map of every method from the scaled values of all columns or of some bins, turned to agree with the first."""
     names = features_of(features, features.columns if bins is None else bins)
-    found: dict[str, FloatArray] = {}
     # Where the search takes all shapes, its map of all features is the map: t-SNE and UMAP make another one of sums
     # that differ in their last digits.
     whole = bins is None and len(space.rows) == len(values)
@@ -125,33 +135,26 @@ def project_all(
     everything = (space.everything,)
     content = sha256(values.tobytes()).hexdigest()
     own = {
-        method.name: Task.of(
-            stages.PROJECT.key(method.name, values.shape, content, seed), method.name, values, seed
-        )
+        method.name: Task.of(PROJECT.key(method.name, values.shape, content, seed), method.name, values, seed)
         for method in PROJECTIONS
         if method.name not in shared
     }
     of_search = {
-        name: Task.of(
-            stages.SEARCH.key(space.key, name, seed, everything), space.squared, name, seed, everything
-        )
+        name: Task.of(SEARCH.key(space.key, name, seed, everything), space.squared, name, seed, everything)
         for name in methods
         if name in shared
     }
 
-    def failing(method: str, reason: str) -> str:
-        return f"The projection {method} failed: {reason}."
-
-    with run.clock.stage("project", len(methods)) as step:
+    with run.clock.stage(PROJECT.name, PROJECT.doing, len(methods)) as step:
 
         def done(_: str, cpu_seconds: float) -> None:
             step(cpu_seconds)
 
-        for method, answer in run.answer(stages.PROJECT, own, failing, done).items():
-            found[method] = stages.read_array(answer)
-        for method, answer in run.answer(stages.SEARCH, of_search, failing, done).items():
+        found: dict[str, FloatArray] = run.answer(PROJECT, own, done)
+        as_map = replace(SEARCH, failing=PROJECT.failing)
+        for method, made in run.answer(as_map, of_search, done).items():
             found[method] = np.empty((len(values), 2))
-            found[method][space.rows] = stages.read_maps(answer).xy[0]
+            found[method][space.rows] = made.xy[0]
     maps = {method: Projection(method, names, seed, found[method], bins) for method in methods}
     return {method: align(maps[method], maps[methods[0]]) for method in methods}
 
@@ -162,21 +165,20 @@ def search_subsets(
     """The search for the best subset of features, its maps made by the executor and kept."""
     if config.search == "none":
         return None
-    with run.clock.stage("search", planned_runs(len(space.features), config.search) or 0) as step:
+    with run.clock.stage(
+        SEARCH.name, SEARCH.doing, planned_runs(len(space.features), config.search) or 0
+    ) as step:
 
         def done(chunk: tuple[int, ...], cpu_seconds: float) -> None:
             step(cpu_seconds)
             for _ in chunk[1:]:
                 step(0.0)
 
-        def failing(_: tuple[int, ...], reason: str) -> str:
-            return f"The search for the best features failed: {reason}; --search none leaves it out."
-
         def evaluate(seed: int, subsets: Sequence[int]) -> SubsetMaps:
             chunks = [tuple(subsets[i : i + SUBSETS_A_TASK]) for i in range(0, len(subsets), SUBSETS_A_TASK)]
             tasks = {
                 chunk: Task.of(
-                    stages.SEARCH.key(space.key, config.search, seed, chunk),
+                    SEARCH.key(space.key, config.search, seed, chunk),
                     space.squared,
                     config.search,
                     seed,
@@ -184,8 +186,7 @@ def search_subsets(
                 )
                 for chunk in chunks
             }
-            answers = run.answer(stages.SEARCH, tasks, failing, done)
-            made = [stages.read_maps(answer) for answer in answers.values()]
+            made = run.answer(SEARCH, tasks, done).values()
             return SubsetMaps(
                 np.concatenate([maps.xy for maps in made]),
                 np.concatenate([maps.cpu_seconds for maps in made]),
@@ -212,17 +213,10 @@ def score_all(run: Runner, compared: FloatArray, labels: Sequence[str | None], s
     for name in classes:
         members = [row for row, label in enumerate(labels) if label == name]
         others = [row for row, label in enumerate(labels) if label not in (name, None)]
-        key = stages.SCORE.key(compared.shape, content, members, others, seed)
+        key = SCORE.key(compared.shape, content, members, others, seed)
         tasks[name] = Task.of(key, compared, members, others, seed)
-    found = run.all(
-        "bins",
-        stages.SCORE,
-        tasks,
-        lambda name, reason: (
-            f"Scoring the bins for the class {name!r} failed: {reason}. A larger time_limit may help."
-        ),
-    )
-    values = np.stack([stages.read_array(found[name]) for name in classes], axis=1)
+    found = run.all(SCORE, tasks)
+    values = np.stack([found[name] for name in classes], axis=1)
     return BinScores(tuple(scorer.name for scorer in SCORERS), tuple(classes), values)
 
 
@@ -272,24 +266,17 @@ def search_all_bins(
     tasks = {}
     for number, (task, names, options) in enumerate(questions):
         told = options | {"everything": None, "fold": list(options.get("fold", ()))}
-        key = stages.SELECT.key(content, space.names, space.rows.tolist(), task, tuple(names), told)
+        key = SELECT.key(content, space.names, space.rows.tolist(), task, tuple(names), told)
         tasks[number] = Task.of(key, task, space, names, options)
-    answers = run.all(
-        "select",
-        stages.SELECT,
-        tasks,
-        lambda _, reason: f"The search for bins failed: {reason}; --search none leaves it out.",
-    )
-    held_out = [stages.read_held_out(answers[i]) for i in range(1, honest)]
+    found = run.all(SELECT, tasks)
+    held_out: list[HeldOutBins] = [found[i] for i in range(1, honest)]
     return BinSearch(
-        automatic=stages.read_selection(answers[0]),
+        automatic=found[0],
         held_out=tuple(held_out[: own - 1]),
         shuffled=tuple(held_out[own - 1 :]),
         chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
-        minimal=tuple(stages.read_minimal(answers[i]) for i in range(honest, random)),
-        minimal_by_chance={
-            size: stages.read_minimal(answers[i]) for i, size in enumerate(of_size, start=random)
-        },
+        minimal=tuple(found[i] for i in range(honest, random)),
+        minimal_by_chance={size: found[i] for i, size in enumerate(of_size, start=random)},
         sizes=dict(zip(classes, sizes.tolist())),
     )
 
@@ -322,12 +309,9 @@ def rate_all(
     for question in questions:
         key, compared = distances[question[0]]
         tasks[question] = Task.of(
-            stages.RETRIEVE.key(key, codes.tolist(), question[1]), compared, codes, question[1]
+            RETRIEVE.key(key, codes.tolist(), question[1]), compared, codes, question[1]
         )
-    answers = run.all(
-        "retrieve", stages.RETRIEVE, tasks, lambda _, reason: f"Rating the retrieval failed: {reason}."
-    )
-    found = {question: stages.read_ratings(answer) for question, answer in answers.items()}
+    found = run.all(RETRIEVE, tasks)
     return Retrieval(
         features=space.features,
         rows=space.rows,
@@ -364,15 +348,11 @@ def paint_all(
     place = {column: divmod(number, BINS) for number, column in enumerate(features.columns)}
     shapes = sorted({row for rows in exemplars.values() for row in rows})
     columns = {row: [column for column, rows in exemplars.items() if row in rows] for row in shapes}
-    tasks = {row: plan(row, tuple(place[column] for column in columns[row])) for row in shapes}
-    answers = run.all(
-        "paint",
-        stages.PAINT,
-        tasks,
-        lambda row, reason: f"Painting bins on {features.shape_ids[row]} failed: {reason}.",
-    )
+    names = features.shape_ids
+    tasks = {names[row]: plan(row, tuple(place[column] for column in columns[row])) for row in shapes}
+    painted = run.all(PAINT, tasks)
     found: dict[tuple[str, int], Painting] = {}
-    for row, answer in answers.items():
-        for column, (value, inside) in zip(columns[row], stages.read_paintings(answer)):
+    for row in shapes:
+        for column, (value, inside) in zip(columns[row], painted[names[row]], strict=True):
             found[column, row] = Painting(column, row, value, inside)
     return tuple(found[column, row] for column, rows in exemplars.items() for row in rows)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, Generic, TypeVar
 
 from shapeviz_report.building.progress import Clock
 from shapeviz_report.building.stages import Stage
@@ -17,6 +17,7 @@ from shapeviz_report.executor import Executor
 from shapeviz_report.types import Database, Failure, ShapeEntry
 
 Name = TypeVar("Name", bound=Hashable)
+R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -41,11 +42,11 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Result:
+class Result(Generic[R]):
     """What a stage found for one shape, and the key under which the cache has it."""
 
     key: str
-    value: Any
+    value: R
 
 
 class Runner:
@@ -69,25 +70,19 @@ class Runner:
 
     def each(
         self,
-        name: str,
-        stage: Stage,
+        stage: Stage[R],
         shapes: Iterable[str],
         plan: Callable[[str], Task],
-        read: Callable[[bytes], Any],
-    ) -> dict[str, Result]:
+    ) -> dict[str, Result[R]]:
         """The results of a stage for shapes; one that fails is a failure of that shape.
 
         Parameters
         ----------
-        name : str
-            Of the stage, as people see it.
         stage : Stage
         shapes : iterable of str
             Their ids.
         plan : callable
             The task of a shape; called when its turn comes. May raise :class:`MeshError`.
-        read : callable
-            Turns a kept result into a value. May raise :class:`MeshError`.
 
         Returns
         -------
@@ -95,13 +90,13 @@ class Runner:
             By shape id, in the order of ``shapes``; those that failed are missing.
         """
         ids = list(shapes)
-        results: dict[str, Result] = {}
+        results: dict[str, Result[R]] = {}
         failed: dict[str, str] = {}
-        with self.clock.stage(name, len(ids)) as step:
+        with self.clock.stage(stage.name, stage.doing, len(ids)) as step:
 
             def take(shape: str, key: str, content: bytes, cpu_seconds: float) -> None:
                 try:
-                    results[shape] = Result(key, read(content))
+                    results[shape] = Result(key, stage.read(content))
                 except MeshError as error:
                     failed[shape] = str(error)
                 step(cpu_seconds)
@@ -112,70 +107,50 @@ class Runner:
 
             self.find(stage, ids, plan, take, drop)
         # Workers finish in any order; the report must not show which.
-        self._failures.extend(Failure(self._paths[i], name, failed[i]) for i in ids if i in failed)
+        self._failures.extend(Failure(self._paths[i], stage.name, failed[i]) for i in ids if i in failed)
         return {shape: results[shape] for shape in ids if shape in results}
 
-    def all(
-        self,
-        name: str,
-        stage: Stage,
-        tasks: Mapping[Name, Task],
-        failing: Callable[[Name, str], str],
-    ) -> dict[Name, bytes]:
-        """The results of a stage for all tasks; see :meth:`answer`.
-
-        Parameters
-        ----------
-        name : str
-            Of the stage, as people see it.
-        stage, tasks, failing
-            As of :meth:`answer`.
-        """
-        with self.clock.stage(name, len(tasks)) as step:
-            return self.answer(stage, tasks, failing, lambda _, cpu_seconds: step(cpu_seconds))
+    def all(self, stage: Stage[R], tasks: Mapping[Name, Task]) -> dict[Name, R]:
+        """The results of a stage for all tasks, each by its name; one that fails ends the build."""
+        with self.clock.stage(stage.name, stage.doing, len(tasks)) as step:
+            return self.answer(stage, tasks, lambda _, cpu_seconds: step(cpu_seconds))
 
     def answer(
-        self,
-        stage: Stage,
-        tasks: Mapping[Name, Task],
-        failing: Callable[[Name, str], str],
-        step: Callable[[Name, float], None],
-    ) -> dict[Name, bytes]:
-        """The results of all tasks; one that fails ends the build.
+        self, stage: Stage[R], tasks: Mapping[Name, Task], step: Callable[[Name, float], None]
+    ) -> dict[Name, R]:
+        """The results of some of a stage's tasks; one that fails ends the build.
 
         Parameters
         ----------
         stage : Stage
         tasks : mapping of names to Task
-        failing : callable
-            What is said of a task that fails, by its name and the reason.
         step : callable
             Told of each task that is done, with the CPU seconds spent on it.
 
         Returns
         -------
-        dict of names to bytes
+        dict of names to values
             In the order of ``tasks``.
 
         Raises
         ------
         DatabaseError
         """
-        found: dict[Name, bytes] = {}
+        found: dict[Name, R] = {}
 
         def take(name: Name, _: str, content: bytes, cpu_seconds: float) -> None:
-            found[name] = content
+            found[name] = stage.read(content)
             step(name, cpu_seconds)
 
         def drop(name: Name, reason: str, _: float) -> None:
-            raise DatabaseError(failing(name, reason))
+            raise DatabaseError(stage.failing.format(task=name, reason=reason))
 
         self.find(stage, tasks, tasks.__getitem__, take, drop)
         return {name: found[name] for name in tasks}
 
     def find(
         self,
-        stage: Stage,
+        stage: Stage[Any],
         names: Iterable[Name],
         plan: Callable[[Name], Task],
         take: Callable[[Name, str, bytes, float], None],
@@ -221,7 +196,7 @@ class Runner:
                 del task
                 yield arguments.pop()
 
-        for outcome in self.executor.run(stage.function, open_tasks()):
+        for outcome in self.executor.run(stage.compute, open_tasks()):
             name, key = sent[outcome.index]
             if outcome.reason is None:
                 self._cache.store(stage.folder, key, outcome.value)
@@ -229,7 +204,7 @@ class Runner:
             else:
                 drop(name, outcome.reason, outcome.cpu_seconds)
 
-    def recall(self, stage: Stage, key: str, plan: Callable[[], Task]) -> bytes:
+    def recall(self, stage: Stage[Any], key: str, plan: Callable[[], Task]) -> bytes:
         """A result that was there a moment ago, computed anew if the cache has lost it.
 
         Parameters
@@ -252,7 +227,7 @@ class Runner:
             raise MeshError("its file was changed while it was used; build again")
         # The executor may be in the middle of a stage, so this rare task has a worker of its own.
         with open_workers(self._config, 1) as executor:
-            (outcome,) = executor.run(stage.function, [task.arguments()])
+            (outcome,) = executor.run(stage.compute, [task.arguments()])
         if outcome.reason is not None:
             raise MeshError(outcome.reason)
         self._cache.store(stage.folder, key, outcome.value)

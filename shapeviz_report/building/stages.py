@@ -1,4 +1,4 @@
-"""What is computed for one shape: functions for worker processes, and under which keys their results are kept.
+"""What workers compute: functions for their processes, and a :class:`Stage` for each.
 
 The functions take and return bytes and numbers. They know neither the database's folder nor the cache, so a
 worker may be on any machine.
@@ -12,7 +12,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -54,6 +54,8 @@ from shapeviz_report.types import (
     UpAxis,
 )
 from shapeviz_report.versions import function_version
+
+R = TypeVar("R")
 
 
 def examine_shape(files: Mapping[str, bytes]) -> bytes:
@@ -297,42 +299,47 @@ def read_ratings(content: bytes) -> list[Rating]:
     return [Rating(*parts) for parts in zip(arrays["scores"], arrays["precision"], strict=True)]
 
 
-def read_selection(content: bytes) -> BinSelection:
-    """What ``select`` found."""
+def read_found_bins(content: bytes) -> Any:
+    """What :func:`search_bins` found: a :class:`BinSelection`, :class:`HeldOutBins` or :class:`MinimalBins`."""
     fields = json.loads(content, object_hook=_from_json)
-    return BinSelection(**fields | {"path": tuple(BinStep(**step) for step in fields["path"])})
-
-
-def read_held_out(content: bytes) -> HeldOutBins:
-    """What ``hold out`` found."""
-    return HeldOutBins(**json.loads(content, object_hook=_from_json))
-
-
-def read_minimal(content: bytes) -> MinimalBins:
-    """What ``separate`` found."""
-    fields = json.loads(content, object_hook=_from_json)
-    return MinimalBins(**fields | {"sets": tuple(MinimalSet(**found) for found in fields["sets"])})
+    if "path" in fields:
+        return BinSelection(**fields | {"path": tuple(BinStep(**step) for step in fields["path"])})
+    if "sets" in fields:
+        return MinimalBins(**fields | {"sets": tuple(MinimalSet(**found) for found in fields["sets"])})
+    return HeldOutBins(**fields)
 
 
 @dataclass(frozen=True)
-class Stage:
-    """A function of this module whose results are kept.
+class Stage(Generic[R]):
+    """All that is known of a stage whose results are kept.
 
     Attributes
     ----------
+    name : str
+        As times and failures have it.
+    doing : str
+        What people read while it runs.
     folder : str
         Of the cache.
-    function : callable
-        Returns bytes.
+    compute : callable
+        A function of this module that returns bytes, the result.
+    read : callable
+        Turns a result into a value. May raise :class:`MeshError`.
+    failing : str
+        What is said where a ``{task}`` that fails for a ``{reason}`` ends the build; empty where none does.
     """
 
+    name: str
+    doing: str
     folder: str
-    function: Callable[..., bytes]
+    compute: Callable[..., bytes]
+    read: Callable[[bytes], R]
+    failing: str = ""
 
     @property
     def version(self) -> str:
         """A name for the code behind the results."""
-        return function_version(self.function)
+        return function_version(self.compute)
 
     def key(self, *inputs: object) -> str:
         """A name for the result of some inputs, whose ``repr`` must tell them apart."""
@@ -344,21 +351,45 @@ def identify(path: Path, files: Mapping[str, bytes]) -> str:
     return f"{path.suffix.lower()} {content_hash(files)}"
 
 
-EXAMINE = Stage("examined", examine_shape)
-COMPARE = Stage("compared", compare_shapes)
-PREPARE = Stage("prepared", prepare_shape)
-SAMPLE = Stage("sampled", sample_shape)
-DESCRIBE = Stage("described", describe_shape)
-MEASURE = Stage("measured", measure_shape)
-RENDER = Stage("rendered", render_shape)
-PAINT = Stage("painted", paint_shape)
-PROJECT = Stage("projected", project_features)
-CLUSTER = Stage("clustered", cluster_features)
-SEARCH = Stage("searched", map_features)
-SELECT = Stage("selected", search_bins)
-RETRIEVE = Stage("retrieved", retrieve)
-SCORE = Stage("scored", score_bins)
-GENERATE = Stage("demo", generate_shape)
+EXAMINE = Stage("examine", "Outlining meshes", "examined", examine_shape, read_examined)
+COMPARE = Stage("compare", "Comparing look-alikes", "compared", compare_shapes, read_match)
+PREPARE = Stage("prepare", "Preparing meshes", "prepared", prepare_shape, read_facts)
+SAMPLE = Stage("sample", "Finding value ranges", "sampled", sample_shape, read_array)
+DESCRIBE = Stage("describe", "Describing shapes", "described", describe_shape, read_features)
+MEASURE = Stage("describe", "Describing shapes", "measured", measure_shape, read_array)
+RENDER = Stage("render", "Drawing thumbnails", "rendered", render_shape, read_picture)
+GENERATE = Stage(
+    "generate", "Generating shapes", "generated", generate_shape, bytes,
+    "The demo shape {task} cannot be made: {reason}.",
+)  # fmt: skip
+CLUSTER = Stage(
+    "cluster", "Finding clusters", "clustered", cluster_features, read_partition,
+    "Clustering the shapes failed: {reason}.",
+)  # fmt: skip
+PROJECT = Stage(
+    "project", "Projecting", "projected", project_features, read_array,
+    "The projection {task} failed: {reason}.",
+)  # fmt: skip
+SEARCH = Stage(
+    "search", "Searching features", "searched", map_features, read_maps,
+    "The search for the best features failed: {reason}; --search none leaves it out.",
+)  # fmt: skip
+SCORE = Stage(
+    "bins", "Scoring bins", "scored", score_bins, read_array,
+    "Scoring the bins for the class {task!r} failed: {reason}. A larger time_limit may help.",
+)  # fmt: skip
+SELECT = Stage(
+    "select", "Searching bins", "selected", search_bins, read_found_bins,
+    "The search for bins failed: {reason}; --search none leaves it out.",
+)  # fmt: skip
+RETRIEVE = Stage(
+    "retrieve", "Rating retrieval", "retrieved", retrieve, read_ratings,
+    "Rating the retrieval failed: {reason}.",
+)  # fmt: skip
+PAINT = Stage(
+    "paint", "Painting bins", "painted", paint_shape, read_paintings,
+    "Painting bins on {task} failed: {reason}.",
+)  # fmt: skip
 
 
 def fingerprint() -> str:

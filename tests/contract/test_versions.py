@@ -71,7 +71,7 @@ def changed(tmp_path_factory) -> dict[str, list[str]]:
 
 @pytest.mark.parametrize("name", STAGES)
 def test_a_change_in_any_reached_module_changes_the_key(changed, name) -> None:
-    reached = set(find_function_closure(STAGES[name].function).modules)
+    reached = set(find_function_closure(STAGES[name].compute).modules)
     assert {module for module, names in changed.items() if name in names} == reached
 
 
@@ -138,7 +138,7 @@ def test_what_runs_is_reached() -> None:
                     found.add(module)
             sys.setprofile(see)
             try:
-                result = getattr(stages, name).function(*arguments)
+                result = getattr(stages, name).compute(*arguments)
             finally:
                 sys.setprofile(None)
             ran[name] = sorted(found)
@@ -175,5 +175,5 @@ def test_what_runs_is_reached() -> None:
     own = stages.__name__
     for name, modules in ran.items():
         assert own in modules
-        assert set(modules) - {own} <= set(find_function_closure(STAGES[name].function).modules), name
+        assert set(modules) - {own} <= set(find_function_closure(STAGES[name].compute).modules), name
     assert set(ran) == set(STAGES)

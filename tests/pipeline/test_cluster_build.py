@@ -10,6 +10,7 @@ from small_database import WITH_SEARCH, read_site
 
 import shapeviz_report
 from shapeviz_report.building.pipeline import build_report
+from shapeviz_report.building.stages import DESCRIBE, PREPARE
 from shapeviz_report.config import Config
 
 CLUSTER_OPTIONS = {name: value for name, value in WITH_SEARCH.items() if name != "jobs"}
@@ -18,24 +19,24 @@ CLUSTER_OPTIONS = {name: value for name, value in WITH_SEARCH.items() if name !=
 class Watcher:
     """Progress that calls a function at the third shape of one stage."""
 
-    def __init__(self, name, act) -> None:
-        self.name = name
+    def __init__(self, doing, act) -> None:
+        self.doing = doing
         self.act = act
 
     @contextmanager
-    def stage(self, name, total):
+    def stage(self, doing, total):
         count = 0
 
         def advance():
             nonlocal count
             count += 1
-            if (name, count) == (self.name, 3):
+            if (doing, count) == (self.doing, 3):
                 self.act()
 
         yield advance
 
 
-@pytest.mark.parametrize("stage", ["prepare", "describe"])
+@pytest.mark.parametrize("stage", [PREPARE, DESCRIBE], ids=lambda stage: stage.name)
 def test_the_same_site_though_a_worker_is_killed_half_way(stage, built, database, tmp_path) -> None:
     site, _ = built
     (tmp_path / "cluster").mkdir()
@@ -44,7 +45,7 @@ def test_the_same_site_though_a_worker_is_killed_half_way(stage, built, database
             database,
             tmp_path / "site",
             Config(scheduler=cluster.address, cache=tmp_path / "cache", **CLUSTER_OPTIONS),
-            Watcher(stage, cluster.workers[0].kill),
+            Watcher(stage.doing, cluster.workers[0].kill),
         )
         assert cluster.workers[0].wait() == -9
     assert report.failures == ()
