@@ -289,7 +289,7 @@ def _check(options: argparse.Namespace) -> int:
 def _query(options: argparse.Namespace) -> int:
     from shapeviz_report.building.query import find_similar
     from shapeviz_report.cache import default_root
-    from shapeviz_report.writing.data_files import json_text
+    from shapeviz_report.writing.data import json_text
 
     listen(end_in_order)
     config = load_config(None, {name: getattr(options, name) for name in QUERYING}, options.config)

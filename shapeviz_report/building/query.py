@@ -6,37 +6,23 @@ compared with the features that the site holds for download. ``docs/method/retri
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-import struct
-import zipfile
-import zlib
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from shapeviz_report import __version__
 from shapeviz_report.bins import read_bins
 from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Progress, QuietProgress
 from shapeviz_report.cache import Cache
-from shapeviz_report.cells import read_cell
-from shapeviz_report.config import Config
-from shapeviz_report.errors import ConfigError, MeshError, SiteError
+from shapeviz_report.errors import ConfigError, MeshError
 from shapeviz_report.executor import Executor, LocalExecutor, memory_share
-from shapeviz_report.features import BLOCKS, PRESETS, Preset
-from shapeviz_report.files import read_regular
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.similarity import rank_similar, typical_distance
-from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, ShapeFacts
-from shapeviz_report.writing.data_files import GENERATOR
+from shapeviz_report.types import FloatArray, ShapeFacts
+from shapeviz_report.writing.data import SiteData, read_site
 
 
 @dataclass(frozen=True)
@@ -99,36 +85,6 @@ class QueryResult:
     found: tuple[FoundShape, ...]
 
 
-@dataclass(frozen=True)
-class _Site:
-    """What a site holds that a query needs.
-
-    Attributes
-    ----------
-    folder : Path
-    summary : dict
-        The content of ``summary.json``.
-    shapes : list of dict
-        The rows of ``shapes.csv``.
-    table : FeatureTable
-        The features that a mesh alone has.
-    brought : tuple of FeatureBlock
-        Those that it has not.
-    edges : (dimensions, 11) float64 array
-    """
-
-    folder: Path
-    summary: dict[str, Any]
-    shapes: list[dict[str, str]]
-    table: FeatureTable
-    brought: tuple[FeatureBlock, ...]
-    edges: FloatArray
-
-    @property
-    def preset(self) -> Preset:
-        return PRESETS[self.summary["parameters"]["preset"]]
-
-
 def find_similar(
     site: Path,
     mesh: Path,
@@ -177,7 +133,7 @@ def find_similar(
     if count < 1:
         raise ConfigError(f"the number of shapes to find must be at least 1, not {count}")
     check_cache(cache, None)
-    opened = _open_site(site)
+    opened = read_site(site)
     chosen, names, left_out = _choose(opened, features, bins)
     with LocalExecutor(1, time_limit, memory_limit or memory_share(1)) as executor:
         facts, values = _measure(opened, mesh, Cache(cache), executor, progress or QuietProgress())
@@ -208,101 +164,8 @@ def find_similar(
     )
 
 
-def _open_site(folder: Path) -> _Site:
-    """Read the ``data`` folder of a site, and check that its parts fit together and are of this version."""
-    data = folder / "data"
-    try:
-        summary = json.loads(read_regular(data / "summary.json"))
-    except (OSError, ValueError, RecursionError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is no JSON"
-        raise SiteError(
-            f"{folder} is not a folder that `shapeviz-report build` has written: {data / 'summary.json'} cannot be "
-            f"read ({reason})"
-        ) from error
-    if not isinstance(summary, dict) or summary.get("generator") != GENERATOR:
-        raise SiteError(f"{folder} is not a site of shapeviz-report: {data / 'summary.json'} does not say so")
-    if summary.get("version") != __version__:
-        raise SiteError(
-            f"{folder} was built by version {summary.get('version')} of shapeviz-report, and this is version "
-            f"{__version__}, which may measure shapes differently: build the site again, or query it with its version"
-        )
-    try:
-        with _reading("shapes.csv"):
-            text = read_regular(data / "shapes.csv").decode()
-            header, *rows = (
-                [read_cell(cell) for cell in row]
-                for row in csv.reader(io.StringIO(text, newline=""), strict=True)
-            )
-            shapes = [dict(zip(header, row, strict=True)) for row in rows]
-            _require(bool(shapes) and {"id", "name", "class", "file"} <= {*header}, "its columns are others")
-        with _reading("features.npz"):
-            content = io.BytesIO(read_regular(data / "features.npz"))
-            with np.load(content, allow_pickle=False) as archive:
-                values, edges = (
-                    archive[name].astype(np.float64, casting="safe") for name in ("values", "edges")
-                )
-                columns, ids = archive["columns"].tolist(), tuple(archive["shape_ids"].tolist())
-            _require(values.shape == (len(ids), len(columns)), "its arrays do not fit together")
-            _require(bool(np.isfinite(values).all() and np.isfinite(edges).all()), "a value is not finite")
-            _require(
-                [shape["id"] for shape in shapes] == list(ids), "it and shapes.csv are of different builds"
-            )
-        with _reading("summary.json"):
-            blocks = tuple(FeatureBlock(**block) for block in summary["features"])
-            widths = [block.dimensions * block.bins for block in blocks]
-            _require(
-                min(widths) > 0 and sum(widths) == len(columns), "it and features.npz are of different builds"
-            )
-            _require(
-                [column for block in blocks for column in block.columns] == columns,
-                "it and features.npz are of different builds",
-            )
-            dimensions = sum(block.dimensions for block in blocks if block.bins > 1)
-            _require(edges.shape == (dimensions, 11), "its features do not fit the edges")
-            PRESETS[summary["parameters"]["preset"]]
-            edge_length = summary["parameters"]["edge_length"]
-            _require(isinstance(edge_length, float), "the length of an edge is no number")
-            Config(edge_length=edge_length)
-            _require(isinstance(summary["database"], str), "the database has no name")
-            bins = next(iter(summary["projections"].values()))["bins"]
-            _require(bins is None or (bool(bins) and {*bins} <= {*columns}), "its bins are not there")
-    except ValueError as error:
-        raise SiteError(f"the site {folder} is not complete, build it again: {error}") from error
-    if blocks[: len(BLOCKS)] != BLOCKS:
-        raise SiteError(f"the site {folder} has other features than this version measures: build it again")
-    width = sum(block.width for block in BLOCKS)
-    table = FeatureTable(ids, BLOCKS, values[:, :width])
-    return _Site(folder, summary, shapes, table, blocks[len(BLOCKS) :], edges)
-
-
-@contextmanager
-def _reading(file: str) -> Iterator[None]:
-    """Inside, whatever is wrong with a file of a site becomes a ``ValueError`` that names the file."""
-    try:
-        yield
-    except OSError as error:
-        raise ValueError(f"{file} cannot be read ({error.strerror or error})") from error
-    except ConfigError as error:
-        raise ValueError(f"{file} says what no build does: {error}") from error
-    except (
-        ValueError, LookupError, TypeError, AttributeError, RuntimeError, StopIteration, OverflowError, EOFError,
-        MemoryError, csv.Error, zipfile.BadZipFile, zlib.error, struct.error,
-    ) as error:  # fmt: skip
-        reason = str(error) if isinstance(error, _Misfit) else "it was damaged or changed"
-        raise ValueError(f"{file}: {reason}") from error
-
-
-class _Misfit(ValueError):
-    """What :func:`_require` says."""
-
-
-def _require(holds: bool, what: str) -> None:
-    if not holds:
-        raise _Misfit(what)
-
-
 def _choose(
-    site: _Site, features: Sequence[str] | None, bins: Path | None
+    site: SiteData, features: Sequence[str] | None, bins: Path | None
 ) -> tuple[str, tuple[str, ...], tuple[str, ...]]:
     """Whether ``features`` or ``bins`` are compared, which, and what is left out of those the site compares."""
     if features is not None and bins is not None:
@@ -343,7 +206,7 @@ _BROUGHT = "which was brought along to the build as a file: a mesh alone has no 
 
 
 def _measure(
-    site: _Site, mesh: Path, cache: Cache, executor: Executor, progress: Progress
+    site: SiteData, mesh: Path, cache: Cache, executor: Executor, progress: Progress
 ) -> tuple[ShapeFacts, FloatArray]:
     """The mesh, prepared and measured as the site's own were."""
     try:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.types import Accent, Report
-from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.data import json_text
 from shapeviz_report.writing.joiner import join, join_pages
 from shapeviz_report.writing.resources import site_folder
 

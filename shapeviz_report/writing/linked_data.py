@@ -9,7 +9,7 @@ from shapeviz_report.pages.base import class_names
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.publication.licence import LICENCE_COLUMNS, find_licence
 from shapeviz_report.types import Licence, Report, ShapeEntry, ShapeFacts
-from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.data import json_text
 
 CONTEXT = "https://schema.org/"
 

@@ -16,7 +16,7 @@ from hashlib import file_digest, sha256
 from pathlib import Path
 from typing import Any
 
-from shapeviz_report.writing.data_files import GENERATOR
+from shapeviz_report.writing.data import GENERATOR
 
 RECORD = "data/files.json"
 """Where a site keeps the record."""

@@ -12,7 +12,7 @@ from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.types import Report
 from shapeviz_report.writing import preview
-from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.data import json_text
 from shapeviz_report.writing.linked_data import dataset, describe
 from shapeviz_report.writing.markdown import first_paragraph, render_markdown
 from shapeviz_report.writing.resources import templates_folder

@@ -26,7 +26,7 @@ from shapeviz_report.writing.assets import (
     pack_chunks,
 )
 from shapeviz_report.writing.consistency import check_report
-from shapeviz_report.writing.data_files import data_files
+from shapeviz_report.writing.data import data_files
 from shapeviz_report.writing.destination import check_destination
 from shapeviz_report.writing.joiner import join
 from shapeviz_report.writing.linked_data import catalogue, describe

@@ -27,7 +27,7 @@ from reports import (
 from shapeviz_report.pages import PAGES
 from shapeviz_report.pages.chunks import Chunks
 from shapeviz_report.writing import write_site
-from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.data import json_text
 
 TYPES = get_type_hints(Chunks)
 

@@ -12,13 +12,13 @@ from reports import make_report
 
 from shapeviz_report import __version__
 from shapeviz_report.bins import read_bins
-from shapeviz_report.building.query import _open_site
 from shapeviz_report.cells import read_cell, write_cell
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError
 from shapeviz_report.features import load_external
 from shapeviz_report.types import FeatureBlock
-from shapeviz_report.writing.data_files import _csv, data_files
+from shapeviz_report.writing.data import data_files, read_site
+from shapeviz_report.writing.data.encoding import csv_text
 
 FORMULAS = [
     *("=1+1", "+A1", "-2+3+cmd|'!A0", "@SUM(1)", "\t=1", "\r=1", "\n=1"),
@@ -41,7 +41,7 @@ def test_other_text_and_numbers_stay(text) -> None:
 
 def test_every_cell_of_a_file_is_written_so() -> None:
     rows = [["id", "=HYPERLINK(1)"], ["@a,b", "-0.5"]]
-    written = list(csv.reader(io.StringIO(_csv(rows).decode())))
+    written = list(csv.reader(io.StringIO(csv_text(rows).decode())))
     assert written == [["id", "'=HYPERLINK(1)"], ["'@a,b", "-0.5"]]
 
 
@@ -73,7 +73,7 @@ def test_a_query_reads_names_as_they_were(tmp_path, monkeypatch) -> None:
     (tmp_path / "data").mkdir()
     for name, content in data_files(report, __version__).items():
         (tmp_path / "data" / name).write_bytes(content)
-    monkeypatch.setattr("shapeviz_report.building.query.BLOCKS", report.features.blocks)
-    site = _open_site(tmp_path)
+    monkeypatch.setattr("shapeviz_report.writing.data.reading.BLOCKS", report.features.blocks)
+    site = read_site(tmp_path)
     assert [shape["id"] for shape in site.shapes] == list(ids)
     assert {shape["class"] for shape in site.shapes} == {"=kind", "+other"}

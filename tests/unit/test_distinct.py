@@ -14,7 +14,7 @@ from shapeviz_report.pages.overview import OverviewPage
 from shapeviz_report.quality import hits_among, neighbour_weights, neighbourhood_hits, score
 from shapeviz_report.retrieval import MEASURES, query_classes, rate
 from shapeviz_report.types import Report, distinct_rows
-from shapeviz_report.writing.data_files import summary
+from shapeviz_report.writing.data import summary
 
 LABELS = ["ant", "bird", "ant", "bird", "ant", "bird"]
 POINTS = np.array([[0, 0], [1, 0], [2, 0.3], [3.1, 0], [4.5, 0], [6, 1]], float)

@@ -9,7 +9,7 @@ from reports import NASTY_LABELS, make_report, with_search
 from shapeviz_report.pages.features import FeaturesPage, Ranking
 from shapeviz_report.pages.overview import OverviewPage
 from shapeviz_report.writing import write_site
-from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.data import json_text
 
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
 

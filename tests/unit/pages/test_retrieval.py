@@ -12,7 +12,7 @@ from reports import make_report, with_bin_search, with_retrieval, with_search
 from shapeviz_report.pages.about import AboutPage
 from shapeviz_report.pages.features import FeaturesPage
 from shapeviz_report.retrieval import MEASURES, RECALL_LEVELS
-from shapeviz_report.writing.data_files import data_files, summary
+from shapeviz_report.writing.data import data_files, summary
 
 FEATURES = ("Gc", "Sc", "PFH")
 

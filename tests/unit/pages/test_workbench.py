@@ -15,7 +15,7 @@ from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import FeatureBlock, FeatureTable, Projection
 from shapeviz_report.writing import write_site
-from shapeviz_report.writing.data_files import json_text
+from shapeviz_report.writing.data import json_text
 
 FEATURES = ("Gc", "Sc", "own one")
 

@@ -10,7 +10,7 @@ from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_
 
 from shapeviz_report.bins import read_bins
 from shapeviz_report.types import Failure
-from shapeviz_report.writing.data_files import data_files, json_text, summary
+from shapeviz_report.writing.data import data_files, json_text, summary
 
 
 @pytest.fixture

@@ -1,0 +1,73 @@
+"""The site's ``data/`` folder: what a build found, for machines. ``docs/using/site-data.md`` describes it.
+
+Everything here but the times in ``summary.json`` depends on the input alone, so two builds of the same database
+write the same bytes.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from shapeviz_report.projections import MAIN_PROJECTION
+from shapeviz_report.quality import hit_range
+from shapeviz_report.types import BinSelection, Report
+from shapeviz_report.writing.data.encoding import archive, csv_text, json_text, number
+from shapeviz_report.writing.data.retrieval import retrieval_class_rows, retrieval_rows
+from shapeviz_report.writing.data.summary import summary
+from shapeviz_report.writing.data.tables import copy_rows, greedy_rows, shape_rows, subset_rows, table_rows
+
+
+def data_files(report: Report, version: str) -> dict[str, bytes]:
+    """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
+    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, the scores of bins in ``scores.npz``, the bins that
+    separate all classes in ``selected-bins.txt``, and how well shapes are found in ``retrieval.csv`` and
+    ``retrieval-classes.csv``, by name.
+
+    Parameters
+    ----------
+    report : Report
+    version : str
+        Of this package.
+    """
+    files = {
+        "summary.json": (json_text(summary(report, version), indent=1) + "\n").encode(),
+        "shapes.csv": csv_text(shape_rows(report)),
+        "features.npz": archive(
+            values=np.ascontiguousarray(report.features.values, dtype=np.float64),
+            columns=np.array(report.features.columns, dtype=np.str_),
+            shape_ids=np.array(report.features.shape_ids, dtype=np.str_),
+            edges=report.edges,
+        ),
+    }
+    for method, (projection, _) in report.projections.items():
+        points = zip(report.shapes, projection.xy, strict=True)
+        rows = [["id", "x", "y"], *([shape.id, number(x), number(y)] for shape, (x, y) in points)]
+        files[f"projection-{method}.csv"] = csv_text(rows)
+    if report.search is not None:
+        limits = hit_range([report.labels[row] for row in report.search.rows], report.search.k)
+        files["subsets.csv"] = csv_text(subset_rows(report.search, limits))
+        if report.search.table:
+            files["greedy.csv"] = csv_text(greedy_rows(report.search, limits))
+            files["table2.csv"] = csv_text(table_rows(report.search, limits))
+    if report.scores is not None:
+        files["scores.npz"] = archive(
+            scores=report.scores.values,
+            methods=np.array(report.scores.methods, dtype=np.str_),
+            classes=np.array(report.scores.classes, dtype=np.str_),
+            columns=np.array(report.features.columns, dtype=np.str_),
+        )
+    if report.retrieval is not None:
+        files["retrieval.csv"] = csv_text(retrieval_rows(report.retrieval))
+        files["retrieval-classes.csv"] = csv_text(retrieval_class_rows(report.retrieval))
+    if report.copies:
+        files["copies.csv"] = csv_text(copy_rows(report))
+    if report.bins is not None:
+        files["selected-bins.txt"] = _bin_list(report.bins.automatic).encode()
+    return files
+
+
+def _bin_list(selection: BinSelection) -> str:
+    """What ``build --bins`` reads."""
+    head = f"# {len(selection.bins)} bins that separate all classes: NH_s {selection.nh_s:.3f} on their "
+    head += f"{MAIN_PROJECTION.title} map\n"
+    return head + "".join(f"{name}\n" for name in selection.bins)

@@ -1,0 +1,146 @@
+"""The tables of ``data/``: shapes, copies, and what a search of features found."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from shapeviz_report.types import FeatureSearch, HitRange, Report
+from shapeviz_report.writing.data.encoding import json_text, number
+
+
+def shape_rows(report: Report) -> list[list[str]]:
+    labelings = report.database.labelings
+    columns = list(dict.fromkeys(column for shape in report.shapes for column in shape.metadata))
+    methods = list(report.projections)
+    highest = next(quality.range for _, quality in report.projections.values()).highest_of_class
+    rows = [
+        [
+            "id",
+            "name",
+            "file",
+            "class",
+            *(("cluster",) if report.clusters is not None else ()),
+            *(f"label:{labeling}" for labeling in labelings),
+            *(f"metadata:{column}" for column in columns),
+            *(f"nh:{method}" for method in methods),
+            "nh_max",
+            *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
+            *("area", "volume", "extent_x", "extent_y", "extent_z"),
+            *("repairs", "sha256"),
+        ]
+    ]
+    for index, (shape, facts, label) in enumerate(
+        zip(report.shapes, report.facts, report.labels, strict=True)
+    ):
+        rows.append(
+            [
+                shape.id,
+                shape.name,
+                _relative_file(report, shape.path),
+                label or "",
+                *(
+                    (report.clusters.clusters[report.clusters.of[index]].name,)
+                    if report.clusters is not None
+                    else ()
+                ),
+                *(shape.labels.get(labeling, "") for labeling in labelings),
+                *(shape.metadata.get(column, "") for column in columns),
+                *(number(report.projections[method][1].nh[index]) for method in methods),
+                number(None if label is None else highest.get(label)),
+                *map(
+                    str,
+                    (facts.faces_read, facts.vertices_read, facts.faces, facts.vertices, facts.components),
+                ),
+                "true" if facts.watertight else "false",
+                number(facts.deviation),
+                *("" if value is None else number(value) for value in (facts.area, facts.volume)),
+                *map(number, facts.extents),
+                json_text(dict(facts.repairs)) if facts.repairs else "",
+                facts.sha256,
+            ]
+        )
+    return rows
+
+
+def copy_rows(report: Report) -> list[list[str]]:
+    """A pair of copies a row."""
+    rows = [["first", "second", "kind", "distance", "largest", "scale", "mirrored"]]
+    for copy in report.copies:
+        match = copy.match
+        measured = map(number, (match.distance, match.largest, match.scale))
+        rows.append([copy.first, copy.second, match.kind, *measured, "true" if match.mirrored else "false"])
+    return rows
+
+
+def subset_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
+    subsets = search.subsets
+    header = [
+        *(f"feature:{name}" for name in search.features),
+        "nh_s",
+        *(f"nh_c:{name}" for name in search.classes),
+        "nh_max",
+        *(f"nh_c_max:{name}" for name in search.classes),
+    ]
+    return [
+        header,
+        *(
+            [
+                *("1" if has else "0" for has in subsets.members[row]),
+                number(subsets.nh_s[row]),
+                *map(number, subsets.nh_c[row]),
+                number(limits.highest),
+                *(number(limits.highest_of_class.get(name)) for name in search.classes),
+            ]
+            for row in by_score(search)
+        ),
+    ]
+
+
+def greedy_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
+    return [
+        ["s", "step", *(f"feature:{name}" for name in search.features), "nh_s", "nh_max"],
+        *(
+            [
+                str(run.s),
+                str(place),
+                *("1" if name in step.features else "0" for name in search.features),
+                number(step.nh_s),
+                number(limits.highest),
+            ]
+            for run in search.greedy
+            for place, step in enumerate(run.path, start=1)
+        ),
+    ]
+
+
+def table_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
+    return [
+        ["round", "method", "s", "nh_s", "runs", "nh_max", *(f"feature:{name}" for name in search.features)],
+        *(
+            [
+                str(row.round),
+                row.method,
+                "" if row.s is None else str(row.s),
+                number(row.nh_s),
+                str(row.runs),
+                number(limits.highest),
+                *("1" if name in row.features else "0" for name in search.features),
+            ]
+            for row in search.table
+        ),
+    ]
+
+
+def _relative_file(report: Report, path: Path) -> str:
+    """A mesh file as seen from the database's root, with ``/``; only its name where it lies elsewhere."""
+    try:
+        return path.resolve().relative_to(report.database.root.resolve()).as_posix()
+    except ValueError:
+        return path.name
+
+
+def by_score(search: FeatureSearch) -> list[int]:
+    """The evaluated subsets from best to worst, in the order of the search where there are no labels."""
+    return np.argsort(-search.subsets.nh_s, kind="stable").tolist()
