@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
+from shapeviz_report.order import classes_of, natural
 from shapeviz_report.types.arrays import FloatArray
 from shapeviz_report.types.bins import BinScores, BinSearch, Painting
 from shapeviz_report.types.clusters import Clusters
@@ -91,3 +94,62 @@ class Report:
     publication: Publication = Publication()
     copies: tuple[Copy, ...] = ()
     without_copies: WithoutCopies | None = None
+
+    def __post_init__(self) -> None:
+        """Check what templates and scripts take for granted; a ``ValueError`` is an error of the caller."""
+        count, columns = len(self.shapes), self.features.columns
+        ids = tuple(shape.id for shape in self.shapes)
+        _require(count > 0, "no shape")
+        _require(len(set(ids)) == count, "two shapes share an id")
+        _require(list(ids) == sorted(ids, key=natural), "shapes are not sorted by id")
+        _require(ids == self.features.shape_ids, "feature rows are not those of the shapes")
+        _require(self.features.values.shape == (count, len(columns)), "feature table of another size")
+        _require(bool(np.isfinite(self.features.values).all()), "a feature is not finite")
+        dimensions = sum(block.dimensions for block in self.features.blocks if block.bins > 1)
+        _require(self.edges.shape == (dimensions, 11), "edges do not match the features")
+        for name in ("facts", "thumbnails", "labels"):
+            _require(len(getattr(self, name)) == count, f"{name} do not match the shapes")
+        _require(all(map(_is_webp, self.thumbnails)), "a thumbnail is not a WebP image")
+        _require(self.labeling is not None or not any(self.labels), "labels without a labeling")
+        _require(bool(self.projections), "no projection")
+        for method, (projection, quality) in self.projections.items():
+            _require(
+                method.isidentifier() and method == projection.method, f"projection {method!r} is misnamed"
+            )
+            _require(projection.xy.shape == (count, 2), f"projection {method} has another number of points")
+            _require(
+                bool(np.isfinite(projection.xy).all()), f"projection {method} has a point that is not finite"
+            )
+            _require(quality.nh.shape == (count,), f"quality of {method} has another number of shapes")
+        if self.scores is not None:
+            classes = classes_of(self.labels)
+            _require(self.scores.classes == classes, "scores do not match the classes")
+            size = (len(self.scores.methods), len(classes), len(columns))
+            _require(self.scores.values.shape == size, "scores of another size")
+            held = (self.scores.values >= 0) & (self.scores.values <= 1)
+            _require(bool(held.all()), "a score is not in [0, 1]")
+        for painting in self.paintings:
+            _require(painting.column in columns, "a painting of a bin that is not there")
+            _require(0 <= painting.shape < count, "a painting of a shape that is not there")
+            _require(_is_webp(painting.value) and _is_webp(painting.inside), "a painting is not a WebP image")
+        if self.models is not None:
+            _require(len(self.models) == count, "models do not match the shapes")
+            _require(all(model[:2] == b"\x1f\x8b" for model in self.models), "a model is not gzipped")
+        if self.clusters is not None:
+            found = self.clusters
+            _require(found.of.shape == (count,), "clusters do not match the shapes")
+            sizes = np.bincount(found.of, minlength=len(found.clusters)).tolist()
+            _require(sizes == [cluster.size for cluster in found.clusters], "a cluster of another size")
+            for number, cluster in enumerate(found.clusters):
+                _require(found.of[cluster.central] == number, "the centre of a cluster is not in it")
+            names = [found.clusters[number].name for number in found.of]
+            _require(not found.stand_in or list(self.labels) == names, "labels are not the clusters")
+
+
+def _require(holds: bool, what: str) -> None:
+    if not holds:
+        raise ValueError(f"inconsistent report: {what}")
+
+
+def _is_webp(picture: bytes) -> bool:
+    return picture[:4] == b"RIFF" and picture[8:12] == b"WEBP"

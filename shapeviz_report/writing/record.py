@@ -16,7 +16,8 @@ from hashlib import file_digest, sha256
 from pathlib import Path
 from typing import Any
 
-from shapeviz_report.writing.data import GENERATOR
+from shapeviz_report.pages import PAGES
+from shapeviz_report.writing.data import DATA_NAMES, GENERATOR
 
 RECORD = "data/files.json"
 """Where a site keeps the record."""
@@ -32,14 +33,12 @@ PAGE_MARK = f'<meta name="generator" content="{GENERATOR} '.encode()
 
 PAGE_MARK_WITHIN = 8192
 
-_PAGE = r"(index|shapes|shape|compare|features|workbench|bins|about)\.html"
+_PAGES = "|".join(re.escape(page.file) for page in PAGES)
+_SCRIPTS = "|".join(re.escape(page.name) for page in PAGES)
 _NAME = re.compile(
-    rf"{_PAGE}|preview\.png"
-    r"|assets/(first|shared|vega|index|shapes|shape|compare|features|workbench|bins|about|overview|chunk-[\w-]+)\.js"
+    rf"{_PAGES}|preview\.png|assets/(first|shared|vega|{_SCRIPTS}|chunk-[\w-]+)\.js"
     r"|assets/(style\.css|icon\.svg|vega-licenses\.txt|logo\.(svg|png|webp))"
-    r"|data/(summary\.json|files\.json|catalogue\.jsonld|features\.npz|scores\.npz)"
-    r"|data/(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|projection-\w+)\.csv"
-    r"|data/selected-bins\.txt"
+    rf"|data/({DATA_NAMES}|files\.json|catalogue\.jsonld)"
     r"|models/[0-9a-f]{20}\.js|(paintings|thumbnails)/[0-9a-f]{20}\.webp"
 )
 

@@ -25,7 +25,6 @@ from shapeviz_report.writing.assets import (
     join_styles,
     pack_chunks,
 )
-from shapeviz_report.writing.consistency import check_report
 from shapeviz_report.writing.data import data_files
 from shapeviz_report.writing.destination import check_destination
 from shapeviz_report.writing.joiner import join
@@ -69,13 +68,10 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
     Raises
     ------
     SiteError
-        If ``destination`` must not be replaced or cannot be written, or no shape is left to show.
-    ValueError
-        If the parts of the report do not fit together: an error of the caller.
+        If ``destination`` must not be replaced or cannot be written.
     """
     destination = Path(destination)
     check_destination(destination, single_file=single_file)
-    check_report(report)
     try:
         if single_file:
             write_atomically(destination.resolve(), sealed(_whole(report)))

@@ -16,6 +16,12 @@ from shapeviz_report.writing.data.retrieval import retrieval_class_rows, retriev
 from shapeviz_report.writing.data.summary import summary
 from shapeviz_report.writing.data.tables import copy_rows, greedy_rows, shape_rows, subset_rows, table_rows
 
+DATA_NAMES = (
+    r"summary\.json|(features|scores)\.npz|selected-bins\.txt"
+    r"|(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|projection-\w+)\.csv"
+)
+"""The names that :func:`data_files` gives, as a regular expression."""
+
 
 def data_files(report: Report, version: str) -> dict[str, bytes]:
     """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
