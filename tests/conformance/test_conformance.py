@@ -34,17 +34,21 @@ def format_of(case: Case) -> str:
 
 
 def documented() -> dict[tuple[str, str], tuple[str, str]]:
-    """(format, feature) -> ``read``, ``passed over`` or ``refused``, and the reason: the tables in the document."""
-    rows: dict[tuple[str, str], tuple[str, str]] = {}
-    section = ""
-    for line in DOCUMENT.read_text().splitlines():
-        if line.startswith("## "):
-            section = line.removeprefix("## ")
-        elif section in MESH_FORMATS.values() and line.startswith("|"):
-            feature, outcome, reason = (cell.strip() for cell in line.strip("|").split("|"))
-            assert (section, feature) not in rows, f"{section}: {feature} stands twice"
-            rows[section, feature] = outcome, reason.replace("\\<", "<")
-    return {key: row for key, row in rows.items() if key[1] != "feature" and "---" not in key[1]}
+    """(format, feature) -> ``read``, ``passed over`` or ``refused``, and the reason: what the document lists."""
+    found: list[tuple[str, str, str, str]] = []
+    for part in re.split(r"(?m)^## ", DOCUMENT.read_text(encoding="utf-8")):
+        section, _, text = part.partition("\n")
+        if section not in MESH_FORMATS.values():
+            continue
+        for outcome, listed in re.findall(r"(?ms)^\*\*(Read|Passed over):\*\* (.*?)\.$\n\n", text):
+            features = " ".join(listed.split()).replace("\\*", "*").split("; ")
+            found += [(section, feature, outcome.lower(), "") for feature in features]
+        for feature, reason in re.findall(r"(?m)^\| (.+?) \| (.+) \|$", text):
+            if feature != "refused":
+                found.append((section, feature, "refused", reason.replace("\\<", "<")))
+    rows = {(section, feature): (outcome, reason) for section, feature, outcome, reason in found}
+    assert len(rows) == len(found), f"{DOCUMENT.name} lists a feature twice"
+    return rows
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{format_of(case)}: {case.name}")
