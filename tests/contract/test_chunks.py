@@ -31,6 +31,8 @@ from shapeviz_report.writing.data import json_text
 
 TYPES = get_type_hints(Chunks)
 
+MEND = "give it its type in pages/chunks.py, and run `make chunks`"
+
 _HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(json|bytes)", "([^"]*)"\);\n')
 
 
@@ -59,8 +61,9 @@ def test_a_site_holds_every_chunk_and_each_is_of_its_type(tmp_path):
         name, kind, text = _HANDED_OVER.fullmatch(path.read_text(encoding="utf-8")).groups()
         content = gzip.decompress(base64.b64decode(text))
         held[name] = json.loads(content) if kind == "json" else content
-    assert held.keys() == TYPES.keys()
-    assert [where for name, value in held.items() for where in misfits(value, TYPES[name], name)] == []
+    assert held.keys() == TYPES.keys(), "name every chunk in Chunks of pages/chunks.py, and run `make chunks`"
+    wrong = [where for name, value in held.items() for where in misfits(value, TYPES[name], name)]
+    assert wrong == [], MEND
 
 
 @pytest.mark.parametrize("classes", [("ant", "bird"), (None,), ("ant", None)])
@@ -68,7 +71,7 @@ def test_a_site_holds_every_chunk_and_each_is_of_its_type(tmp_path):
 def test_what_is_missing_from_a_report_is_missing_by_type(page, classes):
     for name, chunk in page.content(plain(*classes)).chunks.items():
         held = chunk if isinstance(chunk, bytes) else json.loads(json_text(chunk))
-        assert list(misfits(held, TYPES[name], name)) == []
+        assert list(misfits(held, TYPES[name], name)) == [], MEND
 
 
 @pytest.mark.parametrize(

@@ -60,14 +60,18 @@ def test_sweep_finds_what_the_modules_hold() -> None:
 def test_every_constant_is_stated_with_its_value() -> None:
     rows = stated()
     for key, value in constants().items():
-        assert key in rows, f"{key} is missing from the table of constants in {METHOD.name}"
-        assert rows[key] == pytest.approx(value.ravel().astype(float).tolist(), rel=1e-5), key
+        numbers = value.ravel().astype(float).tolist()
+        row = f"| `{key[0]}` | `{key[1]}` | {', '.join(f'{number:g}' for number in numbers)} | what it decides |"
+        assert key in rows, f"add to the table of constants in docs/method/method.md: {row}"
+        assert rows[key] == pytest.approx(numbers, rel=1e-5), f"write in docs/method/method.md: {row}"
 
 
 def test_every_row_is_a_constant() -> None:
     for (module, name), values in stated().items():
-        held = getattr(importlib.import_module(f"{shapeviz_report.__name__}.{module}"), name)
-        assert values == pytest.approx(np.ravel(held).astype(float).tolist(), rel=1e-5), (module, name)
+        held = getattr(importlib.import_module(f"{shapeviz_report.__name__}.{module}"), name, None)
+        assert held is not None, f"docs/method/method.md: {module} has no {name}; remove its row"
+        numbers = np.ravel(held).astype(float).tolist()
+        assert values == pytest.approx(numbers, rel=1e-5), f"docs/method/method.md: {module}.{name} is {held}"
 
 
 def test_how_many_features_there_are_follows_from_the_descriptors() -> None:

@@ -30,14 +30,18 @@ def test_links_lead_somewhere(document) -> None:
     for link in _links(document):
         path, _, place = link.partition("#")
         target = document.parent / path if path else document
-        assert target.exists(), link
-        assert not place or place in _anchors(target), link
+        where = f"{document.relative_to(ROOT)}: mend the link {link}"
+        assert target.exists(), f"{where}: there is no such file"
+        assert not place or place in _anchors(target), f"{where}: {target.name} has no such heading"
 
 
 def test_the_index_has_all() -> None:
     index = ROOT / "docs" / "README.md"
     listed = {(index.parent / link).resolve() for link in _links(index)}
-    assert listed == {path for path in (ROOT / "docs").rglob("*.md") if path != index}
+    there = {path for path in (ROOT / "docs").rglob("*.md") if path != index}
+    for path in sorted(there - listed):
+        pytest.fail(f"give {path.relative_to(ROOT)} a place in docs/README.md")
+    assert listed == there, "docs/README.md lists what is no document of docs/"
 
 
 def test_documents_that_are_spoken_of_are_there() -> None:
@@ -51,4 +55,4 @@ def test_documents_that_are_spoken_of_are_there() -> None:
     ]
     for source in sources:
         for name in re.findall(r"docs/[\w/-]+\.(?:md|yml)", source.read_text(encoding="utf-8")):
-            assert (ROOT / name).exists(), f"{source.relative_to(ROOT)} speaks of {name}"
+            assert (ROOT / name).exists(), f"{source.relative_to(ROOT)} speaks of {name}, which is not there"

@@ -21,22 +21,27 @@ def whole_report(classes, per_class=3):
 
 
 def test_names_and_files_are_unique():
-    assert len({page.name for page in PAGES}) == len(PAGES)
-    assert len({page.file for page in PAGES}) == len(PAGES)
-    assert PAGES[0].file == "index.html"
+    assert len({page.name for page in PAGES}) == len(PAGES), "two of PAGES in pages/__init__.py share a name"
+    assert len({page.file for page in PAGES}) == len(PAGES), "two of PAGES in pages/__init__.py share a file"
+    assert PAGES[0].file == "index.html", "the first of PAGES is where a site opens"
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 class TestPage:
     def test_it_has_a_template_that_extends_the_base(self, page):
-        source = (templates_folder() / f"{page.name}.html").read_text(encoding="utf-8")
+        path = templates_folder() / f"{page.name}.html"
+        assert path.is_file(), f"write templates/{path.name}"
+        source = path.read_text(encoding="utf-8")
         jinja2.Environment(autoescape=True).parse(source)
-        assert '{% extends "base.html" %}' in source
+        assert '{% extends "base.html" %}' in source, f"begin templates/{path.name} so"
 
     def test_its_script_watches_the_theme(self, page):
-        source = (site_folder() / "scripts" / "pages" / f"{page.name}.js").read_text(encoding="utf-8")
+        path = site_folder() / "scripts" / "pages" / f"{page.name}.js"
+        assert path.is_file(), f"write site/scripts/pages/{path.name}"
+        source = path.read_text(encoding="utf-8")
         # A page that is opened as all are follows the theme from when it is ready.
-        assert ("openPage(" in source and " ready(" in source) or "watchTheme(" in source
+        opened = ("openPage(" in source and " ready(" in source) or "watchTheme(" in source
+        assert opened, f"site/scripts/pages/{path.name}: open it by openPage({{ ..., ready() }})"
 
     @pytest.mark.slow
     def test_its_content_is_the_same_every_time(self, page):

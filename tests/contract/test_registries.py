@@ -30,35 +30,49 @@ def modules_of(package) -> set[str]:
 @pytest.mark.parametrize("descriptor", DESCRIPTORS, ids=lambda d: d.name)
 def test_descriptor(descriptor) -> None:
     source = inspect.getmodule(descriptor.compute)
-    assert source.__doc__.startswith(f"{descriptor.title} ({descriptor.name})")
-    text = inspect.getdoc(descriptor.compute)
-    assert "Returns" in text
-    assert f"(n, {descriptor.dimensions})" in text
-    assert descriptor.measures.endswith(".")
-    assert len(set(descriptor.quantities)) == descriptor.dimensions
-    assert descriptor.compute(Surface(lump())).shape[1] == descriptor.dimensions
+    where = Path(inspect.getfile(descriptor.compute)).relative_to(ROOT)
+    head = f"{descriptor.title} ({descriptor.name})"
+    assert (source.__doc__ or "").startswith(head), f"{where}: begin its docstring with {head!r}"
+    text = inspect.getdoc(descriptor.compute) or ""
+    shape = f"(n, {descriptor.dimensions})"
+    for part in ("Returns", shape):
+        assert part in text, f"{where}: its function's docstring needs {part!r}"
+    assert descriptor.measures.endswith("."), (
+        f"{where}: `measures` is a sentence, which ends with a full stop"
+    )
+    count = len(set(descriptor.quantities))
+    assert count == descriptor.dimensions, f"{where}: {count} different `quantities`, one a dimension"
+    width = descriptor.compute(Surface(lump())).shape[1]
+    assert width == descriptor.dimensions, f"{where}: `dimensions` is not the {width} columns it computes"
     for words in (*descriptor.quantities, descriptor.low, descriptor.high):
-        assert words
-        assert not words.endswith("."), "these words stand within a sentence"
-    assert f"**{descriptor.name}**" in METHOD
+        assert words, f"{where}: `quantities`, `low` and `high` need words"
+        assert not words.endswith("."), f"{where}: {words!r} stands within a sentence: no full stop"
+    assert f"**{descriptor.name}**" in METHOD, (
+        f"say in docs/method/method.md, in the table of descriptors, how **{descriptor.name}** is read"
+    )
 
 
 def test_one_file_a_descriptor() -> None:
     files = {inspect.getmodule(d.compute).__name__.rpartition(".")[2] for d in DESCRIPTORS}
-    assert len(files) == len({d.name for d in DESCRIPTORS}) == len(DESCRIPTORS)
-    assert files == modules_of(descriptors) - {"base", "surface"}
+    names = [d.name for d in DESCRIPTORS]
+    assert len(files) == len(set(names)) == len(names), "two of DESCRIPTORS share a file or a name"
+    left = modules_of(descriptors) - {"base", "surface"} - files
+    assert not left, f"name {sorted(left)} in DESCRIPTORS of descriptors/__init__.py, or remove the file"
 
 
 @pytest.mark.parametrize("method", PROJECTIONS, ids=lambda m: m.name)
 def test_projection(method) -> None:
-    assert method.name.isidentifier()
-    assert method.explanation.endswith(".")
-    assert method.title in METHOD
+    where = f"projections/{method.name}.py"
+    assert method.name.isidentifier(), f"{where}: `name` is part of file names and of addresses: letters only"
+    assert method.explanation.endswith("."), (
+        f"{where}: `explanation` is a sentence, which ends with a full stop"
+    )
+    assert method.title in METHOD, f"say in docs/method/method.md, under Projections, what {method.title} is"
 
 
 def test_searches_are_by_the_methods_that_have_rounds() -> None:
     searched = tuple(method.name for method in PROJECTIONS if method.rounds)
-    assert searched == SEARCHES[:-1]
+    assert searched == SEARCHES[:-1], f"SEARCHES of config.py: write {(*searched, SEARCHES[-1])}"
 
 
 @pytest.mark.slow
@@ -77,23 +91,27 @@ def test_only_its_own_file_names_a_projection() -> None:
 
 
 def test_one_file_a_projection() -> None:
-    assert {m.name for m in PROJECTIONS} == modules_of(projections) - {"base"}
+    for name in sorted({m.name for m in PROJECTIONS} ^ (modules_of(projections) - {"base"})):
+        pytest.fail(f"projections/{name}.py holds the Method of that name in PROJECTIONS of __init__.py")
 
 
 @pytest.mark.parametrize("preset", PRESETS.values(), ids=lambda p: p.name)
 def test_preset(preset) -> None:
-    assert f"`{preset.name}`" in METHOD
+    assert f"`{preset.name}`" in METHOD, f"say in docs/method/method.md what the preset `{preset.name}` does"
 
 
 @pytest.mark.parametrize("layout", LAYOUTS, ids=lambda layout: layout.name)
 def test_layout(layout) -> None:
-    assert layout.description
-    assert f"`{layout.name}`" in DATABASES
-    assert inspect.getmodule(type(layout)).__name__.rpartition(".")[2] in modules_of(database)
+    file = inspect.getmodule(type(layout)).__name__.rpartition(".")[2]
+    assert layout.description, f"database/{file}.py: give the layout a line of description"
+    assert f"`{layout.name}`" in DATABASES, f"describe `{layout.name}` in docs/using/databases.md"
+    assert file in modules_of(database), (
+        f"put the layout {layout.name} into a file of shapeviz_report/database"
+    )
 
 
 def test_demo_classes_are_sorted_and_distinct() -> None:
     names = [c.name for c in CLASSES]
-    assert names == sorted(set(names))
-    assert len(names) >= 10
-    assert set(names) <= modules_of(demo)
+    assert names == sorted(set(names)), "CLASSES of demo/classes.py: each once, sorted by name"
+    assert len(names) >= 10, "the demo shows what a database of ten classes or more looks like"
+    assert set(names) <= modules_of(demo), "one file a class in shapeviz_report/demo"

@@ -31,20 +31,25 @@ def groups(count: int = 30, width: int = 12) -> tuple[np.ndarray, np.ndarray]:
 
 @every_scorer
 def test_described(scorer) -> None:
-    assert inspect.getmodule(scorer.measure).__name__.rpartition(".")[2] == scorer.name
-    assert "Returns" in inspect.getdoc(scorer.measure)
-    assert scorer.explanation.startswith("High")
-    assert scorer.explanation.endswith(".")
-    assert f"## {scorer.title}" in DOCS
-    assert scorer.source in DOCS
+    file = inspect.getmodule(scorer.measure).__name__.rpartition(".")[2]
+    where = f"scorers/{file}.py"
+    assert file == scorer.name, f"{where} holds the scorer {scorer.name!r}: call them alike"
+    assert "Returns" in (inspect.getdoc(scorer.measure) or ""), f"{where}: say what `measure` returns"
+    for end in (scorer.explanation.startswith("High"), scorer.explanation.endswith(".")):
+        assert end, f"{where}: `explanation` says in a sentence what high values mean: 'High ... .'"
+    assert f"## {scorer.title}" in DOCS, f"write a section '## {scorer.title}' in docs/method/scorers.md"
+    assert scorer.source in DOCS, f"name the source in docs/method/scorers.md: {scorer.source}"
 
 
 def test_one_file_a_scorer_and_the_same_in_the_browser() -> None:
     names = [scorer.name for scorer in SCORERS]
-    assert set(names) == modules_of(scorers) - {"balance", "base", "separation"}
-    assert {path.stem for path in ENGINE.glob("score-*.js")} == {f"score-{name}" for name in names}
+    for name in sorted(set(names) ^ (modules_of(scorers) - {"balance", "base", "separation"})):
+        pytest.fail(f"scorers/{name}.py holds the Scorer of that name in SCORERS of scorers/__init__.py")
+    for name in sorted(set(names) ^ {path.stem.removeprefix("score-") for path in ENGINE.glob("score-*.js")}):
+        pytest.fail(f"site/scripts/engine/score-{name}.js takes the same steps as scorers/{name}.py")
     task = (ENGINE / "scoring.js").read_text(encoding="utf-8")
-    assert [name for name in names if f'["{name}", scoreBy' in task] == names
+    for name in names:
+        assert f'["{name}", scoreBy' in task, f"name {name!r} in METHODS of site/scripts/engine/scoring.js"
 
 
 @every_scorer

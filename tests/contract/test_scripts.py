@@ -64,12 +64,14 @@ def test_imports_go_one_way():
 def test_every_script_has_a_room():
     root = _scripts()
     rooms = {path.relative_to(root).parts[0] for path in root.rglob("*.js")}
-    assert rooms == {*APART, *(room for rooms in LAYERS for room in rooms)}
+    known = {*APART, *(room for rooms in LAYERS for room in rooms)}
+    assert rooms == known, f"give {sorted(rooms ^ known)} a place in LAYERS of {__file__}, or remove it there"
 
 
 def test_every_page_has_one_script_that_starts_it():
     entries = {path.stem for path in (_scripts() / "pages").glob("*.js")}
-    assert entries == {page.name for page in PAGES}
+    for name in sorted({page.name for page in PAGES} ^ entries):
+        pytest.fail(f"write site/scripts/pages/{name}.js, or name {name} in PAGES of pages/__init__.py")
 
 
 def test_what_starts_a_page_only_wires():
@@ -103,7 +105,8 @@ def test_no_script_is_left_over():
         root / "opening" / "single-file.js",
     }
     unused = set(root.rglob("*.js")) - imported - starts - {root / "engine" / "worker.js"}
-    assert unused == set()
+    left = sorted(path.relative_to(root).as_posix() for path in unused)
+    assert not left, f"nothing imports {left}: remove them from site/scripts"
 
 
 #: Reads scripts without running them.

@@ -61,11 +61,14 @@ def _words(page: str) -> frozenset[str]:
 
 def test_all_sheets_are_joined() -> None:
     styles = site_folder() / "styles"
-    assert set(SHEETS) == {path.relative_to(styles).as_posix() for path in styles.rglob("*.css")}
+    there = {path.relative_to(styles).as_posix() for path in styles.rglob("*.css")}
+    assert set(SHEETS) == there, "give every sheet of site/styles its place in writing/assets.py"
 
 
 def test_every_page_has_a_sheet_of_its_name() -> None:
-    assert {Path(sheet).stem for sheet in SHEETS if sheet.startswith("pages/")} == set(PAGE_NAMES)
+    own = {Path(sheet).stem for sheet in SHEETS if sheet.startswith("pages/")}
+    for name in sorted(own ^ set(PAGE_NAMES)):
+        pytest.fail(f"site/styles/pages/{name}.css is the sheet of the page {name} of PAGES: write, or remove it")
 
 
 @pytest.mark.parametrize("page", PAGE_NAMES)
@@ -78,7 +81,8 @@ def test_a_page_has_every_class_and_id_of_its_sheet(page) -> None:
 
 @pytest.mark.parametrize("sheet", [sheet for sheet in SHEETS if not sheet.startswith("pages/")])
 def test_every_class_and_id_is_on_some_page(sheet) -> None:
-    assert _names(sheet) - frozenset().union(*map(_words, PAGE_NAMES)) == set()
+    strange = _names(sheet) - frozenset().union(*map(_words, PAGE_NAMES))
+    assert strange == set(), f"no page has it: remove it from site/styles/{sheet}"
 
 
 @pytest.mark.parametrize("sheet", [sheet for sheet in SHEETS if sheet.startswith("components/")])
