@@ -12,7 +12,7 @@ from scorer_groups import read_groups
 from shapeviz_report.scorers import SCORERS, Contest, score_separation
 from shapeviz_report.writing.joiner import join
 
-TOLERANCE = {"chi2": 1e-8, "anova": 1e-8, "trees": 1e-8, "logistic": 1e-8, "relief": 1e-4, "rfe": 1e-8}
+TOLERANCE = {scorer.name: 1e-8 for scorer in SCORERS} | {"relief": 1e-4}
 """Of relative scores. Relief adds up in single precision in Python."""
 
 methods = pytest.mark.parametrize("scorer", SCORERS, ids=lambda s: s.name)

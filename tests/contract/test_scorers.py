@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import json
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from .test_registries import modules_of
 
 ROOT = Path(__file__).parents[2]
 ENGINE = ROOT / "site" / "scripts" / "engine"
+GROUPS = ROOT / "tests" / "fixtures" / "scorers.json"
 DOCS = (ROOT / "docs" / "method" / "scorers.md").read_text(encoding="utf-8")
 
 every_scorer = pytest.mark.parametrize("scorer", SCORERS, ids=lambda s: s.name)
@@ -47,6 +49,10 @@ def test_one_file_a_scorer_and_the_same_in_the_browser() -> None:
         pytest.fail(f"scorers/{name}.py holds the Scorer of that name in SCORERS of scorers/__init__.py")
     for name in sorted(set(names) ^ {path.stem.removeprefix("score-") for path in ENGINE.glob("score-*.js")}):
         pytest.fail(f"site/scripts/engine/score-{name}.js takes the same steps as scorers/{name}.py")
+    for group in json.loads(GROUPS.read_text(encoding="utf-8")):
+        assert list(group["scores"]) == names, (
+            "run `python tests/scorer_groups.py`: the browser is held to its scores"
+        )
     task = (ENGINE / "scoring.js").read_text(encoding="utf-8")
     for name in names:
         assert f'["{name}", scoreBy' in task, f"name {name!r} in METHODS of site/scripts/engine/scoring.js"

@@ -426,7 +426,7 @@ def test_degenerate_meshes_have_finite_values(descriptor, name) -> None:
 
 
 def test_table_1() -> None:
-    assert [(d.name, d.dimensions) for d in DESCRIPTORS] == [
+    assert [(d.name, d.dimensions) for d in DESCRIPTORS[:8]] == [
         ("Gc", 1), ("Agd", 1), ("Nd", 1), ("Na", 1), ("Pa", 1), ("Sc", 24), ("PFH", 125), ("FPFH", 33),
     ]  # fmt: skip
 
