@@ -68,7 +68,9 @@ def test_all_sheets_are_joined() -> None:
 def test_every_page_has_a_sheet_of_its_name() -> None:
     own = {Path(sheet).stem for sheet in SHEETS if sheet.startswith("pages/")}
     for name in sorted(own ^ set(PAGE_NAMES)):
-        pytest.fail(f"site/styles/pages/{name}.css is the sheet of the page {name} of PAGES: write, or remove it")
+        pytest.fail(
+            f"site/styles/pages/{name}.css is the sheet of the page {name} of PAGES: write, or remove it"
+        )
 
 
 @pytest.mark.parametrize("page", PAGE_NAMES)
@@ -119,4 +121,6 @@ def test_breakpoints_have_names() -> None:
 def test_one_palette() -> None:
     """Dark colours stand beside light ones: a second list would fall behind."""
     for sheet in SHEETS:
-        assert "prefers-color-scheme" not in _text(sheet), sheet
+        assert "prefers-color-scheme" not in _text(sheet), (
+            f"site/styles/{sheet}: write light-dark(...) instead"
+        )
