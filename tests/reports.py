@@ -154,15 +154,14 @@ def with_clusters(report: Report) -> Report:
     clusters = describe_clusters(
         partition, report.shapes, report.features, scaled, report.edges, preset, stand_in=stand_in
     )
-    report = replace(report, clusters=clusters)
     if not stand_in:
-        return report
+        return replace(report, clusters=clusters)
     labels = tuple(clusters.clusters[code].name for code in clusters.of)
     projections = {
         method: (projection, quality.score(projection.xy, labels))
         for method, (projection, _) in report.projections.items()
     }
-    return replace(report, labeling="clusters", labels=labels, projections=projections)
+    return replace(report, clusters=clusters, labeling="clusters", labels=labels, projections=projections)
 
 
 def with_publication(report: Report) -> Report:

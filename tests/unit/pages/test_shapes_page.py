@@ -32,7 +32,9 @@ def make_report(classes, per_class):
 
 def with_ids(report, ids):
     shapes = tuple(replace(shape, id=identifier) for shape, identifier in zip(report.shapes, ids))
-    return replace(report, shapes=shapes, database=replace(report.database, shapes=shapes))
+    features = replace(report.features, shape_ids=tuple(ids))
+    database = replace(report.database, shapes=shapes)
+    return replace(report, shapes=shapes, features=features, database=database)
 
 
 def with_labeling(report, name, labels):

@@ -10,6 +10,9 @@ from shapeviz_report.projections import PROJECTIONS, align, arrange, project, sq
 from shapeviz_report.projections.base import classical_scaling, principal_components
 from shapeviz_report.quality import score
 
+STRAIGHT = {"pca"}
+"""Methods that only look at the rows from the best side: they draw nothing, and part groups less."""
+
 METHODS = pytest.mark.parametrize("method", PROJECTIONS, ids=lambda m: m.name)
 
 
@@ -29,7 +32,7 @@ def test_groups_stay_together(method, groups) -> None:
     projection = project(method, values, ("x",), 0)
     assert projection.xy.shape == (75, 2)
     assert np.abs(projection.xy).max() == pytest.approx(1)
-    assert score(projection.xy, labels).nh_s > (0.8 if method.name == "pca" else 0.97)
+    assert score(projection.xy, labels).nh_s > (0.8 if method.name in STRAIGHT else 0.97)
 
 
 @METHODS
@@ -45,7 +48,7 @@ def test_the_seed_decides(method, groups) -> None:
     values, _ = groups
     first, same, other = (project(method, values, (), seed).xy for seed in (1, 1, 2))
     assert (first == same).all()
-    assert (first == other).all() == (method.name == "pca")
+    assert (first == other).all() == (method.name in STRAIGHT), "STRAIGHT names the methods without chance"
 
 
 @METHODS
@@ -96,7 +99,7 @@ def test_many_rows_are_laid_out_by_their_values(method, groups, monkeypatch) -> 
     values, labels = groups
     monkeypatch.setattr("shapeviz_report.projections.base.PAIRWISE_LIMIT", 50)
     xy = project(method, values, (), 0).xy
-    assert score(xy, labels).nh_s > (0.8 if method.name == "pca" else 0.97)
+    assert score(xy, labels).nh_s > (0.8 if method.name in STRAIGHT else 0.97)
 
 
 def test_aligning_undoes_turns_and_mirrors(groups) -> None:
