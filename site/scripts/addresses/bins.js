@@ -6,8 +6,22 @@ import { shortNames } from "./bin-names.js";
 import { brushed } from "./selected.js";
 
 /** @import { Kind, Ways } from "../base/address.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
+
+/**
+ * What the Bins page has in its state.
+ * @typedef {object} BinsValues
+ * @property {string} size of sets: "fewest", or how many bins
+ * @property {number} step
+ * @property {number} bin
+ * @property {number | null} group the class that the bin separates
+ * @property {number | "most" | "least" | null} shape
+ * @property {"value" | "inside"} reading
+ * ¦ @typedef {State<BinsValues & Shared>} BinsState
+ */
 
 const SIZES = ["fewest", "1", "2", "3"];
 const READINGS = ["value", "inside"];

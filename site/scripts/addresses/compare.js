@@ -6,7 +6,25 @@ import { readSelection, writeSelection } from "../database/selection.js";
 import { selected } from "./selected.js";
 
 /** @import { Ways } from "../base/address.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
+
+/**
+ * What the Compare page has in its state.
+ * @typedef {"groups" | "outliers" | "classes"} CompareView
+ * @typedef {object} CompareValues
+ * @property {CompareView} view
+ * @property {GroupSpec | null} a
+ * @property {GroupSpec | null} b
+ * @property {string | null} bin
+ * @property {"value" | "inside"} reading
+ * @property {number | null} of the class whose outliers are shown
+ * @property {number | null} row
+ * @property {number | null} column
+ * @property {string} space
+ * ¦ @typedef {State<CompareValues & Shared>} CompareState
+ */
 
 /**
  * What a group is of: a class by its number, a cluster, what a search finds, some shapes by their numbers, or all shapes

@@ -4,8 +4,25 @@ import { Address, choice } from "../base/address.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
 /** @import { Subsets } from "../database/subsets.js" */
+
+/**
+ * What the Features page has in its state, beside what its map has.
+ * @typedef {object} FeaturesValues
+ * @property {number} chosen place of a subset
+ * @property {number | null} pointedPlace
+ * @property {number | null} s of the greedy path
+ * @property {"class" | "hit"} color
+ * @property {number | null} method the map, once it is there
+ * @property {import("../map/scene.js").Camera | null} camera
+ * @property {number | null} opened
+ * @property {number | null} pointedGroup
+ * @property {"move" | "select"} drag
+ * ¦ @typedef {State<FeaturesValues & Shared>} FeaturesState
+ */
 
 const COLORS = ["class", "hit"];
 

@@ -8,6 +8,20 @@ import { selected } from "./selected.js";
 /** @import { Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
+
+/**
+ * What the page of a shape has in its state: features, bins and parts as text, since these come later.
+ * @typedef {object} ShapeValues
+ * @property {number | null} shape
+ * @property {string | null} unknown an id that the database does not have
+ * @property {number} method the map
+ * @property {string} features
+ * @property {string} bins
+ * @property {string | null} bin
+ * @property {string} parts
+ * ¦ @typedef {State<ShapeValues & Shared>} ShapeState
+ */
 
 /**
  * Features and bins stay text here: which ones there are is only known with the features themselves, which are large

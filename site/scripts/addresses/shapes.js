@@ -7,8 +7,26 @@ import { readSelection, writeSelection } from "../database/selection.js";
 import { brushed } from "./selected.js";
 
 /** @import { Ways } from "../base/address.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Field, Fields } from "../database/fields.js" */
+/** @import { Shared } from "../database/selection.js" */
+
+/**
+ * What the gallery has in its state.
+ * @typedef {object} GalleryValues
+ * @property {string} query
+ * @property {Set<number> | null} matches shapes that the search finds
+ * @property {boolean} only whether only the selected shapes are shown
+ * @property {Map<string, Filter>} filters by the keys of their fields
+ * @property {string} group key of the field that groups, or nothing
+ * @property {string} sort key of the field that sorts; by name without one
+ * @property {boolean} down
+ * @property {number} size of a picture
+ * @property {Set<string>} closed keys of groups
+ * @property {number | null} at the shape to begin at
+ * ¦ @typedef {State<GalleryValues & Shared>} GalleryState
+ */
 
 /**
  * A filter of a field: values, or nodes of its tree, by their numbers; or a range. It is never changed, only replaced.

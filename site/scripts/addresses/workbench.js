@@ -6,7 +6,31 @@ import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
 /** @import { Ways } from "../base/address.js" */
-/** @import { Database } from "../database/database.js" */
+/** @import { State } from "../base/state.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
+/** @import { Standing } from "../engine/inquiry.js" */
+
+/**
+ * What the Workbench has in its state: what is in use, what is asked, and what is known.
+ * @typedef {object} WorkValues
+ * @property {Set<number>} hidden classes that are not in use
+ * @property {Set<number>} features
+ * @property {Set<number>} bins chosen columns
+ * @property {string} projection
+ * @property {string} scorer
+ * @property {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} separation
+ * @property {boolean} sample
+ * @property {"class" | "hit"} color
+ * @property {any} step of the history
+ * @property {ShapeMap | null} originalMap
+ * @property {ShapeMap | null} refinedMap
+ * @property {Standing} originalStatus
+ * @property {Standing} refinedStatus
+ * @property {Standing} scoresStatus
+ * @property {Float64Array | null} scores
+ * ¦ @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null, drag: "move" | "select" }>} WorkState
+ */
 
 const PROJECTIONS = ["tsne", "umap"];
 const COLORS = ["class", "hit"];

@@ -27,7 +27,7 @@ import { currentTheme, watchTheme } from "./theme.js";
  */
 export async function openPage({ address = new Address([]), settle = (found) => found, values = {} } = {}) {
   const read = () => settle(address.read(readHash()));
-  /** @type {State<Shown & Record<string, any>>} */
+  /** @type {State} */
   const state = new State({ brushing: false, ...values, ...(await read()), theme: currentTheme() });
   let arriving = false;
   const replace = () => replaceHash(address.write(state));

@@ -259,7 +259,7 @@ export class Look {
  * @param {Chunk.Selection} selection
  * @param {Database} database
  * @param {number} column
- * @param {number} group
+ * @param {number | null} group
  */
 export function pictured({ paintings, minimal }, database, column, group) {
   const own = paintings.filter((painting) => painting.column === column);

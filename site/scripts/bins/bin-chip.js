@@ -2,7 +2,7 @@
 
 import { element } from "../base/dom.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { BinsState } from "../addresses/bins.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */
 /** @import { Bins } from "../database/bins.js" */
 
@@ -12,7 +12,7 @@ export class BinChips {
   /**
    * @param {Bins} bins
    * @param {BinCard} card
-   * @param {State} state
+   * @param {BinsState} state
    * @param {{ look: (column: number, group: number | null) => void }} ways what a click does
    */
   constructor(bins, card, state, { look }) {

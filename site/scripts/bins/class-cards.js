@@ -6,7 +6,7 @@ import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { mapOf, Plot } from "../map/plot.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { BinsState } from "../addresses/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { BinChips } from "./bin-chip.js" */
 
@@ -18,7 +18,7 @@ export class ClassCards {
    * @param {Database} database
    * @param {Chunk.Selection} selection
    * @param {BinChips} chips
-   * @param {State} state
+   * @param {BinsState} state
    * @param {{ open: (columns: number[]) => string }} ways the address of bins in the Workbench
    */
   constructor(database, selection, state, chips, { open }) {

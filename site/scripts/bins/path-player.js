@@ -7,7 +7,7 @@ import { Labels } from "../map/labels.js";
 import { FULL } from "../map/marks.js";
 import { mapOf, pictureOfMap, Plot } from "../map/plot.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { BinsState } from "../addresses/bins.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Pointing } from "../map/pointing.js" */
@@ -22,7 +22,7 @@ export class PathPlayer {
    * @param {Chunk.Selection} selection
    * @param {Bins} bins
    * @param {BinChips} chips
-   * @param {State} state
+   * @param {BinsState} state
    * @param {object} ways
    * @param {(columns: number[]) => string} ways.open the address of bins in the Workbench
    * @param {Pointing} ways.pointing

@@ -4,7 +4,7 @@ import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
 import { percent } from "../bins-kit/bin-card.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { BinsState } from "../addresses/bins.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
@@ -16,7 +16,7 @@ const MOST_ROWS = 500;
  * @param {Bins} bins
  * @param {Chunk.Selection} selection
  * @param {BinCard} card
- * @param {State} state
+ * @param {BinsState} state
  */
 export function binsTables(database, bins, selection, state, card) {
   /** @param {number[]} columns */

@@ -10,7 +10,7 @@ import { findShapes } from "../database/shape-finder.js";
 import { Plot } from "../map/plot.js";
 import { Paint } from "../viewer/paint.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { BinsState } from "../addresses/bins.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Pointing } from "../map/pointing.js" */
@@ -20,7 +20,7 @@ export class Turntable {
    * @param {Database} database
    * @param {Bins} bins
    * @param {Chunk.Selection} selection
-   * @param {State} state
+   * @param {BinsState} state
    * @param {{ pointing: Pointing; announce: (text: string) => void; }} parts
    */
   constructor(database, bins, selection, state, { pointing, announce }) {
@@ -124,7 +124,7 @@ export class Turntable {
 
   #watchShapes() {
     const { database, state } = this;
-    for (const end of ["most", "least"]) {
+    for (const end of /** @type {const} */ (["most", "least"])) {
       document.getElementById(`${end}-of-it`).addEventListener("click", () => state.set({ shape: end }));
     }
     findShapes(database, (shape) => state.set({ shape }));

@@ -5,7 +5,7 @@ import { count } from "../base/words.js";
 import { isSame, nameOf } from "./groups.js";
 
 /** @import { GroupSpec } from "../addresses/compare.js" */
-/** @import { State } from "../base/state.js" */
+/** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Side } from "./groups.js" */
 
@@ -18,7 +18,7 @@ export class Chooser {
   /**
    * @param {Database} database
    * @param {Chunk.Clusters | null} clusters
-   * @param {State} state
+   * @param {CompareState} state
    */
   constructor(database, clusters, state) {
     this.database = database;

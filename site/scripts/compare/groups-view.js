@@ -16,7 +16,7 @@ import { Groups } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
 import { called } from "./words.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Standing } from "../engine/inquiry.js" */
@@ -53,7 +53,7 @@ export class GroupsView {
    * @param {Chunk.Comparison} data
    * @param {Chunk.Clusters | null} clusters
    * @param {Neighbours} neighbours
-   * @param {State} state
+   * @param {CompareState} state
    * @param {{ bins: () => Promise<Bins>, announce: (text: string) => void }} ways
    */
   constructor(database, data, clusters, neighbours, state, { bins, announce }) {
@@ -204,7 +204,7 @@ export class GroupsView {
   #answered(contrast, { a, b }) {
     const { database } = this;
     const { bins } = contrast;
-    const named = this.state.get("bin");
+    const named = bins.names.indexOf(this.state.get("bin") ?? "");
     const best = contrast.ranked[0] ?? 0;
     /** @type {View["rest"]} */
     const rest = { side: "rest", name: "the rest", color: () => "var(--quiet)", mark: () => null };
@@ -219,7 +219,7 @@ export class GroupsView {
       rest,
       look,
       best,
-      bin: bins.names.indexOf(named) >= 0 ? bins.names.indexOf(named) : best,
+      bin: named >= 0 ? named : best,
     };
     this.shown = FIRST;
     this.result.hidden = false;
@@ -305,7 +305,7 @@ export class GroupsView {
 
   #look() {
     const view = /** @type {View} */ (this.view);
-    const place = view.bins.names.indexOf(this.state.get("bin"));
+    const place = view.bins.names.indexOf(this.state.get("bin") ?? "");
     view.bin = place >= 0 ? place : view.best;
     for (const chip of this.result.querySelectorAll(".bin-chip"))
       chip.setAttribute("aria-pressed", String(Number(chip.dataset.column) === view.bin));

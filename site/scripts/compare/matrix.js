@@ -7,7 +7,7 @@ import { pageAddress } from "../base/place.js";
 import { count, shortened } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Neighbours } from "./neighbours.js" */
 
@@ -28,7 +28,7 @@ export class Matrix {
    * @param {Database} database
    * @param {Chunk.Comparison} data
    * @param {Neighbours} neighbours
-   * @param {State} state
+   * @param {CompareState} state
    * @param {{ announce: (text: string) => void; }} parts
    */
   constructor(database, data, neighbours, state, { announce }) {

@@ -9,7 +9,7 @@ import { dimensionOf } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { View } from "./groups-view.js" */
 /** @import { Side } from "./groups.js" */
@@ -34,7 +34,7 @@ export class OnShapes {
 
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {CompareState} state
    * @param {(text: string) => void} announce
    */
   constructor(database, state, announce) {

@@ -7,7 +7,7 @@ import { count, figure } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { distribution, mean, toldAs } from "./distribution.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Neighbours } from "./neighbours.js" */
@@ -38,7 +38,7 @@ export class Outliers {
    * @param {Database} database
    * @param {Chunk.Comparison} data
    * @param {Neighbours} neighbours
-   * @param {State} state
+   * @param {CompareState} state
    * @param {{ bins: () => Promise<Bins>, announce: (text: string) => void }} ways
    */
   constructor(database, data, neighbours, state, { bins, announce }) {

@@ -7,7 +7,7 @@ import { mean, toldAs } from "./distribution.js";
 import { signed } from "./outliers.js";
 import { share } from "./words.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Share } from "../engine/contrast.js" */
 /** @import { GroupsView, View } from "./groups-view.js" */
@@ -20,7 +20,7 @@ const MOST_SHAPES = 300;
 /**
  * @param {Database} database
  * @param {Chunk.Comparison} data
- * @param {State} state
+ * @param {CompareState} state
  * @param {{ groups: GroupsView; outliers: Outliers; matrix: Matrix; }} parts
  */
 export function compareTables(database, data, state, { groups, outliers, matrix }) {

@@ -1,14 +1,14 @@
 // The three questions of the page: one is open, arrow keys go from one to the next.
 
-/** @import { State } from "../base/state.js" */
+/** @import { CompareState, CompareView } from "../addresses/compare.js" */
 
 export class Tabs {
-  /** @param {State} state */
+  /** @param {CompareState} state */
   constructor(state) {
     this.state = state;
     this.tabs = [...document.querySelectorAll(".compare-page [role=tab]")];
     for (const [place, tab] of this.tabs.entries()) {
-      tab.addEventListener("click", () => state.set({ view: tab.dataset.view }));
+      tab.addEventListener("click", () => state.set({ view: viewOf(tab) }));
       tab.addEventListener("keydown", (event) => {
         /** @type {Record<string, number>} */
         const steps = { ArrowRight: place + 1, ArrowLeft: place - 1, Home: 0, End: this.tabs.length - 1 };
@@ -16,7 +16,7 @@ export class Tabs {
         event.preventDefault();
         const next = this.tabs[(steps[event.key] + this.tabs.length) % this.tabs.length];
         next.focus();
-        state.set({ view: next.dataset.view });
+        state.set({ view: viewOf(next) });
       });
     }
     state.listen((changed) => {
@@ -33,4 +33,12 @@ export class Tabs {
       document.getElementById(tab.dataset.view ?? "").hidden = !open;
     }
   }
+}
+
+/**
+ * The question that a tab opens.
+ * @param {Found} tab
+ */
+function viewOf(tab) {
+  return /** @type {CompareView} */ (tab.dataset.view);
 }

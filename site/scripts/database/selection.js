@@ -3,7 +3,16 @@
 
 import { entry } from "../base/entry.js";
 
+/** @import { Theme } from "../base/theme.js" */
 /** @import { Database } from "./database.js" */
+
+/**
+ * What the state of every page of shapes has.
+ * @typedef {object} Shared
+ * @property {Set<number>} selection shapes
+ * @property {boolean} brushing whether a box is being drawn
+ * @property {Theme} theme
+ */
 
 const MOST_NAMED = 40;
 

@@ -4,7 +4,7 @@ import { drawChart } from "../base/chart.js";
 import { element, swatch } from "../base/dom.js";
 import { hitRange } from "../database/hit-range.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 /** @import { Marks } from "./ranking.js" */
@@ -16,7 +16,7 @@ export class Boxes {
   /**
    * @param {Database} database
    * @param {Subsets} subsets
-   * @param {State} state
+   * @param {FeaturesState} state
    * @param {Marks} marks
    */
   constructor(database, subsets, state, marks) {

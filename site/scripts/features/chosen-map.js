@@ -8,7 +8,7 @@ import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
 import { watchColors, watchDrag, watchMapKeys } from "./controls.js";
 import { shown } from "./subset-map.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 
@@ -32,7 +32,7 @@ export class ChosenMap {
   /**
    * @param {Database} database
    * @param {Subsets} subsets
-   * @param {State} state
+   * @param {FeaturesState} state
    * @param {(text: string) => void} announce
    */
   constructor(database, subsets, state, announce) {

@@ -1,13 +1,13 @@
 // What the reader sets on the map of the Features page.
 
-/** @import { State } from "../base/state.js" */
+/** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Gestures } from "../map/gestures.js" */
 /** @import { MapView } from "../map/map.js" */
 
 /**
  * @param {Gestures} gestures
  * @param {Found} surface
- * @param {State} state
+ * @param {FeaturesState} state
  */
 export function watchMapKeys(surface, state, gestures) {
   surface.addEventListener("keydown", (event) => {
@@ -22,7 +22,7 @@ export function watchMapKeys(surface, state, gestures) {
 
 /**
  * What dragging on the map does.
- * @param {State} state
+ * @param {FeaturesState} state
  */
 export function watchDrag(state) {
   const inputs = document.querySelectorAll("#drag input");
@@ -39,7 +39,7 @@ export function watchDrag(state) {
 /**
  * Colours of the map: by class or by neighbourhood hit.
  * @param {MapView} map
- * @param {State} state
+ * @param {FeaturesState} state
  */
 export function watchColors(state, map) {
   const inputs = document.querySelectorAll("#colors input");

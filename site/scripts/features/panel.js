@@ -3,14 +3,14 @@
 import { element, focused } from "../base/dom.js";
 import { figure } from "../base/words.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 /** @import { Marks } from "./ranking.js" */
 
 export class Panel {
   /**
    * @param {Subsets} subsets
-   * @param {State} state
+   * @param {FeaturesState} state
    * @param {Marks} marks
    * @param {((place: number) => string) | null} link the address of a subset's map
    */

@@ -5,7 +5,7 @@ import { element, svg } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 
 const BARS = 150;
@@ -28,7 +28,7 @@ export class Ranking {
 
   /**
    * @param {Subsets} subsets
-   * @param {State} state
+   * @param {FeaturesState} state
    * @param {Marks} marks
    * @param {(text: string) => void} announce
    */

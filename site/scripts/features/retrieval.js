@@ -9,13 +9,13 @@ import { Curves, lineMark } from "./curves.js";
 import { Ratings } from "./ratings.js";
 
 /** @import { Children } from "../base/dom.js" */
-/** @import { State } from "../base/state.js" */
+/** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Choice } from "./ratings.js" */
 
 /**
  * The section, which follows the theme and what is chosen in the state; null where no class has two shapes.
  * @param {string[]} classes names
- * @param {State} state
+ * @param {FeaturesState} state
  * @param {{ chosen: (() => string[]) | null, choose: ((names: string[]) => void) | null }} [choice]
  */
 export async function openRetrieval(classes, state, choice = { chosen: null, choose: null }) {

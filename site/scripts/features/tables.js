@@ -5,7 +5,7 @@ import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 import { shapesTable } from "../map/tables.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 
@@ -14,7 +14,7 @@ const MOST_ROWS = 300;
 /**
  * @param {Database} database
  * @param {Subsets} subsets
- * @param {State} state
+ * @param {FeaturesState} state
  * @param {{ tables: () => any[] } | null} retrieval that section
  */
 export function subsetTables(database, subsets, state, retrieval) {
@@ -28,7 +28,8 @@ export function subsetTables(database, subsets, state, retrieval) {
     database.className(data.classes[column]),
     ...[data.hitOfClass[chosen][column], box.least, box.lower, box.median, box.upper, box.most].map(figure),
   ]);
-  const map = state.get("method") === null ? null : database.methods[state.get("method")];
+  const method = state.get("method");
+  const map = method === null ? null : database.methods[method];
   const tables = [
     greedy &&
       table(

@@ -11,7 +11,7 @@ import { Similarity } from "./similar.js";
 import { Spread } from "./spread.js";
 import { ValueCard } from "./value-card.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { ShapeLinks } from "./links.js" */
 /** @import { Portrait } from "./portrait.js" */
@@ -38,7 +38,7 @@ export function whenSeen(node, then) {
 
 /**
  * @param {Database} database
- * @param {State} state
+ * @param {ShapeState} state
  * @param {{ links: ShapeLinks; portrait: Portrait; }} parts
  */
 export async function showFeatures(database, state, { links, portrait }) {

@@ -4,7 +4,7 @@ import { readShortNames, shortNames } from "../addresses/bin-names.js";
 import { joinNames, splitNames } from "../addresses/names.js";
 import { count } from "../base/words.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 
 /**
  * What is compared: bins or features by their numbers, rising.
@@ -16,7 +16,7 @@ export class Comparison {
   /**
    * @param {Chunk.Workbench} data
    * @param {number[] | null} selected the bins of the site's own search
-   * @param {State} state
+   * @param {ShapeState} state
    */
   constructor(data, selected, state) {
     this.data = data;

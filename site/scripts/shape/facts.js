@@ -4,7 +4,7 @@ import { chunk } from "../base/chunks.js";
 import { element } from "../base/dom.js";
 import { count, grouped } from "../base/words.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { ShapeLinks } from "./links.js" */
 
@@ -21,7 +21,7 @@ const DIGITS = 4;
 export class Facts {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {ShapeState} state
    * @param {{ links: ShapeLinks; }} parts
    */
   constructor(database, state, { links }) {

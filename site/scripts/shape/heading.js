@@ -6,14 +6,14 @@ import { grouped } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { findShapes } from "../database/shape-finder.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { ShapeLinks } from "./links.js" */
 
 export class Heading {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {ShapeState} state
    * @param {{ links: ShapeLinks, go: (shape: number) => void, site: string | undefined }} parts
    */
   constructor(database, state, { links, go, site }) {
@@ -64,16 +64,17 @@ export class Heading {
   #gallery() {
     const query = new URLSearchParams();
     writeSelection(query, this.database, this.state.get("selection"));
-    if (this.state.get("shape") !== null) query.set("at", this.database.ids[this.state.get("shape")]);
+    const shape = this.state.get("shape");
+    if (shape !== null) query.set("at", this.database.ids[shape]);
     return pageAddress("shapes.html", query);
   }
 
   /**
    * To collect this shape, as the gallery and the maps do.
-   * @param {number} shape
+   * @param {number | null} shape
    */
   #offerSelection(shape) {
-    const chosen = this.state.get("selection").has(shape);
+    const chosen = shape !== null && this.state.get("selection").has(shape);
     this.choose.hidden = shape === null;
     this.choose.setAttribute("aria-pressed", String(chosen));
     this.choose.textContent = chosen ? "Selected" : "Select";
@@ -82,6 +83,7 @@ export class Heading {
   #toggle() {
     const selection = new Set(this.state.get("selection"));
     const shape = this.state.get("shape");
+    if (shape === null) return;
     if (!selection.delete(shape)) selection.add(shape);
     this.state.set({ selection });
   }

@@ -12,7 +12,7 @@ import { kind } from "./kind.js";
 import { whole } from "./similar-shapes.js";
 
 /** @import { Child } from "../base/dom.js" */
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Spread } from "./spread.js" */
@@ -32,7 +32,7 @@ export class Histograms {
    * `dimensions` are those of the chunk "selection": what each measures, and where its bins end.
    * @param {Database} database
    * @param {Bins} bins
-   * @param {State} state
+   * @param {ShapeState} state
    * @param {{ spread: Spread; dimensions: Chunk.Dimension[]; card: ValueCard; }} parts
    */
   constructor(database, bins, state, { spread, dimensions, card }) {
@@ -104,6 +104,7 @@ export class Histograms {
   /** What is in sight, bin by bin, for the tables: `[name, own, fellows, all]` each. */
   rows() {
     const shape = this.state.get("shape");
+    if (shape === null) return [];
     return this.bins.features.flatMap(({ start, bins: width }, feature) => {
       const first = start + this.partOf(feature, shape) * width;
       return Array.from({ length: width }, (_, place) => {
@@ -333,7 +334,7 @@ export class Histograms {
   #button(column, first, shape, content) {
     const { bins } = this;
     /** @param {PointerEvent & Targeted | FocusEvent & Targeted} event */
-    const show = (event) => this.card.show(column, this.tell(column, this.state.get("shape")), event.currentTarget);
+    const show = (event) => this.card.show(column, this.tell(column, shape), event.currentTarget);
     const { own, fellows, all } = this.tell(column, shape);
     const said = [
       `${bins.names[column]}: this shape ${own}`,
@@ -381,7 +382,7 @@ export class Histograms {
   }
 
   #mark() {
-    const column = this.bins.names.indexOf(this.state.get("bin"));
+    const column = this.bins.names.indexOf(this.state.get("bin") ?? "");
     for (const button of this.grid.querySelectorAll("button"))
       button.setAttribute("aria-pressed", String(Number(button.dataset.column) === column));
   }

@@ -4,13 +4,13 @@ import { shapeAddress } from "../addresses/shape.js";
 import { element, picture } from "../base/dom.js";
 
 /** @import { Child } from "../base/dom.js" */
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
 
 export class ShapeLinks {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {ShapeState} state
    * @param {{ opened: () => void }} ways is told when a reader follows one within this window
    */
   constructor(database, state, { opened }) {

@@ -9,7 +9,7 @@ import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
 import { hue } from "./hue.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Comparison } from "./comparison.js" */
@@ -22,7 +22,7 @@ export class Portrait {
 
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {ShapeState} state
    * @param {{ models: boolean }} site whether it has 3D data
    */
   constructor(database, state, { models }) {
@@ -52,7 +52,7 @@ export class Portrait {
 
   /** The column of the bin that is painted; null for none. */
   get #column() {
-    const column = this.#known?.bins.names.indexOf(this.state.get("bin")) ?? -1;
+    const column = this.#known?.bins.names.indexOf(this.state.get("bin") ?? "") ?? -1;
     return column < 0 ? null : column;
   }
 

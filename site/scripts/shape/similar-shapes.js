@@ -9,7 +9,7 @@ import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 
 /** @import { Child } from "../base/dom.js" */
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Choice, Comparison } from "./comparison.js" */
@@ -29,7 +29,7 @@ export class SimilarShapes {
   /**
    * @param {Bins} bins
    * @param {Database} database
-   * @param {State} state
+   * @param {ShapeState} state
    * @param {{ links: ShapeLinks; comparison: Comparison; similarity: Similarity; }} parts
    */
   constructor(database, bins, state, { links, comparison, similarity }) {
@@ -64,7 +64,7 @@ export class SimilarShapes {
     const { database, state } = this;
     const shape = state.get("shape");
     this.section.hidden = shape === null || database.count === 1;
-    if (this.section.hidden) return;
+    if (shape === null || this.section.hidden) return;
     const { choice } = this.comparison;
     this.found = this.similarity.rank(shape, choice, this.shown);
     this.#offer();

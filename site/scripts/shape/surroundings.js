@@ -8,7 +8,7 @@ import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { Plot } from "../map/plot.js";
 import { kind } from "./kind.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database, Method } from "../database/database.js" */
 /** @import { Marks } from "../map/marks.js" */
 /** @import { Pointing } from "../map/pointing.js" */
@@ -21,7 +21,7 @@ const MOST_CLASSES = 6;
 export class Surroundings {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {ShapeState} state
    * @param {{ links: ShapeLinks, pointing: Pointing, go: (shape: number) => void }} parts
    */
   constructor(database, state, { links, pointing, go }) {
@@ -69,7 +69,7 @@ export class Surroundings {
     const { database, state } = this;
     const shape = state.get("shape");
     this.section.hidden = shape === null || database.count === 1;
-    if (this.section.hidden) return;
+    if (shape === null || this.section.hidden) return;
     const method = state.get("method");
     const near = database.neighbours(shape, method);
     this.near = new Set(near);
@@ -145,7 +145,7 @@ export class Surroundings {
     const look = { path: database.symbol(group), color: database.color(group) };
     if (index === shape) return { ...look, radius: 6, alpha: 1 };
     if (this.near.has(index)) return { ...look, radius: many ? 4 : 4.5, alpha: 1 };
-    const own = group === database.groups[shape] && database.separable;
+    const own = shape !== null && group === database.groups[shape] && database.separable;
     return { ...look, radius: many ? 1.6 : 3, alpha: own ? 0.8 : 0.35 };
   }
 
@@ -154,7 +154,9 @@ export class Surroundings {
    * @param {Marks} marks
    */
   #tie(marks) {
-    const place = this.plot.screen(this.state.get("shape"));
+    const shape = this.state.get("shape");
+    if (shape === null) return;
+    const place = this.plot.screen(shape);
     marks.tie(
       place,
       [...this.near].map((other) => this.plot.screen(other)),

@@ -4,7 +4,7 @@ import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 import { whole } from "./similar-shapes.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Facts } from "./facts.js" */
 /** @import { Histograms } from "./histograms.js" */
@@ -12,7 +12,7 @@ import { whole } from "./similar-shapes.js";
 
 /**
  * @param {Database} database
- * @param {State} state
+ * @param {ShapeState} state
  * @param {{ facts: Facts, similar?: SimilarShapes, histograms?: Histograms }} parts those of the features are missing as long as
  *   these are not there
  */

@@ -5,7 +5,7 @@ import { pageAddress } from "../base/place.js";
 import { grouped } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Grid } from "./grid.js" */
 /** @import { Sieve } from "./sieve.js" */
@@ -15,7 +15,7 @@ import { writeSelection } from "../database/selection.js";
  * @param {Database} database
  * @param {Sieve} sieve
  * @param {Grid} grid
- * @param {State} state
+ * @param {GalleryState} state
  */
 export function watchActions(database, sieve, grid, state) {
   const [select, map, compare, fold] = ["select-shown", "on-map", "compare-shown", "fold"].map((id) =>

@@ -5,7 +5,7 @@ import { count, grouped, shortened } from "../base/words.js";
 import { numberText, valueName } from "../database/fields.js";
 
 /** @import { Filter } from "../addresses/shapes.js" */
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Field, Fields } from "../database/fields.js" */
 /** @import { Sieve } from "./sieve.js" */
 
@@ -15,7 +15,7 @@ const LONGEST = 40;
 /**
  * The filters in use, in words; the search first, then the selection.
  * @param {Fields} fields
- * @param {State} state
+ * @param {GalleryState} state
  * @returns {{ key: string, title: string, text: string }[]}
  */
 function activeFilters(fields, state) {
@@ -58,7 +58,7 @@ export class Chips {
   /**
    * @param {Fields} fields
    * @param {Sieve} sieve
-   * @param {State} state
+   * @param {GalleryState} state
    */
   constructor(fields, sieve, state) {
     this.fields = fields;

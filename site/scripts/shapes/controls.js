@@ -4,7 +4,7 @@ import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
 import { isBelowOne, rangeOf } from "../database/hit-range.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Field, Fields } from "../database/fields.js" */
 
@@ -12,7 +12,7 @@ export class Controls {
   /**
    * @param {Database} database
    * @param {Fields} fields
-   * @param {State} state
+   * @param {GalleryState} state
    */
   constructor(database, fields, state) {
     this.database = database;

@@ -6,7 +6,7 @@ import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
 import { Tree } from "./tree.js";
 
 /** @import { Filter } from "../addresses/shapes.js" */
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { ChoiceField, Field, Fields, RangeField, TreeField } from "../database/fields.js" */
 /** @import { Sieve } from "./sieve.js" */
@@ -16,7 +16,7 @@ import { Tree } from "./tree.js";
  * @typedef {object} Parts
  * @property {Database} database
  * @property {Sieve} sieve
- * @property {State} state
+ * @property {GalleryState} state
  * @property {(key: string, filter: Filter | null) => void} change takes a field's filter into use
  */
 
@@ -33,7 +33,7 @@ export class Facets {
    * @param {Database} database
    * @param {Fields} fields
    * @param {Sieve} sieve
-   * @param {State} state
+   * @param {GalleryState} state
    */
   constructor(database, fields, sieve, state) {
     this.state = state;

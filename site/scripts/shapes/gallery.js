@@ -14,7 +14,7 @@ import { Panel } from "./panel.js";
 import { search, watchSearch } from "./search.js";
 import { Sieve } from "./sieve.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Fields } from "../database/fields.js" */
 
@@ -28,7 +28,7 @@ export class Gallery {
   /**
    * @param {Database} database
    * @param {Fields} fields
-   * @param {State} state
+   * @param {GalleryState} state
    * @param {(text: string) => void} announce
    */
   constructor(database, fields, state, announce) {

@@ -3,7 +3,7 @@
 import { element } from "../base/dom.js";
 import { layOut, rowAt } from "./layout.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Cells } from "./cells.js" */
 /** @import { Group, Layout } from "./layout.js" */
@@ -47,7 +47,7 @@ export class Grid {
 
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {GalleryState} state
    */
   constructor(database, state) {
     this.database = database;

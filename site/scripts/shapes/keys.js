@@ -2,7 +2,7 @@
 
 import { rowAt } from "./layout.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Active, Grid } from "./grid.js" */
 
 export class Keys {
@@ -12,7 +12,7 @@ export class Keys {
 
   /**
    * @param {Grid} grid
-   * @param {State} state
+   * @param {GalleryState} state
    * @param {{ leave: (shape: number) => void }} ways is told of the shape whose page a reader opens
    */
   constructor(grid, state, { leave }) {

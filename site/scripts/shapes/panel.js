@@ -2,13 +2,13 @@
 
 import { count } from "../base/words.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Sieve } from "./sieve.js" */
 
 export class Panel {
   /**
    * @param {Sieve} sieve
-   * @param {State} state
+   * @param {GalleryState} state
    */
   constructor(sieve, state) {
     this.sieve = sieve;

@@ -2,7 +2,7 @@
 
 import { findWords, searchTexts } from "../database/search.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 
 /** What the search looks through, made with the first search. */
@@ -11,7 +11,7 @@ let texts = null;
 /**
  * The shapes that the words of the search find; null without words.
  * @param {Database} database
- * @param {State} state
+ * @param {GalleryState} state
  */
 export async function search(database, state) {
   const query = state.get("query");
@@ -24,7 +24,7 @@ export async function search(database, state) {
   if (state.get("query") === query) state.set({ matches: new Set(findWords(known, query)) });
 }
 
-/** @param {State} state */
+/** @param {GalleryState} state */
 export function watchSearch(state) {
   const field = document.getElementById("search");
   const show = () => {
@@ -47,7 +47,7 @@ export function watchSearch(state) {
 
 /**
  * One press takes back the last thing: the search, then the selection.
- * @param {State} state
+ * @param {GalleryState} state
  */
 function takeBack(state) {
   if (state.get("query") !== "") state.set({ query: "" });

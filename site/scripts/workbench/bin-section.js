@@ -6,7 +6,7 @@ import { BinChart } from "./bin-chart.js";
 import { separationWords, sides } from "./separation.js";
 import { StatusLine } from "./status-line.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Answers } from "./answers.js" */
@@ -17,7 +17,7 @@ export class BinSection {
    * @param {Database} database
    * @param {Chunk.Workbench} data
    * @param {Bins} bins
-   * @param {State} state
+   * @param {WorkState} state
    * @param {Answers} answers
    * @param {Desk} desk
    * @param {(text: string) => void} announce

@@ -5,7 +5,7 @@ import { difference } from "../base/figures.js";
 import { figure } from "../base/words.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Separation } from "./separation.js" */
 
@@ -17,7 +17,7 @@ const PARTS = ["from", "against"];
 export class ClassTable {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {WorkState} state
    * @param {object} ways
    * @param {(hidden: Set<number>) => void} ways.change takes other classes into use
    * @param {(part: Part, groups: number[]) => void} ways.separate ticks others
@@ -58,9 +58,10 @@ export class ClassTable {
   #row(group) {
     const { database, state } = this;
     const name = database.className(group);
-    const hit = state.get("originalMap")?.hitOfClass[group] ?? null;
     const original = state.get("originalMap");
-    const most = hit === null ? "" : ofAtMost(rangeOf(database, original).highestOfClass.get(group));
+    const hit = original?.hitOfClass[group] ?? null;
+    const most =
+      original === null || hit === null ? "" : ofAtMost(rangeOf(database, original).highestOfClass.get(group));
     const refined = state.get("refinedMap")?.hitOfClass[group] ?? null;
     const use = element(
       "button",

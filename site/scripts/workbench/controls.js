@@ -5,7 +5,7 @@ import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { contests, separationWords } from "./separation.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Gestures } from "../map/gestures.js" */
 /** @import { Desk } from "./desk.js" */
@@ -15,12 +15,12 @@ import { contests, separationWords } from "./separation.js";
  * @param {Database} database
  * @param {Chunk.Workbench} data
  * @param {Desk} desk
- * @param {State} state
+ * @param {WorkState} state
  */
 export function watchControls(database, data, state, desk) {
   /**
    * @param {string} id
-   * @param {string} name
+   * @param {"projection" | "color" | "drag"} name
    * @param {(value: any) => any} [changed]
    */
   const radios = (id, name, changed = (value) => state.set({ [name]: value })) => {
@@ -51,7 +51,7 @@ export function watchControls(database, data, state, desk) {
 /**
  * What the colours of NH mean, while the maps have them.
  * @param {Database} database
- * @param {State} state
+ * @param {WorkState} state
  */
 function watchRamp(database, state) {
   const node = document.getElementById("hit-key");
@@ -66,7 +66,7 @@ function watchRamp(database, state) {
 /**
  * @param {Chunk.Workbench} data
  * @param {Desk} desk
- * @param {State} state
+ * @param {WorkState} state
  */
 function watchScorer(data, state, desk) {
   const select = document.getElementById("scorer");
@@ -86,7 +86,7 @@ function watchScorer(data, state, desk) {
 /**
  * @param {Database} database
  * @param {Desk} desk
- * @param {State} state
+ * @param {WorkState} state
  */
 function watchSeparation(database, state, desk) {
   const words = document.getElementById("separation-words");
@@ -129,7 +129,7 @@ function missing({ from, against, each }, groups) {
 /**
  * How many shapes the brush has so far, before the tray shows them; else whether the maps are those of a sample.
  * @param {Desk} desk
- * @param {State} state
+ * @param {WorkState} state
  */
 function watchPicked(state, desk) {
   const node = document.getElementById("picked");
@@ -154,7 +154,7 @@ function watchPicked(state, desk) {
 /**
  * @param {Desk} desk
  * @param {Map<Found, Gestures>} gestures
- * @param {State} state
+ * @param {WorkState} state
  */
 export function watchKeys(state, desk, gestures) {
   document.addEventListener("keydown", (event) => {

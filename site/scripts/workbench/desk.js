@@ -9,7 +9,7 @@ import { Inquiry } from "../engine/inquiry.js";
 import { alike, History } from "./history.js";
 import { contests, separationWords } from "./separation.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { Listener } from "../engine/client.js" */
@@ -60,7 +60,7 @@ export class Desk {
    * @param {Answers} answers
    * @param {Record<Which, LiveScene>} scenes
    * @param {(text: string) => void} announce
-   * @param {State} state
+   * @param {WorkState} state
    */
   constructor(database, data, bins, state, answers, scenes, announce) {
     this.database = database;
@@ -119,12 +119,18 @@ export class Desk {
     this.use({ bins });
   }
 
+  /** The columns in use, best first; none as long as there are no scores. */
+  #ranked() {
+    const scores = this.state.get("scores");
+    return scores === null ? [] : [...ranked(scores)];
+  }
+
   /**
    * Choose the bins with the highest scores, and no others.
    * @param {number} number
    */
   takeBest(number) {
-    this.use({ bins: new Set(ranked(this.state.get("scores")).slice(0, number)) });
+    this.use({ bins: new Set(this.#ranked().slice(0, number)) });
   }
 
   /**
@@ -133,7 +139,11 @@ export class Desk {
    */
   addBest(number) {
     const chosen = this.state.get("bins");
-    this.add([...ranked(this.state.get("scores"))].filter((column) => !chosen.has(column)).slice(0, number));
+    this.add(
+      this.#ranked()
+        .filter((column) => !chosen.has(column))
+        .slice(0, number),
+    );
   }
 
   /**
@@ -212,7 +222,8 @@ export class Desk {
 
   /** Whether anything is being worked on. */
   get busy() {
-    return Object.keys(this.inquiries).some((name) => this.state.get(`${name}Status`).kind === "working");
+    const names = /** @type {Question[]} */ (Object.keys(this.inquiries));
+    return names.some((name) => this.state.get(`${name}Status`).kind === "working");
   }
 
   /** @param {Question} name */

@@ -5,7 +5,7 @@ import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { FEWEST_SHAPES } from "./desk.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Answers } from "./answers.js" */
 /** @import { Desk } from "./desk.js" */
 
@@ -16,7 +16,7 @@ const BEST = 10;
  * @param {string} which
  * @param {Answers} answers
  * @param {Desk} desk
- * @param {State} state
+ * @param {WorkState} state
  */
 export function emptyMap(which, state, answers, desk) {
   const rows = answers.rows({ hidden: state.get("hidden"), sample: state.get("sample") }).length;

@@ -2,13 +2,13 @@
 
 import { element, focused } from "../base/dom.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
 
 export class FeatureList {
   /**
    * @param {Bins} bins
-   * @param {State} state
+   * @param {WorkState} state
    * @param {() => Chunk.FeatureMarks} marks
    * @param {(features: Set<number>) => void} change takes others into use
    */

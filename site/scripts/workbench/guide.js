@@ -7,11 +7,11 @@ import { readHash } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Children } from "../base/dom.js" */
-/** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
-/** @import { Desk } from "./desk.js" */
+/** @import { Desk, Question } from "./desk.js" */
 
 const KEY = "shapeviz-guide";
 const FEW = 10;
@@ -30,7 +30,7 @@ export class Guide {
    * @param {Chunk.Workbench} data
    * @param {Bins} bins
    * @param {Desk} act
-   * @param {State} state
+   * @param {WorkState} state
    */
   constructor(database, data, bins, state, act) {
     this.database = database;
@@ -142,12 +142,12 @@ export class Guide {
     const [one, other] = example.classes;
     const pair = [this.#name(one), " and ", this.#name(other)];
     const others = [...this.database.sizes.keys()].filter((group) => group !== one && group !== other);
-    /** @param {string} name */
+    /** @param {Question} name */
     const kind = (name) => state.get(`${name}Status`).kind;
-    /** @param {...string} names */
+    /** @param {...Question} names */
     const settled = (...names) => names.every((name) => kind(name) === "answered");
     /**
-     * @param {string} name
+     * @param {Question} name
      * @param {string} words
      */
     const waiting = (name, words) =>
@@ -208,7 +208,7 @@ export class Guide {
   }
 
   #bestBin() {
-    const column = ranked(this.state.get("scores"))[0];
+    const column = ranked(/** @type {Float64Array} */ (this.state.get("scores")))[0];
     return [
       "The best bin is ",
       element("b", {}, element("bdi", {}, this.bins.names[column])),
@@ -248,8 +248,10 @@ export class Guide {
 
   /** NH of the refined map in words, and its change against the original; null without a refined map. */
   #result() {
-    const [before, after] = [this.state.get("originalMap").hitOfAll, this.state.get("refinedMap")?.hitOfAll ?? null];
-    if (after === null) return null;
+    const [before, after] = [this.state.get("originalMap"), this.state.get("refinedMap")].map(
+      (map) => map?.hitOfAll ?? null,
+    );
+    if (before === null || after === null) return null;
     return {
       words: [" NH is ", element("b", {}, figure(after)), `, ${difference(after - before)} against the original`],
       moved: after - before,

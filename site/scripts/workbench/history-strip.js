@@ -5,7 +5,7 @@ import { count, figure } from "../base/words.js";
 import { pictureOfMap } from "../map/plot.js";
 import { changes } from "./history.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { History, Step, Use } from "./history.js" */
 
@@ -15,7 +15,7 @@ export class HistoryStrip {
   /**
    * @param {Database} database
    * @param {History} history
-   * @param {State} state
+   * @param {WorkState} state
    * @param {{ go: (place: number) => void }} ways goes to a step
    */
   constructor(database, state, history, { go }) {

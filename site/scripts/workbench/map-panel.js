@@ -7,7 +7,7 @@ import { isBelowOne, rangeOf } from "../database/hit-range.js";
 import { emptyMap } from "./empty-map.js";
 import { StatusLine } from "./status-line.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { Answers } from "./answers.js" */
@@ -16,13 +16,15 @@ import { StatusLine } from "./status-line.js";
 /**
  * What stands around the two maps; the refined one is compared with the original one.
  * @param {Database} database
- * @param {State} state
+ * @param {WorkState} state
  * @param {Bins} bins
  * @param {Answers} answers
  * @param {Desk} desk
  */
 export function mapPanels(database, state, bins, answers, desk) {
-  return /** @type {[Which, string | null][]} */ (Object.entries({ original: null, refined: "originalMap" })).map(
+  return /** @type {[Which, "originalMap" | null][]} */ (
+    Object.entries({ original: null, refined: "originalMap" })
+  ).map(
     ([which, other]) =>
       new MapPanel(which, database, state, bins, {
         other,
@@ -38,9 +40,9 @@ class MapPanel {
    * @param {Which} which
    * @param {Database} database
    * @param {Bins} bins
-   * @param {State} state
+   * @param {WorkState} state
    * @param {object} options
-   * @param {string | null} options.other names the state's map that this one is compared with
+   * @param {"originalMap" | null} options.other names the state's map that this one is compared with
    * @param {() => void} options.again restarts work that was stopped
    * @param {() => void} options.stop
    * @param {() => Node[]} options.empty what to show where there is no map and none is being made

@@ -7,7 +7,7 @@ import { Gestures } from "../map/gestures.js";
 import { LiveScene } from "../map/live-scene.js";
 import { MapView } from "../map/map.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Which } from "./desk.js" */
 
 /** @type {Which[]} */
@@ -17,7 +17,7 @@ export class WorkMaps {
   /**
    * @param {Chunk.Overview} overview
    * @param {Database} database
-   * @param {State} state
+   * @param {WorkState} state
    * @param {(text: string) => void} announce
    */
   constructor(overview, database, state, announce) {

@@ -5,7 +5,7 @@ import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
 import { binTables } from "../bins-kit/bin-list.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
 
@@ -14,7 +14,7 @@ const MOST_ROWS = 500;
 /**
  * @param {Database} database
  * @param {Bins} bins
- * @param {State} state
+ * @param {WorkState} state
  */
 export function workTables(database, bins, state) {
   const [original, refined] = [state.get("originalMap"), state.get("refinedMap")];
