@@ -6,7 +6,19 @@ import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
 /** @import { Kind, Ways } from "../base/address.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
+/** @import { Camera, MapValues } from "../map/scene.js" */
+
+/**
+ * What the Overview has in its state, beside what maps have.
+ * @typedef {object} OverviewValues
+ * @property {string} view name of the large map
+ * @property {string} query of the search
+ * @property {Camera | null} camera the part in view; all where it is null
+ * ¦ @typedef {State<OverviewValues & MapValues & Shared>} OverviewState
+ */
 
 const VIEWS = ["class", "hit", "thumbnail"];
 

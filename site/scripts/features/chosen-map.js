@@ -9,8 +9,11 @@ import { watchColors, watchDrag, watchMapKeys } from "./controls.js";
 import { shown } from "./subset-map.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
+/** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
 /** @import { Subsets } from "../database/subsets.js" */
+/** @import { MapValues } from "../map/scene.js" */
 
 /** What the state has of the map at first. */
 export function nothingShown() {
@@ -67,7 +70,7 @@ export class ChosenMap {
     });
     watchMapKeys(this.view.surface, state, gestures);
     watchColors(state, this.view);
-    new Card(state);
+    new Card(/** @type {State<MapValues & Shared>} */ (/** @type {State} */ (state)));
     state.listen((changed) => changed.has("chosen") && this.#follow());
     await this.start();
     watchSize([this.view.surface], () => this.view.resize());

@@ -2,6 +2,8 @@
 // second finger, and a browser that takes the pointer for itself give a box up.
 
 /** @import { State } from "../base/state.js" */
+/** @import { Shared } from "../database/selection.js" */
+/** @import { MapValues } from "./scene.js" */
 
 /**
  * What a press is becoming, and what was shown as it began.
@@ -207,7 +209,7 @@ export class ShapeBrush extends Brush {
    * @param {HTMLElement} surface
    * @param {SVGRectElement} frame shows the box
    * @param {Inside} plot
-   * @param {State} state
+   * @param {State<MapValues & Shared>} state
    */
   constructor(surface, frame, plot, state) {
     super(surface);

@@ -6,12 +6,14 @@ import { highestOf, ofAtMost } from "../database/hit-range.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database, Method, ShapeMap } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
 /** @import { MapView } from "./map.js" */
+/** @import { MapValues } from "./scene.js" */
 
 const MOST_CLASSES = 4;
 
 export class Card {
-  /** @param {State} state */
+  /** @param {State<MapValues & Shared>} state */
   constructor(state) {
     this.state = state;
     this.node = document.getElementById("card");
@@ -22,7 +24,7 @@ export class Card {
     state.listen((changed) => {
       if (changed.has("theme")) this.shown = null;
       const camera = state.get("pointedFrom")?.scene.cameraName;
-      if (["pointed", camera, "method", "theme"].some((name) => changed.has(name))) this.#show();
+      if (["pointed", camera, "method", "theme"].some((name) => name !== undefined && changed.has(name))) this.#show();
     });
   }
 

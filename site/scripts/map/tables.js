@@ -7,12 +7,14 @@ import { highestOf, rangeOf } from "../database/hit-range.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
+/** @import { MapValues } from "./scene.js" */
 
 const MOST_ROWS = 500;
 
 /**
  * @param {Database} database
- * @param {State} state
+ * @param {State<MapValues & Shared>} state
  */
 export function mapTables(database, state) {
   const method = database.methods[state.get("method")];

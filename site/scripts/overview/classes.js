@@ -5,13 +5,13 @@ import { element, focused, swatch } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
 
 export class ClassList {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {OverviewState} state
    */
   constructor(database, state) {
     this.database = database;

@@ -3,7 +3,7 @@
 import { coarse } from "../base/dom.js";
 import { VIEWS } from "./arrangement.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Gestures } from "../map/gestures.js" */
 
@@ -11,7 +11,7 @@ import { VIEWS } from "./arrangement.js";
 
 /**
  * @param {Database} database
- * @param {State} state
+ * @param {OverviewState} state
  * @param {AllGestures} gestures
  */
 export function watchControls(database, state, gestures) {
@@ -48,7 +48,7 @@ export function watchControls(database, state, gestures) {
 
 /**
  * @param {string} how
- * @param {State} state
+ * @param {OverviewState} state
  * @param {AllGestures} gestures
  */
 function zoom(how, state, gestures) {
@@ -57,7 +57,7 @@ function zoom(how, state, gestures) {
 }
 
 /**
- * @param {State} state
+ * @param {OverviewState} state
  * @param {AllGestures} gestures
  */
 export function watchKeys(state, gestures) {
@@ -81,7 +81,7 @@ export function watchKeys(state, gestures) {
 
 /**
  * One press takes back the last thing that is open: the panel, then the search, then the selection.
- * @param {State} state
+ * @param {OverviewState} state
  */
 function takeBack(state) {
   if (state.get("opened") !== null) state.set({ opened: null });

@@ -7,13 +7,13 @@ import { count, figure, grouped } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { classLine } from "../map/card.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
 
 export class Detail {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {OverviewState} state
    * @param {{ point: (index: number | null) => void }} ways shows a shape on the map
    */
   constructor(database, state, { point }) {

@@ -4,7 +4,7 @@
 import { chunk } from "../base/chunks.js";
 import { Subsets } from "../database/subsets.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
 
 const ALL = "all";
@@ -17,7 +17,7 @@ export class FeatureChoice {
 
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {OverviewState} state
    */
   constructor(database, state) {
     this.database = database;
@@ -37,7 +37,8 @@ export class FeatureChoice {
     if (value === ALL) this.state.set({ method: this.base });
     else {
       const names = (value === BEST ? this.searched.best : this.#chosen) ?? [];
-      this.state.set({ method: await subsetMethod(this.database, names) });
+      const method = await subsetMethod(this.database, names);
+      if (method !== null) this.state.set({ method });
     }
   }
 

@@ -7,13 +7,13 @@ import { Scene } from "../map/scene.js";
 import { arrange, swap, VIEWS } from "./arrangement.js";
 import { tellReading } from "./readings.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
 
 export class LinkedMaps {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {OverviewState} state
    * @param {(text: string) => void} announce
    */
   constructor(database, state, announce) {

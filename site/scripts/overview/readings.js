@@ -2,13 +2,13 @@
 
 import { element } from "../base/dom.js";
 
-/** @import { State } from "../base/state.js" */
+/** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
 
 /**
  * @param {HTMLElement} figure
  * @param {Database} database
- * @param {State} state
+ * @param {OverviewState} state
  */
 export function tellReading(figure, database, state) {
   const notes = database.methods.map(({ note }) => element("span", {}, note));
@@ -19,7 +19,7 @@ export function tellReading(figure, database, state) {
 /**
  * @param {string} name
  * @param {Database} database
- * @param {State} state
+ * @param {OverviewState} state
  */
 function reading(name, database, state) {
   const method = database.methods[state.get("method")];

@@ -11,6 +11,7 @@ import { saveCsv, saveJson } from "./export.js";
 /** @import { Child } from "../base/dom.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Shared } from "../database/selection.js" */
 
 const PAGE = 200;
 const MOST_CLASSES = 8;
@@ -18,7 +19,7 @@ const MOST_CLASSES = 8;
 export class Tray {
   /**
    * @param {Database} database
-   * @param {State} state
+   * @param {State<Shared & { opened?: number | null }>} state
    * @param {object} options
    * @param {(index: number) => void} options.open is called with the shape whose picture is clicked
    * @param {(index: number | null) => void} [options.point] with the one under the pointer
