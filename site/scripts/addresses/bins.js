@@ -20,7 +20,8 @@ import { brushed } from "./selected.js";
  * @property {number | null} group the class that the bin separates
  * @property {number | "most" | "least" | null} shape
  * @property {"value" | "inside"} reading
- * ¦ @typedef {State<BinsValues & Shared>} BinsState
+ *
+ * @typedef {State<BinsValues & Shared>} BinsState
  */
 
 const SIZES = ["fewest", "1", "2", "3"];

@@ -23,7 +23,8 @@ import { selected } from "./selected.js";
  * @property {number | null} row
  * @property {number | null} column
  * @property {string} space
- * ¦ @typedef {State<CompareValues & Shared>} CompareState
+ *
+ * @typedef {State<CompareValues & Shared>} CompareState
  */
 
 /**

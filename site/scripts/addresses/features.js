@@ -21,7 +21,8 @@ import { brushed } from "./selected.js";
  * @property {number | null} opened
  * @property {number | null} pointedGroup
  * @property {"move" | "select"} drag
- * ¦ @typedef {State<FeaturesValues & Shared>} FeaturesState
+ *
+ * @typedef {State<FeaturesValues & Shared>} FeaturesState
  */
 
 const COLORS = ["class", "hit"];

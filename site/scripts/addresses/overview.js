@@ -17,7 +17,8 @@ import { brushed } from "./selected.js";
  * @property {string} view name of the large map
  * @property {string} query of the search
  * @property {Camera | null} camera the part in view; all where it is null
- * ¦ @typedef {State<OverviewValues & MapValues & Shared>} OverviewState
+ *
+ * @typedef {State<OverviewValues & MapValues & Shared>} OverviewState
  */
 
 const VIEWS = ["class", "hit", "thumbnail"];

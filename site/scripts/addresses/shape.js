@@ -20,7 +20,8 @@ import { selected } from "./selected.js";
  * @property {string} bins
  * @property {string | null} bin
  * @property {string} parts
- * ¦ @typedef {State<ShapeValues & Shared>} ShapeState
+ *
+ * @typedef {State<ShapeValues & Shared>} ShapeState
  */
 
 /**

@@ -25,7 +25,8 @@ import { brushed } from "./selected.js";
  * @property {number} size of a picture
  * @property {Set<string>} closed keys of groups
  * @property {number | null} at the shape to begin at
- * ¦ @typedef {State<GalleryValues & Shared>} GalleryState
+ *
+ * @typedef {State<GalleryValues & Shared>} GalleryState
  */
 
 /**

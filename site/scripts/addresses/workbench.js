@@ -29,7 +29,8 @@ import { brushed } from "./selected.js";
  * @property {Standing} refinedStatus
  * @property {Standing} scoresStatus
  * @property {Float64Array | null} scores
- * ¦ @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null, drag: "move" | "select" }>} WorkState
+ *
+ * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null, drag: "move" | "select" }>} WorkState
  */
 
 const PROJECTIONS = ["tsne", "umap"];

@@ -5,15 +5,6 @@ import { pushHash, readHash, replaceHash } from "./place.js";
 import { State } from "./state.js";
 import { currentTheme, watchTheme } from "./theme.js";
 
-/** @import { Theme } from "./theme.js" */
-
-/**
- * What the state of every page holds.
- * @typedef {object} Shown
- * @property {boolean} brushing whether a brush is being drawn
- * @property {Theme} theme
- */
-
 /**
  * Open a page.
  *

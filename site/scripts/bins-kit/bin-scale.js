@@ -59,9 +59,9 @@ export class BinScale {
 
   /**
    * Show a place at a point of the screen.
+   * @param {number} place
    * @param {number} x
    * @param {number} [step]
-   * @param {number} place
    */
   hold(place, x, step = this.step) {
     this.step = Math.min(Math.max(step, this.least), this.most);

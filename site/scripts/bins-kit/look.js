@@ -19,8 +19,8 @@ export class Look {
    * @param {Database} database
    * @param {Bins} bins
    * @param {Chunk.Selection} selection
-   * @param {BinCard} card
    * @param {State} state
+   * @param {BinCard} card
    */
   constructor(database, bins, selection, state, card) {
     this.database = database;
@@ -293,8 +293,8 @@ export function shapeLine(database, bins, column, shape) {
 
 /**
  * The number of a column's dimension among those of the descriptors; null for a feature that was brought along.
- * @param {Bins} bins
  * @param {number} column
+ * @param {Bins} bins
  */
 export function dimensionOf(column, bins) {
   if (!bins.isShare(column)) return null;

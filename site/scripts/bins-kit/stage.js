@@ -61,8 +61,8 @@ export class Stage {
   }
 
   /**
-   * @param {string} text
    * @param {number} shape
+   * @param {string} text
    */
   #say(shape, text) {
     this.#clear(this.#picture(shape), element("p", { class: "empty", role: "status" }, text));

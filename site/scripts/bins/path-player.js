@@ -185,7 +185,7 @@ export class PathPlayer {
     return `Step ${place + 1} of ${this.steps.length}, ${count(bins.length, "bin")}, NH ${figure(nh)}: ${changes.join(", ")}`;
   }
 
-  /** @param {{ travel: boolean; }} parts */
+  /** @param {{ travel: boolean }} parts */
   #render({ travel }) {
     const place = this.state.get("step");
     const step = this.steps[place];
@@ -241,8 +241,8 @@ export class PathPlayer {
    */
   #changes({ added, removed }) {
     /**
-     * @param {string} word
      * @param {number} column
+     * @param {string} word
      */
     const line = (column, word) =>
       element(

@@ -15,8 +15,8 @@ const MOST_ROWS = 500;
  * @param {Database} database
  * @param {Bins} bins
  * @param {Chunk.Selection} selection
- * @param {BinCard} card
  * @param {BinsState} state
+ * @param {BinCard} card
  */
 export function binsTables(database, bins, selection, state, card) {
   /** @param {number[]} columns */

@@ -21,7 +21,7 @@ export class Turntable {
    * @param {Bins} bins
    * @param {Chunk.Selection} selection
    * @param {BinsState} state
-   * @param {{ pointing: Pointing; announce: (text: string) => void; }} parts
+   * @param {{ pointing: Pointing, announce: (text: string) => void }} parts
    */
   constructor(database, bins, selection, state, { pointing, announce }) {
     this.database = database;
@@ -62,8 +62,8 @@ export class Turntable {
 
   /**
    * The first shape with the most (1) or the least (-1) of a bin; kept, since every mark of the map asks for it.
-   * @param {number} sign
    * @param {number} column
+   * @param {number} sign
    */
   #extreme(column, sign) {
     let known = this.#extremes;

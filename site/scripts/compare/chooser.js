@@ -121,8 +121,8 @@ export class Chooser {
 }
 
 /**
- * @param {Database} database
  * @param {Extract<GroupSpec, { kind: "search" | "shapes" }>} spec
+ * @param {Database} database
  */
 function textOf(spec, database) {
   if (spec.kind === "search") return `found by ${nameOf(spec, database)}`;

@@ -196,9 +196,9 @@ export class Contrast {
 
 /**
  * A difference of means in standard deviations within the groups, from its share of the spread.
+ * @param {number} effect
  * @param {number} first
  * @param {number} second
- * @param {number} effect
  */
 function standardised(effect, first, second) {
   const share = Math.abs(effect);
@@ -221,9 +221,9 @@ function nearest(rows, away) {
 
 /**
  * How many of rising values are below a value, or up to it.
- * @param {boolean} [including]
  * @param {number[]} rising
  * @param {number} value
+ * @param {boolean} [including]
  */
 function lower(rising, value, including = false) {
   let [from, to] = [0, rising.length];
@@ -237,9 +237,9 @@ function lower(rising, value, including = false) {
 
 /**
  * The first of some bins that do not say the same: one a dimension, and two a feature at most.
- * @param {number} most
  * @param {number[]} columns
  * @param {Bins} bins
+ * @param {number} most
  */
 export function varied(columns, bins, most) {
   const [dimensions, features] = [new Set(), new Map()];

@@ -106,7 +106,7 @@ export class GroupsView {
 
   /**
    * Why these groups cannot be compared, in words; or null.
-   * @param {{ a: Group | null; b: Group | null; common: number; }} parts
+   * @param {{ a: Group | null, b: Group | null, common: number }} parts
    */
   #problem({ a, b }) {
     const { database } = this;
@@ -141,7 +141,7 @@ export class GroupsView {
 
   /**
    * Counts and faces of both groups.
-   * @param {{ a: Group | null; b: Group | null; common: number; }} parts
+   * @param {{ a: Group | null, b: Group | null, common: number }} parts
    */
   #heads({ a, b, common }) {
     const { database } = this;
@@ -317,9 +317,9 @@ export class GroupsView {
 
 /**
  * The best bin of each dimension.
- * @param {number} most
  * @param {number[]} columns
  * @param {Bins} bins
+ * @param {number} most
  */
 function oneOfDimension(columns, bins, most) {
   const dimensions = new Set();

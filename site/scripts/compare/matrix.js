@@ -29,7 +29,7 @@ export class Matrix {
    * @param {Chunk.Comparison} data
    * @param {Neighbours} neighbours
    * @param {CompareState} state
-   * @param {{ announce: (text: string) => void; }} parts
+   * @param {{ announce: (text: string) => void }} parts
    */
   constructor(database, data, neighbours, state, { announce }) {
     this.database = database;

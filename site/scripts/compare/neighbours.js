@@ -18,8 +18,8 @@ export class Neighbours {
 
   /**
    * Of one shape, nearest first.
-   * @param {any} [space]
    * @param {number} index
+   * @param {any} [space]
    */
   of(index, space = this.spaces[0]) {
     const start = (this.spaces.indexOf(space) * this.database.count + index) * this.k;
@@ -28,9 +28,9 @@ export class Neighbours {
 
   /**
    * Of the neighbours of some shapes, the share that belongs to others; null without neighbours.
-   * @param {any} [space]
    * @param {number[]} shapes
    * @param {number[]} others
+   * @param {any} [space]
    */
   between(shapes, others, space = this.spaces[0]) {
     if (this.k === 0 || shapes.length === 0) return null;

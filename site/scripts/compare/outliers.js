@@ -277,8 +277,8 @@ export class Outliers {
   }
 
   /**
-   * @param {number} column
    * @param {number} index
+   * @param {number} column
    * @param {number} group
    * @param {number} other
    * @param {Bins} bins

@@ -21,7 +21,7 @@ const MOST_SHAPES = 300;
  * @param {Database} database
  * @param {Chunk.Comparison} data
  * @param {CompareState} state
- * @param {{ groups: GroupsView; outliers: Outliers; matrix: Matrix; }} parts
+ * @param {{ groups: GroupsView, outliers: Outliers, matrix: Matrix }} parts
  */
 export function compareTables(database, data, state, { groups, outliers, matrix }) {
   /** @type {Record<string, () => HTMLElement[]>} */

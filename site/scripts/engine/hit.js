@@ -71,8 +71,8 @@ function hitOfRow(row, xy, groups, squared, nearest) {
 
 /**
  * Put a value into its place of a rising row, whose last falls out.
- * @param {number} value
  * @param {Float64Array} rising
+ * @param {number} value
  */
 function insert(rising, value) {
   let place = rising.length - 1;

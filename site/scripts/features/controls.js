@@ -5,9 +5,9 @@
 /** @import { MapView } from "../map/map.js" */
 
 /**
- * @param {Gestures} gestures
  * @param {Found} surface
  * @param {FeaturesState} state
+ * @param {Gestures} gestures
  */
 export function watchMapKeys(surface, state, gestures) {
   surface.addEventListener("keydown", (event) => {
@@ -38,8 +38,8 @@ export function watchDrag(state) {
 
 /**
  * Colours of the map: by class or by neighbourhood hit.
- * @param {MapView} map
  * @param {FeaturesState} state
+ * @param {MapView} map
  */
 export function watchColors(state, map) {
   const inputs = document.querySelectorAll("#colors input");

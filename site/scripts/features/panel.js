@@ -93,8 +93,8 @@ export class Panel {
   }
 
   /**
-   * @param {number} feature
    * @param {number} place
+   * @param {number} feature
    */
   #chip(place, feature) {
     const { subsets } = this;

@@ -46,9 +46,9 @@ export class Detail {
   }
 
   /**
+   * @param {number} index
    * @param {string[]} labelings
    * @param {Chunk.ShapeDetails} known
-   * @param {number} index
    */
   #content(index, labelings, known) {
     const { database } = this;
@@ -104,8 +104,8 @@ export class Detail {
   }
 
   /**
-   * @param {Method} method
    * @param {number} index
+   * @param {Method} method
    */
   #neighbours(index, method) {
     const { database } = this;

@@ -39,7 +39,7 @@ export function whenSeen(node, then) {
 /**
  * @param {Database} database
  * @param {ShapeState} state
- * @param {{ links: ShapeLinks; portrait: Portrait; }} parts
+ * @param {{ links: ShapeLinks, portrait: Portrait }} parts
  */
 export async function showFeatures(database, state, { links, portrait }) {
   const section = document.getElementById("by-features");

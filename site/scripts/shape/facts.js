@@ -22,7 +22,7 @@ export class Facts {
   /**
    * @param {Database} database
    * @param {ShapeState} state
-   * @param {{ links: ShapeLinks; }} parts
+   * @param {{ links: ShapeLinks }} parts
    */
   constructor(database, state, { links }) {
     this.database = database;

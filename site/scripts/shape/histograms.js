@@ -33,7 +33,7 @@ export class Histograms {
    * @param {Database} database
    * @param {Bins} bins
    * @param {ShapeState} state
-   * @param {{ spread: Spread; dimensions: Chunk.Dimension[]; card: ValueCard; }} parts
+   * @param {{ spread: Spread, dimensions: Chunk.Dimension[], card: ValueCard }} parts
    */
   constructor(database, bins, state, { spread, dimensions, card }) {
     this.database = database;
@@ -142,9 +142,9 @@ export class Histograms {
   }
 
   /**
+   * @param {HTMLElement} panel
    * @param {number} feature
    * @param {number} shape
-   * @param {HTMLElement} panel
    */
   #fill(panel, feature, shape) {
     const { bins } = this;
@@ -195,8 +195,8 @@ export class Histograms {
   }
 
   /**
-   * @param {number} part
    * @param {number} feature
+   * @param {number} part
    */
   #choose(feature, part) {
     const name = joinNames([this.bins.features[feature].name]);
@@ -208,8 +208,8 @@ export class Histograms {
   }
 
   /**
-   * @param {number} dimension
    * @param {number} feature
+   * @param {number} dimension
    */
   #quantity(feature, dimension) {
     const { start, bins: width } = this.bins.features[feature];

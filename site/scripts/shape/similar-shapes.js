@@ -30,7 +30,7 @@ export class SimilarShapes {
    * @param {Bins} bins
    * @param {Database} database
    * @param {ShapeState} state
-   * @param {{ links: ShapeLinks; comparison: Comparison; similarity: Similarity; }} parts
+   * @param {{ links: ShapeLinks, comparison: Comparison, similarity: Similarity }} parts
    */
   constructor(database, bins, state, { links, comparison, similarity }) {
     this.database = database;
@@ -228,8 +228,8 @@ export class SimilarShapes {
 
   /**
    * This shape and those found, selected on another page.
-   * @param {string} file
    * @param {number} shape
+   * @param {string} file
    */
   #together(shape, file) {
     const query = new URLSearchParams();

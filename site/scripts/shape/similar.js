@@ -102,8 +102,8 @@ export class Similarity {
   }
 
   /**
-   * @param {number} feature
    * @param {number} row
+   * @param {number} feature
    */
   #byFeature(row, feature) {
     const total = new Float64Array(this.bins.rows);

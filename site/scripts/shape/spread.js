@@ -15,8 +15,8 @@ const QUARTERS = [0.25, 0.5, 0.75];
 
 export class Spread {
   /**
-   * @param {Bins} bins
    * @param {Database} database
+   * @param {Bins} bins
    */
   constructor(database, bins) {
     this.database = database;

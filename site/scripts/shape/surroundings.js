@@ -100,9 +100,9 @@ export class Surroundings {
 
   /**
    * Who its neighbours are, and its neighbourhood hit.
+   * @param {number} shape
    * @param {number[]} near
    * @param {Method} method
-   * @param {number} shape
    */
   #tell(shape, near, method) {
     const { database } = this;

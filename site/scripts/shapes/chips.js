@@ -102,7 +102,7 @@ export class Chips {
     if (sieve.size === 0) this.empty.replaceChildren(...this.#nothing(filters));
   }
 
-  /** @param {{ key: string; title: string; text: string; }} parts */
+  /** @param {{ key: string, title: string, text: string }} parts */
   #chip({ key, title, text }) {
     return element(
       "li",
@@ -128,7 +128,7 @@ export class Chips {
 
   /**
    * Nothing passed: which filter to take back, and what that would bring.
-   * @param {{ key: string; title: string; text: string; }[]} filters
+   * @param {{ key: string, title: string, text: string }[]} filters
    */
   #nothing(filters) {
     const found = filters

@@ -17,11 +17,14 @@ import { contests } from "./separation.js";
  * What is asked of: what is in use, all shapes or a sample of them.
  * @typedef {Use & { sample: boolean }} Asked
  * @typedef {Pick<Asked, "hidden" | "sample">} AskedShapes
- * ¦ Places of all shapes while a map is being made.
+ *
+ * Places of all shapes while a map is being made.
  * @typedef {(x: number[], y: number[]) => void} Partial
- * ¦ Runs a task of the engines; those of scores take turns with several.
+ *
+ * Runs a task of the engines; those of scores take turns with several.
  * @typedef {(name: string, parameters: object, report?: Listener, number?: number) => Promise<any>} Run
- * ¦ @typedef {{ method: string, rows: ArrayLike<number> & Iterable<number>, columns: Int32Array, by: "features" | "bins" }} Layout
+ *
+ * @typedef {{ method: string, rows: ArrayLike<number> & Iterable<number>, columns: Int32Array, by: "features" | "bins" }} Layout
  */
 
 const SCORE_STEPS = 65535;

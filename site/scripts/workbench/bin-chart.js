@@ -19,9 +19,11 @@ import { BinPlot } from "./bin-plot.js";
  * @property {(column: number | null, box: (Box & { free: number }) | null) => void} onPoint which bar is pointed at, and where it
  *   stands in the window, for the card
  * @property {(text: string) => void} announce
- * ¦ @typedef {{ left: number, top: number, width: number, height: number }} Box
+ *
+ * @typedef {{ left: number, top: number, width: number, height: number }} Box
  * @typedef {"score" | "feature"} Order
- * ¦ @typedef {object} Shown
+ *
+ * @typedef {object} Shown
  * @property {Float64Array} scores relative, a column; NaN for columns that are not in use
  * @property {Set<number>} chosen
  * @property {boolean} [busy]

@@ -8,7 +8,8 @@ import { paintBars } from "../bins-kit/bin-bars.js";
 /**
  * How bars are painted: colours by feature, that of chosen ones, and pixels of the screen a pixel of the page.
  * @typedef {{ colors: string[], accent: string, density: number }} Paints
- * ¦ Bars by column, each at a position from 0.
+ *
+ * Bars by column, each at a position from 0.
  * @typedef {Pick<Bars, "columns" | "level" | "feature"> & { position: Float32Array }} PlacedBars
  */
 

@@ -14,8 +14,8 @@ import { contests, separationWords } from "./separation.js";
 /**
  * @param {Database} database
  * @param {Chunk.Workbench} data
- * @param {Desk} desk
  * @param {WorkState} state
+ * @param {Desk} desk
  */
 export function watchControls(database, data, state, desk) {
   /**
@@ -65,8 +65,8 @@ function watchRamp(database, state) {
 
 /**
  * @param {Chunk.Workbench} data
- * @param {Desk} desk
  * @param {WorkState} state
+ * @param {Desk} desk
  */
 function watchScorer(data, state, desk) {
   const select = document.getElementById("scorer");
@@ -85,8 +85,8 @@ function watchScorer(data, state, desk) {
 
 /**
  * @param {Database} database
- * @param {Desk} desk
  * @param {WorkState} state
+ * @param {Desk} desk
  */
 function watchSeparation(database, state, desk) {
   const words = document.getElementById("separation-words");
@@ -128,8 +128,8 @@ function missing({ from, against, each }, groups) {
 
 /**
  * How many shapes the brush has so far, before the tray shows them; else whether the maps are those of a sample.
- * @param {Desk} desk
  * @param {WorkState} state
+ * @param {Desk} desk
  */
 function watchPicked(state, desk) {
   const node = document.getElementById("picked");
@@ -152,9 +152,9 @@ function watchPicked(state, desk) {
 }
 
 /**
+ * @param {WorkState} state
  * @param {Desk} desk
  * @param {Map<Found, Gestures>} gestures
- * @param {WorkState} state
  */
 export function watchKeys(state, desk, gestures) {
   document.addEventListener("keydown", (event) => {

@@ -23,7 +23,8 @@ import { contests, separationWords } from "./separation.js";
  * The questions that a reader keeps asking: for the two maps, and for the scores of the bins.
  * @typedef {"original" | "refined"} Which
  * @typedef {Which | "scores"} Question
- * ¦ What a reader may ask by.
+ *
+ * What a reader may ask by.
  * @typedef {object} Manner
  * @property {string} [scorer]
  * @property {Separation} [separation]
@@ -57,10 +58,10 @@ export class Desk {
    * @param {Database} database
    * @param {Chunk.Workbench} data
    * @param {Bins} bins
+   * @param {WorkState} state
    * @param {Answers} answers
    * @param {Record<Which, LiveScene>} scenes
    * @param {(text: string) => void} announce
-   * @param {WorkState} state
    */
   constructor(database, data, bins, state, answers, scenes, announce) {
     this.database = database;

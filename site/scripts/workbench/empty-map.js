@@ -14,9 +14,9 @@ const BEST = 10;
 /**
  * Why there is no map, and what to do next.
  * @param {string} which
+ * @param {WorkState} state
  * @param {Answers} answers
  * @param {Desk} desk
- * @param {WorkState} state
  */
 export function emptyMap(which, state, answers, desk) {
   const rows = answers.rows({ hidden: state.get("hidden"), sample: state.get("sample") }).length;

@@ -29,8 +29,8 @@ export class Guide {
    * @param {Database} database
    * @param {Chunk.Workbench} data
    * @param {Bins} bins
-   * @param {Desk} act
    * @param {WorkState} state
+   * @param {Desk} act
    */
   constructor(database, data, bins, state, act) {
     this.database = database;

@@ -30,8 +30,8 @@ export function sides({ from, against }, groups) {
  * What the scorers are asked: every contest is one group of classes against another, `positive` and `negative`.
  *
  * A contest and its mirror image are one; none has an empty side.
- * @param {number[]} groups
  * @param {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} separation
+ * @param {number[]} groups
  */
 export function contests(separation, groups) {
   const { positive, negative } = sides(separation, groups);
@@ -57,9 +57,9 @@ export function contests(separation, groups) {
 
 /**
  * A separation in words: "bird and airplane, each from the rest".
- * @param {Database} database
  * @param {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} separation
  * @param {number[]} groups
+ * @param {Database} database
  */
 export function separationWords(separation, groups, database) {
   const { positive, negative } = sides(separation, groups);
