@@ -1,7 +1,7 @@
 """Pages: a report in, the frozen content of one page out.
 
-A new page is one file here with a class that follows :class:`~shapeviz_report.pages.base.Page`, one line in
-``PAGES``, and one template; a script ``site/scripts/pages/NAME.js`` if it needs one.
+A new page is one file here with a class that follows :class:`~shapeviz_report.pages.base.Page`, and one line in
+``PAGES``; CONTRIBUTING.md names its template, script and style sheet.
 """
 
 from shapeviz_report.pages.about import AboutPage

@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 from conformance.cases import Case
 
-from shapeviz_report.database.formats import MESH_FORMATS, suffix_of
+from shapeviz_report.database.formats import MESH_FORMATS, is_unread_mesh, suffix_of
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.clean import clean, count_components
 from shapeviz_report.mesh.read import read_mesh
+from shapeviz_report.mesh.readers import READERS
 
 HERE = Path(__file__).parent
 DOCUMENT = HERE.parents[1] / "docs" / "using" / "formats.md"
@@ -30,7 +31,7 @@ CASES = collect_cases()
 
 
 def format_of(case: Case) -> str:
-    return MESH_FORMATS[suffix_of(case.file_name)]
+    return MESH_FORMATS.get(suffix_of(case.file_name), "unknown")
 
 
 def documented() -> dict[tuple[str, str], tuple[str, str]]:
@@ -40,7 +41,7 @@ def documented() -> dict[tuple[str, str], tuple[str, str]]:
         section, _, text = part.partition("\n")
         if section not in MESH_FORMATS.values():
             continue
-        for outcome, listed in re.findall(r"(?ms)^\*\*(Read|Passed over):\*\* (.*?)\.$\n\n", text):
+        for outcome, listed in re.findall(r"(?ms)^\*\*(Read|Passed over):\*\* (.*?)\.\n(?=\n|\Z)", text):
             features = " ".join(listed.split()).replace("\\*", "*").split("; ")
             found += [(section, feature, outcome.lower(), "") for feature in features]
         for feature, reason in re.findall(r"(?m)^\| (.+?) \| (.+) \|$", text):
@@ -49,6 +50,17 @@ def documented() -> dict[tuple[str, str], tuple[str, str]]:
     rows = {(section, feature): (outcome, reason) for section, feature, outcome, reason in found}
     assert len(rows) == len(found), f"{DOCUMENT.name} lists a feature twice"
     return rows
+
+
+def test_every_format_has_a_name_a_reader_and_cases() -> None:
+    for suffix in sorted({suffix_of(case.file_name) for case in CASES}):
+        assert suffix in MESH_FORMATS, f"name {suffix} in MESH_FORMATS of database/formats.py"
+        assert suffix in {*READERS, ".gltf", ".glb"}, f"name {suffix} in READERS of mesh/readers/__init__.py"
+        assert not is_unread_mesh(f"mesh{suffix}"), (
+            f"{suffix} is read: take it out of _UNREAD_FORMATS of formats.py"
+        )
+    for name in set(MESH_FORMATS.values()) - {format_of(case) for case in CASES}:
+        pytest.fail(f"write tests/conformance/{name.lower()}.py, with a case for each feature of {name}")
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{format_of(case)}: {case.name}")
@@ -82,11 +94,11 @@ def test_the_document_has_a_row_for_every_case_and_no_other() -> None:
     rows = documented()
     for case in CASES:
         assert (format_of(case), case.name) in rows, (
-            f"{DOCUMENT.name} has no row {format_of(case)}: {case.name}"
+            f"docs/using/formats.md, section {format_of(case)}: list {case.name!r} as read, passed over or refused"
         )
         outcome, reason = rows.pop((format_of(case), case.name))
         assert outcome in (("refused",) if case.refused else ("read", "passed over")), (
             f"{case.name}: {outcome}?"
         )
         assert bool(reason) == (outcome == "refused"), f"{case.name}: {reason}?"
-    assert not rows, "rows without a case"
+    assert not rows, f"docs/using/formats.md lists what no case in tests/conformance shows: {sorted(rows)}"
