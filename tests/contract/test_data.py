@@ -1,0 +1,39 @@
+"""What the files of a site's ``data/`` hold is described in docs/using/site-data.md."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from shapeviz_report.writing.data import data_files
+
+from .test_chunks import everything
+
+DOCUMENT = Path(__file__).parents[2] / "docs" / "using" / "site-data.md"
+
+
+def names_in(name: str, content: bytes) -> list[str]:
+    """The columns of a table, the arrays of an archive, or the keys of an object; without what stands for a NAME."""
+    if name.endswith(".csv"):
+        return [column.partition(":")[0] for column in next(csv.reader(io.StringIO(content.decode())))]
+    if name.endswith(".npz"):
+        return list(np.load(io.BytesIO(content)))
+    if name.endswith(".json"):
+        return list(json.loads(content))
+    return []
+
+
+@pytest.mark.slow
+def test_every_column_is_described() -> None:
+    text = DOCUMENT.read_text(encoding="utf-8")
+    described = {code.partition(":")[0] for code in re.findall(r"`([^`]+)`", text)}
+    described |= {key for code in re.findall(r"`\{([^`]+)\}`", text) for key in re.findall(r'"(\w+)"', code)}
+    for name, content in data_files(everything(), "1").items():
+        for column in names_in(name, content):
+            assert column in described, f"describe `{column}` of data/{name} in docs/using/site-data.md"
