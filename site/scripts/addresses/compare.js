@@ -46,14 +46,14 @@ const READINGS = ["value", "inside"];
 export function comparePageAddress(database, data, neighbours) {
   const ofClass = named(database.classes);
   return new Address([
-    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0] },
-    { names: ["a", "b"], ...twoGroups(database, neighbours) },
-    { name: "bin", key: "bin", kind: text, standard: null },
+    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true },
+    { names: ["a", "b"], ...twoGroups(database, neighbours), place: true },
+    { name: "bin", key: "bin", kind: text, standard: null, place: true },
     { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
-    { name: "of", key: "of", kind: ofClass, standard: null },
-    { name: "row", key: "row", kind: ofClass, standard: null },
-    { name: "column", key: "column", kind: ofClass, standard: null },
-    { name: "space", key: "by", kind: choice(data.spaces), standard: data.spaces[0] },
+    { name: "of", key: "of", kind: ofClass, standard: null, place: true },
+    { name: "row", key: "row", kind: ofClass, standard: null, place: true, often: true },
+    { name: "column", key: "column", kind: ofClass, standard: null, place: true, often: true },
+    { name: "space", key: "by", kind: choice(data.spaces), standard: data.spaces[0], place: true },
     selected(database),
   ]);
 }

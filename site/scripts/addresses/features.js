@@ -39,6 +39,8 @@ export function featuresAddress(subsets, database) {
       name: "chosen",
       read: (query) => subsets.find(splitNames(query.get("features"), subsets.features)) ?? everyone,
       write: (query, chosen) => query.set("features", joinNames(subsets.names(chosen))),
+      place: true,
+      often: true,
     },
     {
       name: "s",
@@ -49,7 +51,13 @@ export function featuresAddress(subsets, database) {
       },
       standard: sizes[0] ?? null,
     },
-    { name: "color", key: "color", kind: choice(subsets.labelled ? COLORS : COLORS.slice(0, 1)), standard: COLORS[0] },
+    {
+      name: "color",
+      key: "color",
+      kind: choice(subsets.labelled ? COLORS : COLORS.slice(0, 1)),
+      standard: COLORS[0],
+      place: true,
+    },
     brushed(database),
   ]);
 }

@@ -26,9 +26,9 @@ const VIEWS = ["class", "hit", "thumbnail"];
 /** @param {Database} database */
 export function overviewAddress(database) {
   return new Address([
-    { names: ["method", "features"], ...mapOfFeatures(database) },
-    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0] },
-    { name: "hidden", ...hiddenClasses(database) },
+    { names: ["method", "features"], ...mapOfFeatures(database), place: true },
+    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true },
+    { name: "hidden", ...hiddenClasses(database), place: true },
     brushed(database),
     { name: "opened", key: "open", kind: named(database.ids), standard: null },
     { name: "query", key: "find", kind: text, standard: "", often: true },

@@ -49,11 +49,11 @@ export function galleryAddress(database, fields) {
   const usualGroup = database.separable ? (fields.active?.key ?? "") : "";
   return new Address([
     { name: "query", key: "find", kind: text, standard: "", often: true },
-    { name: "only", ...onlySelected(database), standard: false },
-    { name: "filters", ...filters(fields), often: true },
-    { name: "group", key: "group", kind: choice(["", ...keys(fields.groupable)]), standard: usualGroup },
-    { name: "sort", key: "sort", kind: choice(keys(fields.sortable)), standard: "" },
-    { name: "down", key: "down", kind: flag, standard: false },
+    { name: "only", ...onlySelected(database), standard: false, place: true },
+    { name: "filters", ...filters(fields), place: true, often: true },
+    { name: "group", key: "group", kind: choice(["", ...keys(fields.groupable)]), standard: usualGroup, place: true },
+    { name: "sort", key: "sort", kind: choice(keys(fields.sortable)), standard: "", place: true },
+    { name: "down", key: "down", kind: flag, standard: false, place: true },
     { name: "size", key: "size", kind: within(SIZES.least, SIZES.most), standard: SIZES.usual, often: true },
     { name: "closed", key: "closed", kind: texts },
     brushed(database),

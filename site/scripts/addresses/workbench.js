@@ -52,7 +52,7 @@ export function workAddress(database, data) {
   return new Address([
     { name: "hidden", ...classesInUse(database), place: true },
     { names: ["features", "bins"], ...binsInUse(data), place: true },
-    { name: "projection", key: "map", kind: choice(PROJECTIONS), standard: method },
+    { name: "projection", key: "map", kind: choice(PROJECTIONS), standard: method, place: true },
     { name: "scorer", key: "scorer", kind: choice(data.scorers.map(({ key }) => key)), standard: DEFAULT_SCORER },
     { name: "separation", ...separation(database) },
     { name: "sample", key: "sample", kind: flag, standard: false },

@@ -21,12 +21,19 @@ export async function openPage({ address = new Address([]), settle = (found) => 
   /** @type {State} */
   const state = new State({ brushing: false, ...values, ...(await read()), theme: currentTheme() });
   let arriving = false;
-  const replace = () => replaceHash(address.write(state));
-  const replaceLater = delayed(replace);
+  const acted = watchActs();
+  const step = () => {
+    const query = address.write(state);
+    if (query.toString() !== readHash().toString()) (acted() ? pushHash : replaceHash)(query);
+  };
+  const later = { step: delayed(step), replace: delayed(() => replaceHash(address.write(state))) };
   state.listen((changed) => {
-    if (!arriving && address.has(changed, ({ place }) => place)) pushHash(address.write(state));
-    else if (address.has(changed, ({ often }) => !often)) replace();
-    else if (address.has(changed)) replaceLater();
+    const changes = (/** @type {boolean} */ place, /** @type {boolean} */ often) =>
+      address.has(changed, (row) => (row.place ?? false) === place && (row.often ?? false) === often);
+    if (changes(true, false) && !arriving) step();
+    else if (changes(true, true) && !arriving) later.step();
+    else if (changes(false, false) || arriving) replaceHash(address.write(state));
+    else if (changes(false, true)) later.replace();
   });
   return {
     state,
@@ -55,6 +62,21 @@ export async function openPage({ address = new Address([]), settle = (found) => 
       });
       document.documentElement.dataset.ready = "";
     },
+  };
+}
+
+/**
+ * Whether the reader did something since this was asked last: what a page does by itself, as it opens or after an
+ * answer, is no step to come back to.
+ */
+function watchActs() {
+  let acted = false;
+  for (const kind of ["pointerdown", "keydown", "input", "change"])
+    window.addEventListener(kind, () => (acted = true), { capture: true });
+  return () => {
+    const answer = acted;
+    acted = false;
+    return answer;
   };
 }
 

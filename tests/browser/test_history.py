@@ -1,0 +1,103 @@
+"""The browser's way back leads through what a reader chose on a page, and through nothing that the page did itself."""
+
+import re
+
+import pytest
+from waiting import drawn_again, eventually
+
+
+def entries(page) -> int:
+    return page.evaluate("history.length")
+
+
+def choose(page, group: str, text: str) -> None:
+    page.locator(f"{group} label", has_text=re.compile(f"^{text}$")).click()
+
+
+def checked(page, group: str) -> str:
+    return page.locator(f"{group} label", has=page.locator("input:checked")).inner_text()
+
+
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [
+        ("everything", "index.html"),
+        ("everything", "shapes.html"),
+        ("everything", "compare.html"),
+        ("everything", "compare.html#view=classes"),
+        ("everything", "features.html"),
+        ("everything", "bins.html"),
+        ("workbench", "workbench.html"),
+    ],
+)
+def test_a_page_that_opens_makes_no_step(open_page, name, file) -> None:
+    page = open_page(name, file)
+    before = entries(open_page(name, "about.html"))
+    page.wait_for_timeout(600)
+    assert entries(page) == before
+
+
+def test_on_the_overview(open_page) -> None:
+    page = open_page("plain")
+    choose(page, "#methods", "UMAP")
+    page.locator(".promote[data-view=hit]").click()
+    page.locator("#legend button[aria-pressed]").first.click()
+    eventually(page, lambda: page.locator("#legend button[aria-pressed=false]").count() == 1)
+    page.go_back()
+    eventually(page, lambda: page.locator("#legend button[aria-pressed=false]").count() == 0)
+    page.go_back()
+    eventually(page, lambda: page.locator("figure[data-slot=large][data-view=class]").count() == 1)
+    assert checked(page, "#methods") == "UMAP"
+    page.go_back()
+    eventually(page, lambda: checked(page, "#methods") == "t-SNE")
+    for _ in range(3):
+        page.go_forward()
+    eventually(page, lambda: page.locator("#legend button[aria-pressed=false]").count() == 1)
+    assert checked(page, "#methods") == "UMAP"
+    assert page.locator("figure[data-slot=large]").get_attribute("data-view") == "hit"
+
+
+def test_in_the_gallery(open_page) -> None:
+    page = open_page("museum", "shapes.html")
+    page.select_option("#group", label="place")
+    facet = page.locator(".facet", has=page.locator("summary bdi", has_text=re.compile("^place$")))
+    if facet.get_attribute("open") is None:
+        facet.locator("summary").click()
+    delft = facet.locator("li", has=page.locator(".value", has_text=re.compile("^Delft$"))).locator("input")
+    delft.check()
+    eventually(page, lambda: "Delft" in page.url)
+    # What is typed into the search is no step for every letter.
+    length = entries(page)
+    page.locator("#search").press_sequentially("cup")
+    eventually(page, lambda: "find=cup" in page.url)
+    assert entries(page) == length
+    page.go_back()
+    eventually(page, lambda: not delft.is_checked())
+    assert page.locator("#group option:checked").inner_text() == "place"
+    page.go_back()
+    eventually(page, lambda: page.locator("#group option:checked").inner_text() != "place")
+    assert "shapes.html" in page.url
+
+
+def test_on_the_compare_page(open_page) -> None:
+    page = open_page("workbench", "compare.html")
+    drawn_again(page)
+    first = page.locator("#group-a option:checked").inner_text()
+    length = entries(page)
+    page.select_option("#group-a", label="kind e (16)")
+    eventually(page, lambda: "kind+e" in page.url)
+    page.wait_for_timeout(600)
+    # The page chooses bins for the new groups; that is no step of the reader's.
+    assert entries(page) == length + 1
+    page.go_back()
+    eventually(page, lambda: page.locator("#group-a option:checked").inner_text() == first)
+
+
+def test_on_the_workbench_with_the_projection(open_page) -> None:
+    page = open_page("workbench", "workbench.html")
+    before = page.locator("#projections input:checked").get_attribute("value")
+    other = page.locator("#projections label", has=page.locator("input:not(:checked)")).first
+    other.click()
+    eventually(page, lambda: page.locator("#projections input:checked").get_attribute("value") != before)
+    page.go_back()
+    eventually(page, lambda: page.locator("#projections input:checked").get_attribute("value") == before)
