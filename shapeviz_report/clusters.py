@@ -8,12 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import networkx
 import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csr_matrix
 from scipy.spatial.distance import cdist, pdist, squareform
-from sklearn.metrics import adjusted_rand_score
 from threadpoolctl import threadpool_limits
 
 from shapeviz_report.bins import word_places, word_side
@@ -131,6 +129,9 @@ def part(scaled: FloatArray, *, seed: int = 0, limit: int = SAMPLE_LIMIT) -> Par
 
 def _find_steady(distances: FloatArray, seed: int) -> tuple[IntArray, float]:
     """The groups of the fewest ties with which they are steady, or the steadiest, and how steady they are."""
+    # Imported where they are used: every worker imports this module, and few find groups.
+    from sklearn.metrics import adjusted_rand_score
+
     random = np.random.default_rng(seed)
     count = len(distances)
     parts = [np.sort(random.permutation(count)[: int(PART * count)]) for _ in range(TRIALS)]
@@ -186,6 +187,8 @@ def find_communities(ties: csr_matrix, seed: int, *, runs: int = 1) -> IntArray:
     (n,) int32 array
         Codes from 0 without gaps.
     """
+    import networkx
+
     graph = networkx.from_scipy_sparse_array(ties)
     seek, rate = networkx.community.louvain_communities, networkx.community.modularity
     found = [seek(graph, seed=seed * runs + run) for run in range(runs)]

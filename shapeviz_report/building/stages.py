@@ -18,7 +18,6 @@ import numpy as np
 import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
-from shapeviz_report import demo
 from shapeviz_report.cache import make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.copies import Outline, compare, outline
@@ -217,7 +216,10 @@ def read_paintings(painted: bytes) -> list[tuple[bytes, bytes]]:
 
 def generate_shape(class_name: str, index: int, seed: int) -> bytes:
     """One shape of the demo database, as an OFF file."""
-    return demo.encode_shape(class_name, index, seed)
+    # No other build needs it, and it takes long to import.
+    from shapeviz_report.demo import encode_shape
+
+    return encode_shape(class_name, index, seed)
 
 
 def project_features(method: str, values: FloatArray, seed: int) -> bytes:

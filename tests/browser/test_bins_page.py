@@ -103,7 +103,7 @@ def test_the_way_to_all_classes_goes_step_by_step(bins):
     assert page.locator("#step-bins .bin-chip").count() == 1
     page.keyboard.press("ArrowRight")
     assert page.evaluate("document.activeElement.dataset.step") == "1"
-    assert "step=2" in address(page)
+    eventually(page, lambda: "step=2" in address(page))
     # Who asks for less movement is not played to.
     assert page.locator("#play").is_hidden()
 

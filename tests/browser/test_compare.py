@@ -375,8 +375,7 @@ class TestSimilarClasses:
         page.keyboard.press("Enter")
         drawn_again(page)
         assert page.locator("#matrix [aria-selected=true]").count() == 1
-        assert "row=" in address(page)
-        assert "column=" in address(page)
+        eventually(page, lambda: "row=" in address(page) and "column=" in address(page))
         assert page.locator("#behind h3").is_visible()
 
     def test_the_pair_is_compared(self, compare):
