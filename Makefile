@@ -18,8 +18,7 @@ demo: drawing-library $(INSTALLED) ## build the demo site in demo-site/
 
 .PHONY: test
 test: style browsers ## run every check and every test
-	@# Three processes on two cores: tests of builds and browsers often wait.
-	$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 25
+	$(BIN)/pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder --durations 25
 
 .PHONY: check
 check: style ## the quick part of it: style, imports, types, scripts, and the unit and contract tests that are not slow
