@@ -103,14 +103,14 @@ def test_the_same_site_again_whatever_the_order_jobs_and_cache(built, database, 
     assert [name for name in first if first[name] != second[name]] == []
 
 
-def test_only_a_changed_mesh_is_computed_again(database, cache, built, tmp_path) -> None:
+def test_only_a_changed_mesh_is_computed_again(database, own_cache, built, tmp_path) -> None:
     copy = Path(shutil.copytree(database, tmp_path / "Some solids"))
-    before = {stage: entries(cache, stage) for stage in ("prepared", "described", "rendered")}
+    before = {stage: entries(own_cache, stage) for stage in ("prepared", "described", "rendered")}
     make_shape("ring", 99).export(copy / "ring" / "0.off")
-    report = shapeviz_report.build(copy, tmp_path / "site", cache=cache, **OPTIONS)
+    report = shapeviz_report.build(copy, tmp_path / "site", cache=own_cache, **OPTIONS)
     assert len(report.shapes) == 15
     for stage, old in before.items():
-        new = entries(cache, stage)
+        new = entries(own_cache, stage)
         assert {p: new[p] for p in old} == old, "an entry was written again"
         assert len(new) == len(old) + 1
 
@@ -309,7 +309,7 @@ def test_external_features_join(tmp_path, database, cache, built) -> None:
         )
 
 
-def test_every_class_is_scored_against_the_rest(built, database, cache, tmp_path) -> None:
+def test_every_class_is_scored_against_the_rest(built, database, own_cache, tmp_path) -> None:
     _, report = built
     assert report.scores.classes == ("ball", "box", "ring")
     assert report.scores.methods == tuple(scorer.name for scorer in SCORERS)
@@ -317,15 +317,15 @@ def test_every_class_is_scored_against_the_rest(built, database, cache, tmp_path
     values = compared_values(report.features, PRESETS["default"])
     scored = score_separation(SCORERS[0], values, as_one_group(report.labels, ["ring"]))
     assert report.scores.values[0, 2] == pytest.approx(scored, abs=1e-6)
-    found = entries(cache, "scored")
-    again = shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS)
-    assert entries(cache, "scored") == found
-    shapeviz_report.build(database, tmp_path / "site", cache=cache, **OPTIONS, seed=71)
-    assert len(entries(cache, "scored")) == len(found) + 3, "a task a class"
+    found = entries(own_cache, "scored")
+    again = shapeviz_report.build(database, tmp_path / "site", cache=own_cache, **OPTIONS)
+    assert entries(own_cache, "scored") == found
+    shapeviz_report.build(database, tmp_path / "site", cache=own_cache, **OPTIONS, seed=71)
+    assert len(entries(own_cache, "scored")) == len(found) + 3, "a task a class"
     np.testing.assert_array_equal(again.scores.values, report.scores.values)
 
 
-def test_the_search_for_bins_asks_everything_once(built, database, cache, tmp_path) -> None:
+def test_the_search_for_bins_asks_everything_once(built, database, own_cache, tmp_path) -> None:
     _, report = built
     found = report.bins
     assert [separated.label for separated in found.minimal] == ["ball", "box", "ring"]
@@ -337,10 +337,10 @@ def test_the_search_for_bins_asks_everything_once(built, database, cache, tmp_pa
     assert found.chance == pytest.approx(4 / 14)
     space = make_bin_space(report.features, PRESETS["default"], report.labels)
     assert find_minimal_bins(space, report.labels, "ring").sets[0].bins == found.minimal[2].sets[0].bins
-    stored = entries(cache, "selected") | entries(cache, "painted")
-    assert len(entries(cache, "selected")) == 1 + 5 * deals + 2 + 3 + 1
-    again = shapeviz_report.build(database, tmp_path / "site", cache=cache, **WITH_SEARCH)
-    assert entries(cache, "selected") | entries(cache, "painted") == stored
+    stored = entries(own_cache, "selected") | entries(own_cache, "painted")
+    assert len(entries(own_cache, "selected")) == 1 + 5 * deals + 2 + 3 + 1
+    again = shapeviz_report.build(database, tmp_path / "site", cache=own_cache, **WITH_SEARCH)
+    assert entries(own_cache, "selected") | entries(own_cache, "painted") == stored
     assert again.paintings == report.paintings
     np.testing.assert_array_equal(again.bins.automatic.path[-1].xy, found.automatic.path[-1].xy)
 
@@ -377,12 +377,12 @@ def test_models_are_of_their_shapes(built) -> None:
         assert (held > shares.max(axis=1) - 0.2).mean() > 0.9
 
 
-def test_models_may_be_left_out(built, database, cache, tmp_path) -> None:
+def test_models_may_be_left_out(built, database, own_cache, tmp_path) -> None:
     site, _ = built
-    described = entries(cache, "described")
-    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, meshes=False, **WITH_SEARCH)
+    described = entries(own_cache, "described")
+    report = shapeviz_report.build(database, tmp_path / "site", cache=own_cache, meshes=False, **WITH_SEARCH)
     assert report.models is None
-    assert entries(cache, "described") == described
+    assert entries(own_cache, "described") == described
     whole, slim = read_site(site), read_site(tmp_path / "site")
     models = {name for name in whole if name.startswith("models/")}
     assert len(models) == 15
