@@ -1,4 +1,4 @@
-// Paints bars of bins: thousands in a frame, none lost where several share a pixel.
+// Paints bars of bins: thousands in a frame, the highest of those that share a pixel.
 
 /**
  * Bars to paint: the columns, and by column where a bar begins and ends in pixels of the screen, its height in [0, 1] and its
@@ -15,38 +15,30 @@
 const SHARED = 2;
 
 /**
- * How much of every pixel column belongs to each feature, and the highest bar that touches it.
+ * The highest bar of every pixel column that bars share: which it is, -1 where there is none.
  *
  * @param {Bars} bars
  * @param {number} width
- * @param {number} features
  */
-function crowd({ columns, from, to, level, feature }, width, features) {
-  const shares = new Float32Array(width * features);
-  const totals = new Float32Array(width);
-  const peaks = new Float32Array(width);
+function highest(bars, width) {
+  const { columns, from, to, level } = bars;
+  const tops = new Int32Array(width).fill(-1);
   for (const column of columns) {
+    if (isAlone(bars, column)) continue;
     for (let pixel = Math.max(Math.floor(from[column]), 0); pixel < Math.min(to[column], width); pixel += 1) {
-      const share = Math.min(to[column], pixel + 1) - Math.max(from[column], pixel);
-      shares[pixel * features + feature[column]] += share;
-      totals[pixel] += share;
-      if (level[column] > peaks[pixel]) peaks[pixel] = level[column];
+      if (tops[pixel] < 0 || level[column] > level[tops[pixel]]) tops[pixel] = column;
     }
   }
-  return { shares, totals, peaks };
+  return tops;
 }
 
 /**
- * Bars with pixels of their own, and those that share them.
- * @param {Bars} bars
+ * Whether a bar has pixels of its own.
+ * @param {Pick<Bars, "from" | "to">} bars
+ * @param {number} column
  */
-function sorted(bars) {
-  /** @param {number} column */
-  const alone = (column) => bars.to[column] - bars.from[column] >= SHARED;
-  return {
-    wide: bars.columns.filter(alone),
-    crowded: { ...bars, columns: bars.columns.filter((column) => !alone(column)) },
-  };
+function isAlone({ from, to }, column) {
+  return to[column] - from[column] >= SHARED;
 }
 
 /**
@@ -71,39 +63,32 @@ function heightOf(level, room) {
 /**
  * Paint bars that stand on `base` and may rise by `room`; all numbers are pixels of the screen.
  *
- * Where bars share a pixel column, it is as high as the highest of them, and each feature has its share of its length:
- * the colours of a place say which features are found there.
+ * Where bars share a pixel column, the highest of them stands for all: its height, and its colour alone. What else is
+ * there, the rows of `paintRows` show.
  * @param {CanvasRenderingContext2D} context
  * @param {Bars} bars
  * @param {{ width: number, base: number, room: number, colors: string[] }} look
  */
 export function paintBars(context, bars, { width, base, room, colors }) {
-  const { wide, crowded } = sorted(bars);
-  for (const column of wide) {
-    const [start, end] = edges(bars, column);
+  /**
+   * @param {number} column
+   * @param {number} start
+   * @param {number} end
+   */
+  const paint = (column, start, end) => {
     const height = heightOf(bars.level[column], room);
     context.fillStyle = colors[bars.feature[column]];
     context.fillRect(start, base - height, end - start, height);
-  }
-  if (crowded.columns.length === 0) return;
-  const { shares, totals, peaks } = crowd(crowded, width, colors.length);
-  const floors = new Float32Array(width).fill(base);
-  for (const [feature, color] of colors.entries()) {
-    context.fillStyle = color;
-    for (let pixel = 0; pixel < width; pixel += 1) {
-      const share = shares[pixel * colors.length + feature];
-      if (share === 0) continue;
-      const height = (heightOf(peaks[pixel], room) * share) / totals[pixel];
-      floors[pixel] -= height;
-      context.fillRect(pixel, floors[pixel], 1, height);
-    }
-  }
+  };
+  for (const column of bars.columns) if (isAlone(bars, column)) paint(column, ...edges(bars, column));
+  highest(bars, width).forEach((column, pixel) => column >= 0 && paint(column, pixel, pixel + 1));
 }
 
 /**
  * Where a bar begins and ends, on whole pixels, with a gap to the next where there is room for one.
  * @param {Pick<Bars, "from" | "to">} bars
  * @param {number} column
+ * @returns {[number, number]}
  */
 export function edges({ from, to }, column) {
   const [start, end] = [Math.round(from[column]), Math.round(to[column])];
@@ -114,27 +99,24 @@ export function edges({ from, to }, column) {
  * Paint a row of marks a feature, as the Features page has under its bars: a mark where one of its bins stands.
  * @param {CanvasRenderingContext2D} context
  * @param {Bars} bars
- * @param {{ width: number, top: number, height: number, gap: number, colors: string[], rows: number[] }} look
+ * @param {{ top: number, height: number, gap: number, colors: string[], rows: number[] }} look
  */
-export function paintRows(context, bars, { width, top, height, gap, colors, rows }) {
+export function paintRows(context, bars, { top, height, gap, colors, rows }) {
   const of = new Map(rows.map((feature, row) => [feature, row]));
-  const { wide, crowded } = sorted(bars);
-  for (const column of wide) {
-    const [start, end] = edges(bars, column);
-    context.fillStyle = colors[bars.feature[column]];
-    context.fillRect(start, top + (of.get(bars.feature[column]) ?? 0) * height, end - start, height - gap);
-  }
-  if (crowded.columns.length === 0) return;
-  const { shares } = crowd(crowded, width, colors.length);
-  for (const [feature, row] of of) {
+  for (const column of bars.columns) {
+    const feature = bars.feature[column];
+    const [start, end] = isAlone(bars, column) ? edges(bars, column) : pixelOf(bars, column);
     context.fillStyle = colors[feature];
-    for (let pixel = 0; pixel < width; pixel += 1) {
-      const share = shares[pixel * colors.length + feature];
-      if (share === 0) continue;
-      // A single bin among many still shows.
-      context.globalAlpha = Math.max(Math.min(share, 1), 0.35);
-      context.fillRect(pixel, top + row * height, 1, height - gap);
-    }
+    context.fillRect(start, top + (of.get(feature) ?? 0) * height, end - start, height - gap);
   }
-  context.globalAlpha = 1;
+}
+
+/**
+ * The pixel in which the middle of a bar lies.
+ * @param {Pick<Bars, "from" | "to">} bars
+ * @param {number} column
+ */
+function pixelOf({ from, to }, column) {
+  const pixel = Math.floor((from[column] + to[column]) / 2);
+  return [pixel, pixel + 1];
 }

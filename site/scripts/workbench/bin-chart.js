@@ -31,7 +31,6 @@ import { BinPlot } from "./bin-plot.js";
  * @property {string | null} [separation] in words, what the scores separate
  */
 
-const QUICK = [5, 10, 30];
 const ORDERS = {
   score: ["By score", "The best bins first"],
   feature: ["By feature", "The bins of each feature together, its best first"],
@@ -47,8 +46,6 @@ export class BinChart {
   take;
   /** @type {HTMLInputElement} */
   number;
-  /** @type {HTMLElement} */
-  numbers;
   /** @type {HTMLButtonElement} */
   add;
   /** @type {HTMLButtonElement} */
@@ -174,9 +171,10 @@ export class BinChart {
   #choiceTools() {
     /**
      * @param {string} id
+     * @param {string} words
      * @param {() => void} onclick
      */
-    const action = (id, onclick) => element("button", { type: "button", class: "plain", id, onclick });
+    const action = (id, words, onclick) => element("button", { type: "button", class: "plain", id, onclick }, words);
     this.number = element("input", {
       type: "number",
       id: "bin-number",
@@ -186,30 +184,13 @@ export class BinChart {
       "aria-label": "How many bins",
       oninput: () => this.#offer(),
     });
-    const quick = QUICK.map((number) =>
-      element(
-        "button",
-        {
-          type: "button",
-          class: "plain",
-          "data-number": number,
-          "aria-label": `${number} bins`,
-          onclick: () => {
-            this.number.value = String(number);
-            this.#offer();
-          },
-        },
-        String(number),
-      ),
-    );
-    this.numbers = element("div", { class: "numbers" }, quick, this.number);
-    this.add = action("bin-add", () => this.#add(this.#best()));
-    this.remove = action("bin-remove", () => this.giveUp(this.#weakest()));
-    this.clear = action("bin-clear", () => this.giveUp([...this.chosen]));
+    this.add = action("bin-add", "Add the best", () => this.#add(this.#best()));
+    this.remove = action("bin-remove", "Remove the weakest", () => this.giveUp(this.#weakest()));
+    this.clear = action("bin-clear", "Clear", () => this.giveUp([...this.chosen]));
     return element(
       "div",
       { class: "bin-best", role: "group", "aria-label": "Choose bins by score" },
-      this.numbers,
+      this.number,
       this.add,
       this.remove,
       this.clear,
@@ -357,21 +338,15 @@ export class BinChart {
     return found;
   }
 
-  /** What the buttons would do, in words. */
+  /** Which of the buttons have something to do, and with how many bins. */
   #offer() {
-    const wanted = this.#wanted;
-    const best = this.#best().length;
-    const weakest = this.#weakest().length;
-    for (const node of this.numbers.querySelectorAll("[data-number]"))
-      node.setAttribute("aria-pressed", String(Number(node.dataset.number) === wanted));
+    const [best, weakest] = [this.#best().length, this.#weakest().length];
     this.closer.textContent = `First ${this.plot.close}`;
     this.closer.hidden = this.plot.close >= this.ranking.length;
-    this.add.textContent =
-      this.chosen.size > 0 ? `Add the next ${best || wanted}` : `Choose the best ${best || wanted}`;
     this.add.disabled = best === 0;
-    this.remove.textContent = `Remove the weakest ${weakest || wanted}`;
+    this.add.title = `${count(best, "bin")} with the highest scores, of those not chosen yet`;
     this.remove.disabled = weakest === 0;
-    this.clear.textContent = this.chosen.size > 0 ? `Clear ${grouped(this.chosen.size)}` : "Clear";
+    this.remove.title = `${count(weakest, "bin")} with the lowest scores, of those chosen`;
     this.clear.disabled = this.chosen.size === 0;
   }
 
@@ -548,19 +523,13 @@ export class BinChart {
   }
 
   #explain() {
-    const separates = [
-      "The higher the bar, the better this share alone separates ",
-      element("b", {}, this.separation ?? ""),
-      ". ",
-    ];
     const touched = window.matchMedia("(pointer: coarse)").matches;
     const sentences = [
-      "Each bar is one of ",
-      element("b", {}, count(this.ranking.length, "bin")),
-      ": what share of a shape lies in one small range of a feature. ",
-      ...(this.separation === null ? [] : separates),
-      "Chosen bins come first, with a blue border: ",
-      touched ? "tap a bar to read it, and again to choose it." : "click a bar to choose it, or drag over several.",
+      "A bar a bin: a share of the surface in a small range of a feature",
+      ...(this.separation === null
+        ? []
+        : ["; the higher, the better it alone separates ", element("b", {}, this.separation)]),
+      touched ? ". Tap one to read it, again to choose it." : ". Click or drag to choose.",
     ];
     this.key.replaceChildren(...sentences);
   }

@@ -21,8 +21,10 @@ const NAME = 12;
 /** From these widths on, bars have their names below them, and chosen ones a border each. */
 const NAMED = 13;
 const BORDERED = 5;
-const ROW = 12;
-const FOOT = [76, 108];
+/** Room for names of bars, or for so many rows with the names of their features; more rows are lower, down to nameless. */
+const ROW = 11;
+const FOOT = [76, 152];
+const NAMED_ROW = 9;
 /** Room for the ticks of matches above names and rows. */
 const MARKS = 9;
 /** Narrower runs of chosen bins have no frame, which would look like a bar. */
@@ -119,10 +121,9 @@ export class BinPlot {
   resize() {
     this.density = window.devicePixelRatio;
     this.width = Math.max(this.surface.clientWidth, 10);
-    this.height = Math.max(this.surface.clientHeight, 10);
-    const foot = Math.min(Math.max(this.features.length * ROW + MARKS, FOOT[0]), FOOT[1]);
-    this.foot = Math.min(foot, Math.round(this.height * 0.48));
+    this.foot = Math.min(Math.max(this.bins.features.length * ROW + MARKS, FOOT[0]), FOOT[1]);
     this.node.style.setProperty("--foot", `${this.foot}px`);
+    this.height = Math.max(this.surface.clientHeight, 10);
     this.#listRows();
     Object.assign(this.canvas, { width: this.#pixels(this.width), height: this.#pixels(this.height) });
     this.#fit();
@@ -163,8 +164,11 @@ export class BinPlot {
     this.levels.replaceChildren(
       ...[this.top, this.top / 2, 0].map((level) => element("span", {}, String(Number(level.toPrecision(3))))),
     );
-    if (first) this.resize();
-    else {
+    if (first) {
+      // The best bars with their names are what one can read; the strip below says how many more there are.
+      this.resize();
+      this.lookClose();
+    } else {
       this.#listRows();
       this.#fit();
     }
@@ -455,10 +459,9 @@ export class BinPlot {
    * @param {Bars} bars
    * @param {Frame} frame
    */
-  #paintMatrix(context, bars, { width, base, colors }) {
+  #paintMatrix(context, bars, { base, colors }) {
     const height = Math.max(Math.floor(this.#rowHeight * this.density), 1);
     paintRows(context, bars, {
-      width,
       top: base + this.#pixels(MARKS),
       height,
       gap: height > 3 ? this.#line(1) : 0,
@@ -474,8 +477,7 @@ export class BinPlot {
    */
   #paintNames(context, visible, { base }) {
     Object.assign(context, { fillStyle: this.ink, textAlign: "right", textBaseline: "middle" });
-    // On a low window, names are a little smaller rather than cut.
-    const plain = `${(this.foot < FOOT[0] ? 10 : 11) * this.density}px ${this.family}`;
+    const plain = `${11 * this.density}px ${this.family}`;
     for (const column of visible) {
       context.font = this.chosen.has(column) || this.matched?.has(column) ? `600 ${plain}` : plain;
       context.setTransform(0, -1, 1, 0, (this.from[column] + this.to[column]) / 2, base + this.#pixels(MARKS));
@@ -491,7 +493,7 @@ export class BinPlot {
   /** The names of the features in use, where their rows are high enough for one. */
   #listRows() {
     this.node.style.setProperty("--row", `${this.#rowHeight}px`);
-    const named = this.#rowHeight >= 10 ? this.features : [];
+    const named = this.#rowHeight >= NAMED_ROW ? this.features : [];
     this.rows.replaceChildren(
       ...named.map((feature) =>
         element("li", { dir: "auto", title: this.bins.features[feature].title }, this.bins.features[feature].name),

@@ -36,7 +36,10 @@ export class BinSection {
       onPoint: (column, box) => (column === null || box === null ? this.card.hide() : this.card.show(column, box)),
       announce,
     });
-    this.status = new StatusLine(document.getElementById("scores-status"), {
+    const status = document.getElementById("scores-status");
+    // Over the bars, which are out of date meanwhile, and over no words.
+    this.chart.plot.node.append(status);
+    this.status = new StatusLine(status, {
       again: () => desk.ask(["scores"]),
       stop: () => desk.stop("scores"),
     });

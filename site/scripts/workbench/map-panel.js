@@ -91,7 +91,14 @@ class MapPanel {
         ? []
         : [
             symbol(),
-            element("output", { class: "value" }, figure(map.hitOfAll)),
+            element(
+              "output",
+              {
+                class: "value",
+                title: map.chance === null ? null : `Labels dealt at random reach ${figure(map.chance)} on average`,
+              },
+              figure(map.hitOfAll),
+            ),
             ...(before && before.hitOfAll !== null
               ? [
                   element(
