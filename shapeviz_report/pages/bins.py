@@ -137,7 +137,7 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> FoundBins
         "heldOut": [_fold(fold, place) for fold in found.held_out],
         "shuffled": [_fold(fold, place) for fold in found.shuffled],
         "chance": round(found.chance, SCORE_DECIMALS),
-        "allFeatures": round(_all_features(report, found), SCORE_DECIMALS),
+        "allFeatures": round(all_features(report, found), SCORE_DECIMALS),
     }
 
 
@@ -178,7 +178,7 @@ def _fold(fold: HeldOutBins, place: dict[str, int]) -> Fold:
     }
 
 
-def _all_features(report: Report, found: BinSearch) -> float:
+def all_features(report: Report, found: BinSearch) -> float:
     """NH_s of the map of all features: the one that the site shows, if it shows all shapes on one."""
     whole = len(found.automatic.rows) == found.automatic.shape_count
     shown = report.projections.get(MAIN_PROJECTION.name)
@@ -202,7 +202,7 @@ def _headline(report: Report, found: BinSearch) -> dict[str, object]:
         "nh_s": automatic.nh_s,
         "highest": hit_range([report.labels[row] for row in automatic.rows], automatic.k).highest,
         "other_seeds": float(automatic.nh_s_other_seeds.mean()),
-        "all_features": _all_features(report, found),
+        "all_features": all_features(report, found),
         "chance": found.chance,
         "shapes": len(automatic.rows),
         "shape_count": automatic.shape_count,

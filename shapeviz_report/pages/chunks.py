@@ -441,6 +441,16 @@ class MixedClasses(TypedDict):
     mixed: float
 
 
+class FoundSet(TypedDict):
+    """The bins that a search found to keep all classes apart, NH of their map and of that of all features, and NH of
+    shapes that such a search never saw."""
+
+    bins: list[int]
+    nh: float
+    allFeatures: float
+    heldOut: float
+
+
 class Workbench(TypedDict):
     """The bins but for their values; ``bins`` are the columns that the maps of the site are made from, or all."""
 
@@ -454,6 +464,7 @@ class Workbench(TypedDict):
     scored: bool
     bins: list[int] | None
     example: MixedClasses | None
+    found: FoundSet | None
     marks: dict[ThemeName, FeatureMarks]
 
 

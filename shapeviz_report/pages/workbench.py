@@ -9,9 +9,18 @@ from shapeviz_report.bins import explain_bins
 from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.features import PRESETS, Preset, compared_values
 from shapeviz_report.pages.base import PageContent, class_names, feature_marks
-from shapeviz_report.pages.chunks import Chunks, Feature, FeatureWords, MixedClasses, Scorer, Workbench
+from shapeviz_report.pages.bins import SCORE_DECIMALS, all_features, mean_over_folds
+from shapeviz_report.pages.chunks import (
+    Chunks,
+    Feature,
+    FeatureWords,
+    FoundSet,
+    MixedClasses,
+    Scorer,
+    Workbench,
+)
 from shapeviz_report.scorers import SCORERS
-from shapeviz_report.types import FeatureBlock, FloatArray, Report
+from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
 
 #: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
 STEPS = 65535
@@ -62,6 +71,7 @@ def _workbench(report: Report, preset: Preset, compared: FloatArray, classes: tu
         # The columns that the maps of the site are made from; null for all of them.
         "bins": None if projection.bins is None else _columns(report, projection.bins),
         "example": _example(report, classes),
+        "found": None if report.bins is None else _found(report, report.bins),
         "marks": feature_marks(),
     }
 
@@ -128,6 +138,18 @@ def _steps(values: np.ndarray, low: float, high: float) -> bytes:
 def _columns(report: Report, bins: tuple[str, ...]) -> list[int]:
     place = {column: index for index, column in enumerate(report.features.columns)}
     return [place[name] for name in bins]
+
+
+def _found(report: Report, found: BinSearch) -> FoundSet | None:
+    """None where there are not two classes to search for."""
+    if not found.automatic.path:
+        return None
+    return {
+        "bins": _columns(report, found.automatic.bins),
+        "nh": round(found.automatic.nh_s, SCORE_DECIMALS),
+        "allFeatures": round(all_features(report, found), SCORE_DECIMALS),
+        "heldOut": round(mean_over_folds(found.held_out, "nh_s"), SCORE_DECIMALS),
+    }
 
 
 def _scorers() -> list[Scorer]:

@@ -294,6 +294,13 @@ declare namespace Chunk {
     classes: [number, number];
     mixed: number;
   }
+  /** The bins that a search found to keep all classes apart, NH of their map and of that of all features, and NH of */
+  interface FoundSet {
+    bins: number[];
+    nh: number;
+    allFeatures: number;
+    heldOut: number;
+  }
   /** The bins but for their values; `bins` are the columns that the maps of the site are made from, or all. */
   interface Workbench {
     features: Feature[];
@@ -306,6 +313,7 @@ declare namespace Chunk {
     scored: boolean;
     bins: number[] | null;
     example: MixedClasses | null;
+    found: FoundSet | null;
     marks: Record<"light" | "dark", FeatureMarks>;
   }
   /** What a dimension of a descriptor measures, and between which values its bins lie. */

@@ -8,6 +8,8 @@ from shapeviz_report import quality
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.projections import TSNE_METHOD, UMAP_METHOD, project, squared_distances
+from shapeviz_report.search.bins.automatic import grow
+from shapeviz_report.search.bins.bin_space import BinSpace
 from shapeviz_report.types import FeatureBlock, FeatureTable
 
 
@@ -44,6 +46,22 @@ def test_hit_is_that_of_python(engine_page, random, rows, classes, unlabelled, g
     of_class = [expected.nh_c[f"{group:03}"] for group in range(classes)]
     np.testing.assert_allclose(found["hitOfClass"], of_class, rtol=0, atol=1e-12)
     assert found["hitOfAll"] == pytest.approx(expected.nh_s, abs=1e-12)
+
+
+@pytest.mark.parametrize("unlabelled", [0, 5])
+def test_bins_grow_as_in_python(engine_page, random, unlabelled):
+    """On a grid, with many equal distances."""
+    groups = np.arange(60) % 4
+    values = random.integers(0, 9, (60, 40)) + 2.0 * (random.random((4, 40)) < 0.2)[groups]
+    values[:, 7] = 3
+    groups[:unlabelled] = -1
+    engine_page.start(values, scaling="plain")
+    task = {"rows": np.arange(60), "columns": np.arange(40), "groups": groups, "k": 10, "limit": 12}
+    found = engine_page.run("grow", **task)["columns"]
+    space = BinSpace(tuple(map(str, range(40))), np.arange(60, dtype=np.int32), 60, values.T.copy())
+    path = grow(space, groups, 10, 12)
+    assert len(path) > 4
+    assert found.tolist() == path[-1][0]
 
 
 @pytest.mark.parametrize("groups", [[0], [-1, -1, -1]])

@@ -28,6 +28,8 @@ import { brushed } from "./selected.js";
  * @property {Standing} originalStatus
  * @property {Standing} refinedStatus
  * @property {Standing} scoresStatus
+ * @property {Standing} offerStatus
+ * @property {number | null} refused NH that no bins were found to exceed
  * @property {Float64Array | null} scores
  *
  * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null, drag: "move" | "select" }>} WorkState

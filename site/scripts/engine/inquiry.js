@@ -64,7 +64,7 @@ export class Inquiry {
       );
       return;
     }
-    this.#keep(key, ending.answer);
+    this.know(key, ending.answer);
     answered(ending.answer);
     this.tell({ kind: "answered" });
   }
@@ -92,10 +92,11 @@ export class Inquiry {
   }
 
   /**
+   * Keep an answer that came on another way.
    * @param {string} key
    * @param {any} answer
    */
-  #keep(key, answer) {
+  know(key, answer) {
     this.#answers.set(key, answer);
     if (this.#answers.size > MOST_KEPT) this.#answers.delete([...this.#answers.keys()][0]);
   }

@@ -34,6 +34,12 @@ const SCORING = Math.min(Math.max((navigator.hardwareConcurrency ?? 2) - 1, 1), 
 
 const MOST_CONTESTS = 500;
 
+/** A search for bins looks at no more shapes and at the best of the bins only, so that it takes seconds. */
+const SEARCHED_SHAPES = 400;
+const SEARCHED_BINS = 300;
+/** More bins than this hardly raise NH: docs/method/bins-search.md. */
+const FOUND_BINS = 25;
+
 export class Answers {
   /** @type {Promise<Engine>[]} */
   #engines = [];
@@ -148,6 +154,55 @@ export class Answers {
     const asked = { method: projection, rows: this.rows(step), columns, by: "bins" };
     const offline = this.hasMap("refined", projection, step) ? this.#siteMap(projection) : null;
     return this.#chain(async (run) => offline ?? this.#layout(run, asked, report, partial));
+  }
+
+  /**
+   * A few bins that keep the classes in use apart, and their map: those that the build found where it searched for the
+   * same classes, else those that a search among the best of the scored bins finds now.
+   * @param {string} projection
+   * @param {Asked} step
+   * @param {ArrayLike<number>} ranking columns, best first
+   * @param {Listener} report
+   * @returns {Job<{ columns: number[], map: ShapeMap }>}
+   */
+  choice(projection, step, ranking, report) {
+    const known = this.foundBins(step);
+    return this.#chain(async (run) => {
+      const columns = known?.bins ?? (await this.#grow(run, step, ranking, report));
+      /** @type {Layout} */
+      const asked = { method: projection, rows: this.rows(step), columns: Int32Array.from(columns).sort(), by: "bins" };
+      return { columns, map: await this.#layout(run, asked, report, () => {}) };
+    });
+  }
+
+  /**
+   * The bins that the build found for the classes and features in use, unless they are chosen already.
+   * @param {Asked} step
+   */
+  foundBins({ hidden, features, bins, sample }) {
+    const { found } = this.data;
+    if (found === null || hidden.size > 0 || sample || features.size < this.bins.features.length) return null;
+    return isSame(bins, found.bins) ? null : found;
+  }
+
+  /**
+   * @param {Run} run
+   * @param {Asked} step
+   * @param {ArrayLike<number>} ranking
+   * @param {Listener} report
+   * @returns {Promise<number[]>}
+   */
+  async #grow(run, step, ranking, report) {
+    const { groups } = this.database;
+    const rows = Int32Array.from(sampled(this.rows(step), groups, SEARCHED_SHAPES));
+    const task = {
+      rows,
+      columns: Int32Array.from(ranking).slice(0, SEARCHED_BINS),
+      groups: Int32Array.from(rows, (row) => groups[row]),
+      k: this.data.neighbours,
+      limit: FOUND_BINS,
+    };
+    return [...(await run("grow", task, report, 1)).columns];
   }
 
   /**

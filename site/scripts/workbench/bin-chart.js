@@ -16,6 +16,7 @@ import { BinPlot } from "./bin-plot.js";
  * @property {(column: number) => void} onToggle
  * @property {(columns: number[]) => void} onRange to add several
  * @property {(columns: number[]) => void} onRemove
+ * @property {(() => void) | null} onFind to look for a few bins that make a better map, where there is one to look for
  * @property {(column: number | null, box: (Box & { free: number }) | null) => void} onPoint which bar is pointed at, and where it
  *   stands in the window, for the card
  * @property {(text: string) => void} announce
@@ -29,6 +30,8 @@ import { BinPlot } from "./bin-plot.js";
  * @property {boolean} [busy]
  * @property {Set<number> | null} [matched] columns that something else on the page points at
  * @property {string | null} [separation] in words, what the scores separate
+ * @property {string | null} [outcome] in words, what the chosen bins do
+ * @property {boolean} [canFind] whether one may look for bins now
  */
 
 const ORDERS = {
@@ -53,6 +56,8 @@ export class BinChart {
   /** @type {HTMLButtonElement} */
   clear;
   /** @type {HTMLButtonElement} */
+  finder;
+  /** @type {HTMLButtonElement} */
   closer;
   /** @type {HTMLElement} */
   reading;
@@ -64,12 +69,13 @@ export class BinChart {
    * @param {Bins} bins
    * @param {Ways} ways
    */
-  constructor(node, bins, { onToggle, onRange, onRemove, onPoint, announce }) {
+  constructor(node, bins, { onToggle, onRange, onRemove, onFind, onPoint, announce }) {
     this.node = node;
     this.bins = bins;
     this.onToggle = onToggle;
     this.onRange = onRange;
     this.onRemove = onRemove;
+    this.onFind = onFind;
     this.onPoint = onPoint;
     this.announce = announce;
     this.plot = new BinPlot(bins);
@@ -83,6 +89,8 @@ export class BinChart {
     this.found = null;
     /** @type {string | null} */
     this.separation = null;
+    /** @type {string | null} */
+    this.outcome = null;
     /** @type {Order} */
     this.order = "score";
     this.ranking = new Int32Array();
@@ -187,9 +195,13 @@ export class BinChart {
     this.add = action("bin-add", "Add the best", () => this.#add(this.#best()));
     this.remove = action("bin-remove", "Remove the weakest", () => this.giveUp(this.#weakest()));
     this.clear = action("bin-clear", "Clear", () => this.giveUp([...this.chosen]));
+    this.finder = action("bin-find", "Find a set", () => this.onFind?.());
+    this.finder.title = "Look for a few bins whose map keeps the classes in use apart better; a worse one is not taken";
+    this.finder.hidden = this.onFind === null;
     return element(
       "div",
       { class: "bin-best", role: "group", "aria-label": "Choose bins by score" },
+      this.finder,
       this.number,
       this.add,
       this.remove,
@@ -201,7 +213,7 @@ export class BinChart {
    * Show scores and a choice.
    * @param {Shown} shown
    */
-  draw({ scores, chosen, busy = false, matched = null, separation = null }) {
+  draw({ scores, chosen, busy = false, matched = null, separation = null, outcome = null, canFind = false }) {
     const arranged = scores !== this.scores || chosen !== this.chosen;
     if (scores !== this.scores) {
       this.ranking = ranked(scores);
@@ -212,10 +224,15 @@ export class BinChart {
     this.chosen = chosen;
     this.emphasised = matched;
     this.separation = separation;
+    this.outcome = outcome;
+    this.finder.disabled = !canFind;
     this.plot.surface.setAttribute("aria-busy", String(busy));
     this.node.classList.toggle("busy", busy);
     if (arranged) this.#arrange();
-    else this.#match();
+    else {
+      this.#match();
+      this.#read();
+    }
   }
 
   /** Take the colours of the theme in use. */
@@ -494,6 +511,7 @@ export class BinChart {
     } else {
       parts = [
         [element("b", {}, grouped(this.chosen.size)), ` of ${count(this.ranking.length, "bin")} chosen`],
+        this.outcome,
         ...this.#census(),
       ];
     }

@@ -1,6 +1,7 @@
 // The bins with their scores, as the chart, the card and the line of the work's status show them.
 
 import { watchSize } from "../base/dom.js";
+import { figure } from "../base/words.js";
 import { BinCard } from "../bins-kit/bin-card.js";
 import { BinChart } from "./bin-chart.js";
 import { separationWords, sides } from "./separation.js";
@@ -27,12 +28,14 @@ export class BinSection {
     this.data = data;
     this.state = state;
     this.answers = answers;
+    this.desk = desk;
     this.noScores = new Float64Array(bins.count).fill(NaN);
     this.card = new BinCard(bins, database);
     this.chart = new BinChart(document.getElementById("bin-chart"), bins, {
       onToggle: (column) => desk.toggle([column]),
       onRange: (columns) => desk.add(columns),
       onRemove: (columns) => desk.remove(columns),
+      onFind: database.separable ? () => desk.findBins() : null,
       onPoint: (column, box) => (column === null || box === null ? this.card.hide() : this.card.show(column, box)),
       announce,
     });
@@ -44,7 +47,22 @@ export class BinSection {
       stop: () => desk.stop("scores"),
     });
     state.listen((changed) => {
-      if (["scores", "bins", "scoresStatus", "separation", "hidden", "scorer"].some((name) => changed.has(name)))
+      if (
+        [
+          "scores",
+          "bins",
+          "scoresStatus",
+          "separation",
+          "hidden",
+          "scorer",
+          "originalMap",
+          "refinedMap",
+          "originalStatus",
+          "refinedStatus",
+          "offerStatus",
+          "refused",
+        ].some((name) => changed.has(name))
+      )
         this.#draw();
       if (changed.has("scoresStatus")) this.status.show(state.get("scoresStatus"));
     });
@@ -79,6 +97,18 @@ export class BinSection {
       chosen: state.get("bins"),
       busy: state.get("scoresStatus").kind === "working",
       separation: database.separable ? separationWords(separation, groups, database) : null,
+      outcome: this.#outcome(),
+      canFind: this.desk.canFind,
     });
+  }
+
+  /** What the choice of bins did to the map; null as long as that is not known. */
+  #outcome() {
+    const { state } = this;
+    const refused = state.get("refused");
+    if (refused !== null) return `none found for an NH above ${figure(refused)}`;
+    const [before, after] = [state.get("originalMap"), state.get("refinedMap")].map((map) => map?.hitOfAll ?? null);
+    const known = before !== null && after !== null && state.get("refinedStatus").kind === "answered";
+    return known ? `NH ${figure(before)} → ${figure(after)}` : null;
   }
 }

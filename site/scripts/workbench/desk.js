@@ -20,9 +20,10 @@ import { contests, separationWords } from "./separation.js";
 /** @import { Separation } from "./separation.js" */
 
 /**
- * The questions that a reader keeps asking: for the two maps, and for the scores of the bins.
+ * The questions that a reader keeps asking: for the two maps, for the scores of the bins, and for a few bins that make a
+ * better map.
  * @typedef {"original" | "refined"} Which
- * @typedef {Which | "scores"} Question
+ * @typedef {Which | "scores" | "offer"} Question
  *
  * What a reader may ask by.
  * @typedef {object} Manner
@@ -47,6 +48,8 @@ export function nothingMade() {
     refinedCamera: null,
     scores: null,
     scoresStatus: { kind: "none" },
+    offerStatus: { kind: "none" },
+    refused: null,
     method: 0,
     matches: null,
     opened: null,
@@ -76,7 +79,12 @@ export class Desk {
     /** @param {Question} name */
     const inquiry = (name) => new Inquiry((/** @type {Standing} */ status) => state.set({ [`${name}Status`]: status }));
     /** @type {Record<Question, Inquiry>} */
-    this.inquiries = { original: inquiry("original"), refined: inquiry("refined"), scores: inquiry("scores") };
+    this.inquiries = {
+      original: inquiry("original"),
+      refined: inquiry("refined"),
+      scores: inquiry("scores"),
+      offer: inquiry("offer"),
+    };
     const content = document.getElementById("content");
     state.listen((changed) => {
       if ([...changed].some((name) => name.endsWith("Status"))) content.setAttribute("aria-busy", String(this.busy));
@@ -134,16 +142,42 @@ export class Desk {
     this.use({ bins: new Set(this.#ranked().slice(0, number)) });
   }
 
-  /**
-   * Choose as many more, those with the highest scores.
-   * @param {number} number
-   */
-  addBest(number) {
-    const chosen = this.state.get("bins");
-    this.add(
-      this.#ranked()
-        .filter((column) => !chosen.has(column))
-        .slice(0, number),
+  /** NH of the better of the maps at hand; null as long as there is none, and without labels. */
+  get #reached() {
+    const hits = [this.state.get("originalMap"), this.state.get("refinedMap")].map((map) => map?.hitOfAll ?? null);
+    return hits[0] === null ? null : Math.max(hits[0], hits[1] ?? 0);
+  }
+
+  /** Whether a search for bins has all it needs to begin. */
+  get canFind() {
+    const { state } = this;
+    const asked = /** @type {const} */ (["original", "refined", "offer"]);
+    const working = asked.some((name) => state.get(`${name}Status`).kind === "working");
+    return !working && this.#reached !== null && this.#ranked().length > 0;
+  }
+
+  /** Look for a few bins whose map keeps the classes in use apart better, and choose them: never those of a worse map. */
+  findBins() {
+    const { state, answers } = this;
+    const step = this.history.current;
+    const before = this.#reached ?? 0;
+    const asked = { ...step, sample: state.get("sample") };
+    const projection = state.get("projection");
+    const ranking = this.#ranked();
+    const key = JSON.stringify([this.#mapKey("refined", step), sorted(step.features), ranking]);
+    this.inquiries.offer.ask(
+      key,
+      (report) => answers.choice(projection, asked, ranking, report),
+      (/** @type {{ columns: number[], map: ShapeMap }} */ { columns, map }) => {
+        if ((map.hitOfAll ?? 0) < before) {
+          state.set({ refused: before });
+          this.announce(`No bins were found whose map has an NH above ${figure(before)}`);
+          return;
+        }
+        const chosen = { ...step, bins: new Set(columns) };
+        this.inquiries.refined.know(this.#mapKey("refined", chosen), map);
+        this.use({ bins: chosen.bins });
+      },
     );
   }
 
@@ -186,7 +220,7 @@ export class Desk {
   /** @param {Use} use */
   #show({ hidden, features, bins }) {
     this.state.set({ hidden, features, bins, step: this.history.current });
-    this.ask();
+    this.#renew();
   }
 
   // Questions
@@ -197,6 +231,13 @@ export class Desk {
    */
   change(values) {
     this.state.set(values);
+    this.#renew();
+  }
+
+  /** Ask all anew; what bins were looked for was another question. */
+  #renew() {
+    this.inquiries.offer.rest();
+    this.state.set({ refused: null });
     this.ask();
   }
 
@@ -209,6 +250,7 @@ export class Desk {
       original: () => this.#askMap("original"),
       refined: () => this.#askMap("refined"),
       scores: () => this.#askScores(),
+      offer: () => this.findBins(),
     };
     for (const name of what) ways[name]();
   }
@@ -230,7 +272,7 @@ export class Desk {
   /** @param {Question} name */
   stop(name) {
     const stopped = this.inquiries[name].stop();
-    if (stopped && name !== "scores") this.scenes[name].rest();
+    if (stopped && (name === "original" || name === "refined")) this.scenes[name].rest();
     return stopped;
   }
 
@@ -253,8 +295,7 @@ export class Desk {
       state.set({ [`${which}Map`]: null });
       return;
     }
-    const members = which === "original" ? step.features : step.bins;
-    const key = [projection, asked.sample, sorted(step.hidden), sorted(members)].join("|");
+    const key = this.#mapKey(which, step);
     const scene = this.scenes[which];
     /** @param {Listener} report */
     const start = (report) =>
@@ -273,6 +314,16 @@ export class Desk {
       if (!shown) scene.show(map);
       this.#say(which, map);
     });
+  }
+
+  /**
+   * What a map depends on.
+   * @param {Which} which
+   * @param {Use} use
+   */
+  #mapKey(which, { hidden, features, bins }) {
+    const members = which === "original" ? features : bins;
+    return [this.state.get("projection"), this.state.get("sample"), sorted(hidden), sorted(members)].join("|");
   }
 
   /**

@@ -1,7 +1,8 @@
 // What stands in the place of a map that cannot be made.
 
 import { element } from "../base/dom.js";
-import { count, grouped } from "../base/words.js";
+import { pageAddress } from "../base/place.js";
+import { count, figure, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { FEWEST_SHAPES } from "./desk.js";
 
@@ -42,19 +43,47 @@ export function emptyMap(which, state, answers, desk) {
     ];
   }
   if (which === "original") return [];
-  const scored = state.get("scores") !== null;
-  return [
-    element("p", {}, "No bins are chosen yet. The refined map shows the same shapes, compared by chosen bins alone."),
+  /**
+   * @param {string} words
+   * @param {boolean} possible
+   * @param {() => void} onclick
+   */
+  const offer = (words, possible, onclick) =>
     element(
       "button",
-      {
-        type: "button",
-        class: "plain strong",
-        id: "first-best",
-        disabled: !scored,
-        onclick: () => desk.takeBest(BEST),
-      },
-      answers.database.separable ? `Take the best ${BEST}` : `Take the ${BEST} that vary most`,
+      { type: "button", class: "plain strong", id: "first-offer", disabled: !possible, onclick },
+      words,
+    );
+  const intended = "No bins are chosen yet. The refined map shows the same shapes, compared by chosen bins alone.";
+  if (!answers.database.separable)
+    return [
+      element("p", {}, intended),
+      offer(`Take the ${BEST} that vary most`, state.get("scores") !== null, () => desk.takeBest(BEST)),
+    ];
+  const refused = state.get("refused");
+  if (refused !== null)
+    return [
+      element(
+        "p",
+        {},
+        `No few bins were found whose map keeps these classes apart better than that of all features does: NH ${figure(refused)}. Choose bins below, or take other classes into use.`,
+      ),
+    ];
+  const found = answers.foundBins({ ...desk.history.current, sample: state.get("sample") });
+  if (found === null)
+    return [
+      element("p", {}, intended),
+      offer("Find a few that keep these classes apart", desk.canFind, () => desk.findBins()),
+    ];
+  return [
+    element(
+      "p",
+      {},
+      `${intended} The build searched all bins for a few that keep the classes apart: `,
+      element("b", {}, `NH ${figure(found.allFeatures)} → ${figure(found.nh)}`),
+      `; on shapes that the search never saw, ${figure(found.heldOut)}. `,
+      element("a", { href: pageAddress("bins.html") }, "How they were found"),
     ),
+    offer(`Take these ${count(found.bins.length, "bin")}`, desk.canFind, () => desk.findBins()),
   ];
 }

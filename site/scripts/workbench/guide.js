@@ -14,8 +14,6 @@ import { ranked } from "../bins-kit/bin-list.js";
 /** @import { Desk, Question } from "./desk.js" */
 
 const KEY = "shapeviz-guide";
-const FEW = 10;
-const MANY = 40;
 
 /** A change of NH that shows in three decimals. */
 const LEAST = 0.0005;
@@ -50,6 +48,7 @@ export class Guide {
           "refinedMap",
           "refinedStatus",
           "originalStatus",
+          "offerStatus",
           "scores",
           "scoresStatus",
           "bins",
@@ -152,6 +151,16 @@ export class Guide {
      */
     const waiting = (name, words) =>
       kind(name) === "working" ? words : "This was stopped or did not work; start it again where it says so.";
+    /** @param {...Question} names */
+    const working = (...names) => names.some((name) => kind(name) === "working");
+    /**
+     * What to say until bins that were looked for have their map.
+     * @param {string} words
+     */
+    const finding = (words) => {
+      if (working("offer", "refined")) return words;
+      return ["stopped", "failed"].includes(kind("offer")) ? waiting("offer", words) : null;
+    };
     return [
       () => ({
         words: [
@@ -176,31 +185,27 @@ export class Guide {
       }),
       () => ({
         words: settled("scores") ? this.#bestBin() : waiting("scores", "Scoring …"),
-        action: `Take the best ${FEW}`,
-        todo: settled("scores") ? () => act.takeBest(FEW) : null,
+        action: "Find a few that do",
+        todo: settled("scores") && act.canFind ? () => act.findBins() : null,
       }),
       () => ({
-        words: settled("refined", "original")
-          ? this.#resultOfTwo(pair)
-          : waiting("refined", "Making the map of these bins …"),
+        words: finding("Looking for bins …") ?? this.#resultOfTwo(pair),
         action: "Bring all classes back",
-        todo: kind("refined") === "working" ? null : () => act.use({ hidden: new Set() }, { separation: EVERY_CLASS }),
+        todo: working("offer", "refined") ? null : () => act.use({ hidden: new Set() }, { separation: EVERY_CLASS }),
       }),
       () => ({
         words: settled("refined", "original")
-          ? this.#resultOfAll(
-              " Other classes need other bins: those with the best scores for each class against the rest.",
-            )
+          ? this.#resultOfAll(" Other classes need other bins.")
           : waiting("refined", "Making the map of all classes …"),
-        action: `Add the best ${MANY} for all classes`,
-        todo: settled("scores") ? () => act.addBest(MANY) : null,
+        action: "Find bins for all classes",
+        todo: settled("scores") && act.canFind ? () => act.findBins() : null,
       }),
       () => ({
-        words: settled("refined", "original")
-          ? this.#resultOfAll(
-              " Every step stands at the bottom: click one to go back. Undo, try other bins, or export these.",
-            )
-          : waiting("refined", "Making the map of these bins …"),
+        words:
+          finding("Looking for bins …") ??
+          this.#resultOfAll(
+            " Every step stands at the bottom: click one to go back. Undo, try other bins, or export these.",
+          ),
         action: "Done",
         todo: () => {},
       }),
@@ -223,7 +228,7 @@ export class Guide {
    */
   #resultOfTwo(pair) {
     const result = this.#result();
-    if (result === null) return "No bins are chosen: take the best to see their map.";
+    if (result === null) return ["No few bins were found that keep ", ...pair, " apart better than all features do."];
     const { words, moved } = result;
     const verdict =
       moved >= LEAST
@@ -241,7 +246,7 @@ export class Guide {
     return [
       `The map of all classes by these ${count(this.state.get("bins").size, "bin")}: `,
       ...result.words,
-      ".",
+      this.state.get("refused") === null ? "." : ". No few bins were found that make a better one.",
       next,
     ];
   }

@@ -11,7 +11,7 @@ import { StatusLine } from "./status-line.js";
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { Answers } from "./answers.js" */
-/** @import { Desk, Which } from "./desk.js" */
+/** @import { Desk, Question, Which } from "./desk.js" */
 
 /**
  * What stands around the two maps; the refined one is compared with the original one.
@@ -28,8 +28,9 @@ export function mapPanels(database, state, bins, answers, desk) {
     ([which, other]) =>
       new MapPanel(which, database, state, bins, {
         other,
-        again: () => desk.ask([which]),
-        stop: () => desk.stop(which),
+        also: which === "refined" ? "offer" : null,
+        again: (question) => desk.ask([question]),
+        stop: (question) => desk.stop(question),
         empty: () => emptyMap(which, state, answers, desk),
       }),
   );
@@ -43,11 +44,12 @@ class MapPanel {
    * @param {WorkState} state
    * @param {object} options
    * @param {"originalMap" | null} options.other names the state's map that this one is compared with
-   * @param {() => void} options.again restarts work that was stopped
-   * @param {() => void} options.stop
+   * @param {Question | null} options.also another question whose work ends in this map
+   * @param {(question: Question) => void} options.again restarts work that was stopped
+   * @param {(question: Question) => void} options.stop
    * @param {() => Node[]} options.empty what to show where there is no map and none is being made
    */
-  constructor(which, database, state, bins, { other, again, stop, empty }) {
+  constructor(which, database, state, bins, { other, also, again, stop, empty }) {
     this.which = which;
     this.database = database;
     this.state = state;
@@ -58,7 +60,11 @@ class MapPanel {
     this.madeFrom = this.figure.querySelector(".made-from");
     this.nh = this.figure.querySelector(".nh");
     this.blank = this.figure.querySelector(".empty");
-    this.status = new StatusLine(this.figure.querySelector(".status"), { again, stop });
+    this.also = also;
+    this.status = new StatusLine(this.figure.querySelector(".status"), {
+      again: () => again(this.#asked),
+      stop: () => stop(this.#asked),
+    });
     const names = [
       `${which}Map`,
       `${which}Status`,
@@ -66,11 +72,17 @@ class MapPanel {
       "bins",
       "features",
       "hidden",
-      ...(which === "refined" ? ["scores"] : []),
+      ...(also === null ? [] : [`${also}Status`, "originalStatus", "scores", "refused"]),
     ].filter(Boolean);
     state.listen((changed) => {
       if (names.some((name) => changed.has(name))) this.render();
     });
+  }
+
+  /** The question whose work is shown: of two, the one that waits for an answer. */
+  get #asked() {
+    const { also, state, which } = this;
+    return also !== null && !["none", "answered"].includes(state.get(`${also}Status`).kind) ? also : which;
   }
 
   render() {
@@ -78,7 +90,7 @@ class MapPanel {
     const status = this.state.get(`${this.which}Status`);
     const before = this.other && this.state.get(this.other);
     const most = map && rangeOf(this.database, map).highest;
-    this.status.show(status);
+    this.status.show(this.state.get(`${this.#asked}Status`));
     this.madeFrom.textContent =
       this.which === "original"
         ? featureWords(this.state.get("features"), this.bins.features)

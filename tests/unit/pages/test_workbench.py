@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from reports import NASTY_LABELS, make_report, with_bins, with_scores, with_search
+from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_scores, with_search
 
 from shapeviz_report import quality
 from shapeviz_report.bins import explain_bins
@@ -34,6 +34,16 @@ def with_external(report):
         table.shape_ids, (*table.blocks, FeatureBlock("deep", 2, 1)), np.column_stack([table.values, values])
     )
     return replace(report, features=features)
+
+
+def test_the_bins_that_a_search_found_are_offered() -> None:
+    report = with_bin_search(make_report(["ant", "bird", "cup"], 8))
+    found = chunks(report)["workbench"]["found"]
+    names = [report.features.columns[column] for column in found["bins"]]
+    assert names == list(report.bins.automatic.bins)
+    assert found["nh"] == pytest.approx(report.bins.automatic.nh_s, abs=1e-6)
+    assert 0 <= found["heldOut"] <= 1
+    assert chunks(make_report())["workbench"]["found"] is None
 
 
 class TestBins:
