@@ -3,8 +3,8 @@
 The distance of two shapes is the Euclidean distance of the values that projections compare:
 :func:`shapeviz_report.features.scale` for a choice of features, :func:`shapeviz_report.bins.scale_bins` for a choice of
 bins. Both only shift and stretch columns by what the whole database is like, so a shape that is not in the database is
-compared by the same stretches. ``docs/method/retrieval.md`` says more; ``site/scripts/shape/similar.js`` does the same
-in the browser.
+compared by the same stretches. ``docs/method/retrieval.md`` says more; ``site/scripts/database/similarity.js`` does the
+same in the browser.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 import { Bins } from "../../site/scripts/database/bins.js";
 import { chunk } from "../../site/scripts/base/chunks.js";
-import { Similarity } from "../../site/scripts/shape/similar.js";
+import { Similarity } from "../../site/scripts/database/similarity.js";
 
 /** The answers to cases of similar_cases.py, and the typical distance by each of their choices. */
 async function answer(cases) {

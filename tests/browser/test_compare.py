@@ -270,6 +270,27 @@ class TestOnShapes:
         eventually(page, lambda: name in page.locator("#stage-b canvas").get_attribute("aria-label"))
         assert page.locator("#examples-b [aria-pressed=true]").get_attribute("title") == name
 
+    def test_where_two_examples_differ_is_seen_on_both(self, compare):
+        page = compare("bins", a="class:ant", b="class:bird")
+        page.locator("#readings input[value=apart]").check(force=True)
+        eventually(page, lambda: page.locator("#apart-legend").is_visible())
+        assert page.locator(".seen-on canvas").count() == 2
+        name = page.locator("#examples-b [aria-pressed=true]").get_attribute("title")
+        label = page.locator("#stage-a canvas").get_attribute("aria-label")
+        assert label.endswith(f"coloured where it differs from {name}")
+        assert "reading=apart" in address(page)
+        # Back to the bin, and to the difference again: there is no old picture in the way.
+        page.locator("#readings input[value=inside]").check(force=True)
+        eventually(page, lambda: page.locator(".seen-on canvas").count() == 0)
+        assert page.locator("#apart-legend").is_hidden()
+        page.locator("#readings input[value=apart]").check(force=True)
+        eventually(page, lambda: page.locator(".seen-on canvas").count() == 2)
+        page.get_by_role("link", name="Feature by feature").click()
+        eventually(
+            page,
+            lambda: page.locator("#beside-title").count() == 1 and page.locator("#beside-title").is_visible(),
+        )
+
     def test_the_first_example_is_the_most_central(self, compare, reports):
         page = compare("bins", a="class:cup", b="class:fish")
         report = reports("bins")

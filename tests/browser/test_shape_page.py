@@ -454,3 +454,33 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
 def seen(page) -> np.ndarray:
     picture = Image.open(io.BytesIO(page.locator("#stage canvas").screenshot()))
     return np.asarray(picture.convert("RGB"), dtype=float)[6:-6, 6:-6]
+
+
+def test_where_two_shapes_differ_is_seen_on_both(shape):
+    page = shape()
+    assert page.locator("#beside").is_hidden()
+    first = page.locator(".similar").first
+    other = first.locator(".name").inner_text()
+    first.locator("button").click()
+    eventually(page, lambda: page.locator("#beside-legend").is_visible())
+    assert page.locator("#beside-title").inner_text() == f"Where {title(page)} and {other} differ"
+    assert page.evaluate("document.activeElement.id") == "beside-title"
+    assert page.locator("#beside .stage canvas").count() == 2
+    shares = page.locator(".difference span:last-child").all_inner_texts()
+    percents = [int(share.split("\u00a0")[0]) for share in shares]
+    assert percents == sorted(percents, reverse=True)
+    assert abs(sum(percents) - 100) <= len(percents) / 2
+    # Of one feature alone the sides make what the feature makes.
+    page.locator(".difference").first.click()
+    eventually(page, lambda: "within" in address(page) and page.locator("#beside-legend").is_visible())
+    share, *sides = [
+        int(part.split("\u00a0")[0]) for part in page.locator("#beside-words b").all_inner_texts()
+    ]
+    assert share == percents[0]
+    assert abs(share - sum(sides)) <= 1
+    page.locator(".difference").first.click()
+    eventually(page, lambda: "within" not in address(page))
+    assert "beside" in address(page)
+    page.click("#beside-close")
+    eventually(page, lambda: "beside" not in address(page))
+    assert page.locator("#beside").is_hidden()

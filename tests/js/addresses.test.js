@@ -148,7 +148,11 @@ const PAGES = {
   ],
   shape: [
     shapePageAddress(database),
-    ["", "id=ant%2F2&map=pca&features=Gc&bins=Gc%3A1-3&bin=Gc%3A2&parts=FPFH%5B3%5D&select=lost", "id=nobody"],
+    [
+      "",
+      "id=ant%2F2&map=pca&features=Gc&bins=Gc%3A1-3&bin=Gc%3A2&parts=FPFH%5B3%5D&beside=ant%2F1&within=Gc&select=lost",
+      "id=nobody",
+    ],
   ],
   shapes: [
     galleryAddress(database, fields),
@@ -202,7 +206,7 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
     const keys = new Set([...address.rows.flatMap(({ key }) => key ?? []), ...prefixed]);
     // Any text is valid there.
     for (const key of ["find", "bin", "parts", "closed", "down", "sample"]) keys.delete(key);
-    if (page === "shape") for (const key of ["features", "bins"]) keys.delete(key);
+    if (page === "shape") for (const key of ["features", "bins", "within"]) keys.delete(key);
     for (const key of keys)
       for (const word of NONSENSE) assert.equal(writtenAgain([[key, word]]), usual, `${key}=${word}`);
   });

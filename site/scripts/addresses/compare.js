@@ -18,7 +18,7 @@ import { selected } from "./selected.js";
  * @property {GroupSpec | null} a
  * @property {GroupSpec | null} b
  * @property {string | null} bin
- * @property {"value" | "inside"} reading
+ * @property {"value" | "inside" | "apart"} reading what colours show: values of the bin, what falls into it, or where the two shapes differ in all features
  * @property {number | null} of the class whose outliers are shown
  * @property {number | null} row
  * @property {number | null} column
@@ -36,7 +36,7 @@ import { selected } from "./selected.js";
  */
 
 const VIEWS = ["groups", "outliers", "classes"];
-const READINGS = ["value", "inside"];
+const READINGS = ["value", "inside", "apart"];
 
 /**
  * @param {Database} database

@@ -1,11 +1,11 @@
 // What the page of a shape shows, in its address: the shape by its id, what similar means, the map, the painted bin, the
-// parts of features in sight, and the selection that came along.
+// parts of features in sight, another shape beside it, and the selection that came along.
 
 import { Address, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { selected } from "./selected.js";
 
-/** @import { Ways } from "../base/address.js" */
+/** @import { Kind, Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
@@ -20,6 +20,8 @@ import { selected } from "./selected.js";
  * @property {string} bins
  * @property {string | null} bin
  * @property {string} parts
+ * @property {number | null} beside a shape whose surface is compared with this one's
+ * @property {string} within the feature that it is compared by; all of them where it is none
  *
  * @typedef {State<ShapeValues & Shared>} ShapeState
  */
@@ -37,6 +39,8 @@ export function shapePageAddress(database) {
     { name: "bins", key: "bins", kind: text, standard: "" },
     { name: "bin", key: "bin", kind: text, standard: null },
     { name: "parts", key: "parts", kind: text, standard: "" },
+    { name: "beside", key: "beside", kind: shapeId(database), standard: null },
+    { name: "within", key: "within", kind: text, standard: "" },
     selected(database),
   ]);
 }
@@ -48,9 +52,30 @@ export function shapePageAddress(database) {
  * @param {number} shape
  */
 export function shapeAddress(database, state, shape) {
+  /** @type {Partial<ShapeValues>} */
+  const other = { shape, beside: null, within: "" };
   /** @param {string} name */
-  const get = (name) => (name === "shape" ? shape : state.get(name));
+  const get = (name) => (name in other ? other[/** @type {keyof ShapeValues} */ (name)] : state.get(name));
   return pageAddress("shape.html", shapePageAddress(database).write({ get }));
+}
+
+/**
+ * The page of a shape, with another beside it.
+ * @param {Database} database
+ * @param {number} shape
+ * @param {number} beside
+ */
+export function besideAddress(database, shape, beside) {
+  return pageAddress("shape.html", { id: database.ids[shape], beside: database.ids[beside] });
+}
+
+/**
+ * A shape, by its id.
+ * @param {Database} database
+ * @returns {Kind}
+ */
+function shapeId(database) {
+  return { read: ([id]) => database.indexOfId.get(id), write: (shape) => [database.ids[shape]] };
 }
 
 /**

@@ -5,7 +5,13 @@ import { entry } from "./entry.js";
 /** @typedef {"light" | "dark"} Theme */
 
 const KEY = "shapeviz-theme";
-const system = window.matchMedia("(prefers-color-scheme: dark)");
+
+/** @type {MediaQueryList | null} asked for when a page first needs it, so that what computes runs without a window too */
+let query = null;
+
+function system() {
+  return (query ??= window.matchMedia("(prefers-color-scheme: dark)"));
+}
 
 // Pages opened by double-click may be refused storage; then the choice lasts as long as the page.
 function stored() {
@@ -28,7 +34,7 @@ function store(theme) {
 /** @returns {Theme} */
 export function currentTheme() {
   const chosen = /** @type {Theme | undefined} */ (document.documentElement.dataset.theme);
-  return chosen ?? (system.matches ? "dark" : "light");
+  return chosen ?? (system().matches ? "dark" : "light");
 }
 
 /** @type {Map<string, string>} */
@@ -73,5 +79,5 @@ export function watchTheme(changed) {
     store(theme);
     changed();
   });
-  system.addEventListener("change", changed);
+  system().addEventListener("change", changed);
 }

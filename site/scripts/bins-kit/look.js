@@ -56,7 +56,7 @@ export class Look {
     this.#offer(column);
     this.words.replaceChildren(...this.#tell(column));
     this.paintings.replaceChildren(...this.#paint(column));
-    const dimension = dimensionOf(column, this.bins);
+    const dimension = this.bins.dimensionOf(column);
     if (dimension === null) this.legend.clear();
     else this.legend.show(this.selection.dimensions[dimension], this.bins.binOf(column));
   }
@@ -289,20 +289,6 @@ export function shapeLine(database, bins, column, shape) {
       bins.isShare(column) ? `${percent(value)} in the bin` : String(Number(value.toPrecision(3))),
     ),
   ].filter(Boolean);
-}
-
-/**
- * The number of a column's dimension among those of the descriptors; null for a feature that was brought along.
- * @param {number} column
- * @param {Bins} bins
- */
-export function dimensionOf(column, bins) {
-  if (!bins.isShare(column)) return null;
-  let before = 0;
-  for (const feature of bins.features.slice(0, bins.featureOf(column)))
-    if (feature.bins > 1) before += feature.dimensions;
-  const { start, bins: width } = bins.features[bins.featureOf(column)];
-  return before + Math.floor((column - start) / width);
 }
 
 /**

@@ -53,6 +53,12 @@ export class Stage {
     return false;
   }
 
+  /** Show nothing, and give back what the graphics card held. */
+  rest() {
+    this.latest = Symbol("rest");
+    this.#clear();
+  }
+
   #impossible() {
     if (this.load === null)
       return "This site holds no 3D data of its shapes: it was built with --no-meshes, or as one file.";

@@ -4,7 +4,7 @@ import { modelBytes } from "../base/chunks.js";
 import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { styleColor } from "../base/theme.js";
-import { dimensionOf, pictured, shapeLine } from "../bins-kit/look.js";
+import { pictured, shapeLine } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { findShapes } from "../database/shape-finder.js";
 import { Plot } from "../map/plot.js";
@@ -103,7 +103,7 @@ export class Turntable {
     const shown = await this.stage.show(shape, {
       label: `${database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
       paint: (solid) => {
-        const dimension = /** @type {number} */ (dimensionOf(bin, bins));
+        const dimension = /** @type {number} */ (bins.dimensionOf(bin));
         return inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension);
       },
       reason: bins.isShare(bin) ? null : "This feature has no values on the surface.",

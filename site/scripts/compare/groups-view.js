@@ -1,6 +1,7 @@
 // Two groups beside each other: the answer in sentences, then bins, features and shapes.
 
 import { shortNames } from "../addresses/bin-names.js";
+import { besideAddress } from "../addresses/shape.js";
 import { galleryOf } from "../addresses/shapes.js";
 import { element, picture } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
@@ -127,7 +128,11 @@ export class GroupsView {
       return ["There is no shape in ", called(group), " that the other group does not have."];
     }
     if (a.shapes.length + b.shapes.length < 3)
-      return ["Two single shapes: the page of a shape shows how they differ. Here at least one group needs two."];
+      return [
+        "Two single shapes: here at least one group needs two. ",
+        element("a", { href: besideAddress(database, a.shapes[0], b.shapes[0]) }, "See where the two differ"),
+        ".",
+      ];
     return null;
   }
 

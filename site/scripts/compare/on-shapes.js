@@ -1,12 +1,16 @@
-// A bin on the most central shapes of both groups: pictures first, and 3D where a reader asks for it.
+// The most central shapes of both groups, coloured by a bin or by where the two differ: pictures first, and 3D where a
+// reader asks for it.
 
-import { chunk, modelBytes } from "../base/chunks.js";
+import { chunk } from "../base/chunks.js";
+import { besideAddress } from "../addresses/shape.js";
 import { element, picture } from "../base/dom.js";
 import { pageAddress, resource } from "../base/place.js";
 import { percent } from "../bins-kit/bin-card.js";
 import { Legend } from "../bins-kit/legend.js";
-import { dimensionOf } from "../bins-kit/look.js";
+import { sumOf } from "../bins-kit/difference.js";
 import { Stage } from "../bins-kit/stage.js";
+import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
+import { Similarity } from "../database/similarity.js";
 import { Paint } from "../viewer/paint.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
@@ -27,6 +31,10 @@ export class OnShapes {
   selection = null;
   /** @type {Record<Side, Stage> | null} */
   stages = null;
+  /** @type {TwoSurfaces | null} */
+  surfaces = null;
+  /** @type {Similarity | null} */
+  similarity = null;
   /** @type {Legend} */
   legend;
   /** @type {Paint} */
@@ -68,22 +76,65 @@ export class OnShapes {
     this.selection ??= await chunk("selection");
     if (view !== this.view) return;
     this.stages ??= this.#makeStages(this.selection);
-    const { bins, bin } = view;
     this.check();
+    if (state.get("reading") === "apart") this.#apart(view);
+    else this.#bin(view, this.selection);
+  }
+
+  /**
+   * One bin on both shapes.
+   * @param {View} view
+   * @param {Chunk.Selection} selection
+   */
+  #bin({ bins, bin }, selection) {
+    this.surfaces?.leave();
     const share = bins.isShare(bin);
-    document.getElementById("readings").hidden = !share;
-    document.getElementById("turn-both").hidden = this.asked || !share || this.selection.models === null;
+    document.getElementById("turn-both").hidden = this.asked || !share || selection.models === null;
     const hue = element("i", { class: "hued" });
     hue.style.background = bins.color(bin);
     document
       .getElementById("seen-bin")
       .replaceChildren(hue, element("b", {}, element("bdi", {}, bins.names[bin])), " ", bins.sentence(bin));
-    const dimension = dimensionOf(bin, bins);
-    if (dimension !== null) this.legend.show(this.selection.dimensions[dimension], bins.binOf(bin));
+    const dimension = bins.dimensionOf(bin);
+    if (dimension !== null) this.legend.show(selection.dimensions[dimension], bins.binOf(bin));
     else this.legend.clear();
-    for (const side of SIDES) this.#side(side, share);
-    const reading = state.get("reading") === "inside" ? "which points fall into" : "values of";
+    /** @param {number} index */
+    const told = (index) =>
+      share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3)));
+    for (const side of SIDES) {
+      this.#side(side, told);
+      this.#stage(side, this.chosen[side], share);
+    }
+    const reading = this.state.get("reading") === "inside" ? "which points fall into" : "values of";
     if (this.asked && share) this.announce(`${reading} ${bins.names[bin]}`);
+  }
+
+  /**
+   * Where the two shapes differ, in all features together.
+   * @param {View} view
+   */
+  #apart({ bins }) {
+    const { database, chosen } = this;
+    const selection = /** @type {Chunk.Selection} */ (this.selection);
+    const stages = /** @type {Record<Side, Stage>} */ (this.stages);
+    /** @type {[number, number]} */
+    const pair = [chosen.a, chosen.b];
+    document.getElementById("turn-both").hidden = true;
+    this.legend.clear();
+    this.surfaces ??= new TwoSurfaces(database, bins, selection, {
+      stages: [stages.a, stages.b],
+      legend: document.getElementById("apart-legend"),
+    });
+    this.similarity ??= new Similarity(bins);
+    const parts = this.similarity.differences(...pair, { features: [...bins.features.keys()] });
+    document
+      .getElementById("seen-bin")
+      .replaceChildren(
+        "All features together: what one of these two shapes has and the other lacks is coloured. ",
+        element("a", { href: besideAddress(database, ...pair) }, "Feature by feature"),
+      );
+    for (const side of SIDES) this.#side(side, () => "");
+    this.surfaces.show(pair, parts, sumOf(parts));
   }
 
   /** @param {Chunk.Selection} selection */
@@ -91,27 +142,22 @@ export class OnShapes {
     const { database } = this;
     this.legend = new Legend(selection);
     this.paint = new Paint(selection);
-    const { models } = selection;
-    const load = models && ((/** @type {number} */ index) => modelBytes(models[index]));
     /** @param {Side} side */
-    const make = (side) => new Stage(document.getElementById(`stage-${side}`), { database, load, keys: "turn-keys" });
+    const make = (side) =>
+      new Stage(document.getElementById(`stage-${side}`), { database, load: modelsOf(selection), keys: "turn-keys" });
     return { a: make("a"), b: make("b") };
   }
 
   /**
+   * Which shape is shown, and those to choose another from.
    * @param {Side} side
-   * @param {boolean} share
+   * @param {(shape: number) => string} told what is said of a shape
    */
-  #side(side, share) {
+  #side(side, told) {
     const { database } = this;
     const view = /** @type {View} */ (this.view);
-    const { bins, bin } = view;
     const shape = this.chosen[side];
     const group = view[side];
-    /** @param {number} index */
-    /** @param {number} index */
-    const told = (index) =>
-      share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3)));
     document
       .getElementById(`seen-${side}`)
       .replaceChildren(
@@ -136,11 +182,11 @@ export class OnShapes {
             type: "button",
             class: "example",
             "aria-pressed": String(index === shape),
-            "aria-label": `${database.names[index]}, ${told(index)}`,
+            "aria-label": [database.names[index], told(index)].filter(Boolean).join(", "),
             title: database.names[index],
             onclick: () => {
               this.chosen[side] = index;
-              this.#side(side, share);
+              this.draw();
               document.querySelector(`#examples-${side} [aria-pressed="true"]`)?.focus();
             },
           },
@@ -148,7 +194,6 @@ export class OnShapes {
         ),
       ),
     );
-    this.#stage(side, shape, share);
   }
 
   /**
@@ -162,6 +207,7 @@ export class OnShapes {
     const inside = this.state.get("reading") === "inside";
     if (!this.asked && share) {
       const painting = this.selection?.paintings.find((painted) => painted.column === bin && painted.shape === shape);
+      stage.rest();
       stage.node.replaceChildren(
         painting === undefined
           ? picture(this.database, shape, 320)
@@ -175,7 +221,7 @@ export class OnShapes {
       return;
     }
     stage.asked = true;
-    const dimension = /** @type {number} */ (dimensionOf(bin, bins));
+    const dimension = /** @type {number} */ (bins.dimensionOf(bin));
     stage.show(shape, {
       label: `${this.database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
       paint: (solid) =>

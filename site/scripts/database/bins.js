@@ -64,6 +64,19 @@ export class Bins {
   }
 
   /**
+   * The number of a column's dimension among those of the descriptors; null for a feature that was brought along.
+   * @param {number} column
+   */
+  dimensionOf(column) {
+    if (!this.isShare(column)) return null;
+    let before = 0;
+    for (const feature of this.features.slice(0, this.#featureOf[column]))
+      if (feature.bins > 1) before += feature.dimensions;
+    const { start, bins: width } = this.features[this.#featureOf[column]];
+    return before + Math.floor((column - start) / width);
+  }
+
+  /**
    * The compared value of a shape: the square root of its share of the surface where features are balanced.
    * @param {number} column
    * @param {number} row

@@ -56,8 +56,8 @@ async function main() {
   const load = async () => {
     byFeatures = await showFeatures(database, state, { links, portrait });
   };
-  // A bin that the address names is to be seen at once.
-  if (state.get("bin") !== null) load();
+  // A bin or a shape beside it that the address names is to be seen at once.
+  if (state.get("bin") !== null || state.get("beside") !== null) load();
   else whenSeen(document.getElementById("by-features"), load);
   ready();
 }

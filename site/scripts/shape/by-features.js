@@ -3,11 +3,12 @@
 import { chunks } from "../base/chunks.js";
 import { grouped } from "../base/words.js";
 import { Bins } from "../database/bins.js";
+import { Similarity } from "../database/similarity.js";
 import { Comparison } from "./comparison.js";
 import { Histograms } from "./histograms.js";
 import { kind } from "./kind.js";
+import { SideBySide } from "./side-by-side.js";
 import { SimilarShapes } from "./similar-shapes.js";
-import { Similarity } from "./similar.js";
 import { Spread } from "./spread.js";
 import { ValueCard } from "./value-card.js";
 
@@ -54,11 +55,13 @@ export async function showFeatures(database, state, { links, portrait }) {
     dimensions: selection.dimensions,
     card: new ValueCard(bins, kind(database)),
   });
-  const similar = new SimilarShapes(database, bins, state, { links, comparison, similarity: new Similarity(bins) });
+  const similarity = new Similarity(bins);
+  const similar = new SimilarShapes(database, bins, state, { links, comparison, similarity });
+  const beside = new SideBySide(database, bins, state, { links, comparison, similarity, selection });
   waiting.hidden = true;
   section.removeAttribute("aria-busy");
   document.getElementById("featured").hidden = false;
-  for (const view of [similar, histograms]) view.render();
+  for (const view of [similar, beside, histograms]) view.render();
   portrait.know(bins, selection, comparison);
-  return { similar, histograms };
+  return { similar, beside, histograms };
 }

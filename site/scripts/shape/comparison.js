@@ -5,12 +5,9 @@ import { joinNames, splitNames } from "../addresses/names.js";
 import { count } from "../base/words.js";
 
 /** @import { ShapeState } from "../addresses/shape.js" */
+/** @import { Choice } from "../database/similarity.js" */
 
-/**
- * What is compared: bins or features by their numbers, rising.
- * @typedef {{ columns: number[], features?: undefined } | { features: number[], columns?: undefined }} Choice
- * @typedef {{ key: string, columns: number[], words: string, title?: string }} BinSet bins to choose at once
- */
+/** @typedef {{ key: string, columns: number[], words: string, title?: string }} BinSet bins to choose at once */
 
 export class Comparison {
   /**

@@ -6,7 +6,6 @@ import { shortened } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { percent } from "../bins-kit/bin-card.js";
 import { quantityInWords } from "../bins-kit/legend.js";
-import { dimensionOf } from "../bins-kit/look.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 import { whole } from "./similar-shapes.js";
@@ -213,7 +212,7 @@ export class Histograms {
    */
   #quantity(feature, dimension) {
     const { start, bins: width } = this.bins.features[feature];
-    const place = dimensionOf(start + dimension * width, this.bins);
+    const place = this.bins.dimensionOf(start + dimension * width);
     return place === null ? "a value that was brought along" : this.dimensions[place].quantity;
   }
 
@@ -245,7 +244,7 @@ export class Histograms {
       if (color) node.style.borderColor = color;
       return node;
     };
-    const { quantity, unit, edges } = this.dimensions[/** @type {number} */ (dimensionOf(columns[0], bins))];
+    const { quantity, unit, edges } = this.dimensions[/** @type {number} */ (bins.dimensionOf(columns[0]))];
     return [
       element(
         "div",

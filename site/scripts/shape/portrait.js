@@ -4,7 +4,6 @@ import { chunk, modelBytes } from "../base/chunks.js";
 import { calm, element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { Legend } from "../bins-kit/legend.js";
-import { dimensionOf } from "../bins-kit/look.js";
 import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
 import { hue } from "./hue.js";
@@ -69,7 +68,7 @@ export class Portrait {
       label: `${database.names[shape]} in 3D${column === null || !bins ? "" : `, values of ${bins.names[column]}`}`,
       paint: async (solid) => {
         this.#paint ??= new Paint(await chunk("selection"));
-        const dimension = column === null || !bins ? null : dimensionOf(column, bins);
+        const dimension = column === null || !bins ? null : bins.dimensionOf(column);
         return dimension === null ? this.#paint.plain(solid) : this.#paint.values(solid, dimension);
       },
       reason: column === null || !bins || bins.isShare(column) ? null : "This feature has no values on the surface.",
@@ -114,7 +113,7 @@ export class Portrait {
         action("Plain again", () => state.set({ bin: null })),
       ),
     );
-    const dimension = dimensionOf(column, bins);
+    const dimension = bins.dimensionOf(column);
     if (dimension === null) legend.clear();
     else legend.show(legend.selection.dimensions[dimension], bins.binOf(column));
   }

@@ -12,9 +12,9 @@ import { kind } from "./kind.js";
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
-/** @import { Choice, Comparison } from "./comparison.js" */
+/** @import { Choice, Similar, Similarity } from "../database/similarity.js" */
+/** @import { Comparison } from "./comparison.js" */
 /** @import { ShapeLinks } from "./links.js" */
-/** @import { Similar, Similarity } from "./similar.js" */
 
 /**
  * What can be compared, to choose from, and whether it is.
@@ -177,6 +177,11 @@ export class SimilarShapes {
         element("p", { class: "quiet" }, `distance ${figure(distance)}`),
         this.#bars(closer),
         element("p", { class: "why" }, this.#reasons(closer)),
+        element(
+          "button",
+          { type: "button", class: "plain", onclick: () => this.state.set({ beside: row, within: "" }) },
+          "See where they differ",
+        ),
         differ &&
           element(
             "p",

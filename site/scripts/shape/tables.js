@@ -8,15 +8,16 @@ import { whole } from "./similar-shapes.js";
 /** @import { Database } from "../database/database.js" */
 /** @import { Facts } from "./facts.js" */
 /** @import { Histograms } from "./histograms.js" */
+/** @import { SideBySide } from "./side-by-side.js" */
 /** @import { SimilarShapes } from "./similar-shapes.js" */
 
 /**
  * @param {Database} database
  * @param {ShapeState} state
- * @param {{ facts: Facts, similar?: SimilarShapes, histograms?: Histograms }} parts those of the features are missing as long as
+ * @param {{ facts: Facts, similar?: SimilarShapes, beside?: SideBySide, histograms?: Histograms }} parts those of the features are missing as long as
  *   these are not there
  */
-export function shapeTables(database, state, { facts, similar, histograms }) {
+export function shapeTables(database, state, { facts, similar, beside, histograms }) {
   const shape = state.get("shape");
   if (shape === null) return { title: "No such shape", tables: [] };
   /** @param {number} index */
@@ -44,6 +45,12 @@ export function shapeTables(database, state, { facts, similar, histograms }) {
           "Most similar shapes, and the share of all shapes that are farther away in each feature",
           [...heads, "Distance", ...(bins?.features ?? []).map(({ name }) => name)],
           found.map(({ row, distance, closer }) => [...named(row), figure(distance), ...closer.map(whole)]),
+        ),
+      beside?.pair &&
+        table(
+          `Where it and ${database.names[beside.pair[1]]} differ: shares of their squared distance`,
+          ["Feature", "Of all", "On this shape", "On the other"],
+          beside.rows(),
         ),
       histograms &&
         table(

@@ -1,6 +1,10 @@
-// Colours of a model's vertices, in linear light: plain clay, the values of a descriptor, what falls into one bin.
+// Colours of a model's vertices, in linear light: plain clay, the values of a descriptor, what falls into one bin,
+// and where a difference lies.
 
 /** @import { Model } from "./model.js" */
+
+/** How much light the darkest tone sends back of what the marked colour does. */
+const DARK = 0.3;
 
 export class Paint {
   /** @param {Pick<Chunk.Selection, "ramp" | "clay" | "marked">} selection */
@@ -37,6 +41,35 @@ export class Paint {
   }
 
   /**
+   * From clay for nothing to the darkest for densities that are `strongest` or more.
+   * @param {Model} solid
+   * @param {Float64Array} densities one a vertex
+   * @param {number} strongest
+   */
+  density(solid, densities, strongest) {
+    return this.#fill(solid, (vertex) => this.#between(strongest > 0 ? Math.min(densities[vertex] / strongest, 1) : 0));
+  }
+
+  /**
+   * From clay through the colour of what is marked to a dark tone of it: two steps tell more densities apart than one.
+   * @param {number} part
+   */
+  #between(part) {
+    const dark = this.marked.map((value) => DARK * value);
+    const [from, to] = part < 0.5 ? [this.clay, this.marked] : [this.marked, dark];
+    const along = part < 0.5 ? 2 * part : 2 * part - 1;
+    return from.map((value, channel) => value + along * (to[channel] - value));
+  }
+
+  /**
+   * Those colours from none to the strongest, for a legend: codes as style sheets have them.
+   * @param {number} steps
+   */
+  scale(steps) {
+    return Array.from({ length: steps }, (_, step) => code(this.#between(step / (steps - 1))));
+  }
+
+  /**
    * @param {Model} solid
    * @param {(vertex: number) => number[]} colorOf
    */
@@ -53,4 +86,10 @@ function linear(code) {
     const value = Number.parseInt(code.slice(at, at + 2), 16) / 255;
     return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
   });
+}
+
+/** @param {number[]} color */
+function code(color) {
+  const channels = color.map((value) => (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055));
+  return `rgb(${channels.map((value) => Math.round(255 * Math.min(value, 1))).join(" ")})`;
 }

@@ -5,10 +5,12 @@
 
 import { entry } from "../base/entry.js";
 
-/** @import { Bins } from "../database/bins.js" */
-/** @import { Choice } from "./comparison.js" */
+/** @import { Bins } from "./bins.js" */
 
 /**
+ * What is compared: bins or features by their numbers, rising.
+ * @typedef {{ columns: number[], features?: undefined } | { features: number[], columns?: undefined }} Choice
+ *
  * A similar shape: its distance, and for each feature the share of all other shapes that are farther in it alone, those
  * equally far counted half; 0.5 where a feature tells nothing.
  * @typedef {{ row: number, distance: number, closer: number[] }} Similar
@@ -56,6 +58,24 @@ export class Similarity {
       distance: Math.sqrt(squared[other]),
       closer: byFeature.map((own, feature) => shareFarther(sorted[feature], own[other])),
     }));
+  }
+
+  /**
+   * What two shapes differ in, column by column: adds up to their squared distance.
+   * @param {number} row
+   * @param {number} other
+   * @param {Choice} choice
+   * @returns {{ column: number, squared: number }[]} those that differ
+   */
+  differences(row, other, { features, columns }) {
+    const { steps, rows } = this.bins;
+    return (columns ?? features.flatMap((feature) => this.#columns(feature)))
+      .map((column) => {
+        const weight = columns ? this.#columnWeight(column) : this.#featureWeight(this.bins.featureOf(column));
+        const difference = (steps[column * rows + row] - steps[column * rows + other]) * this.bins.stepOf(column);
+        return { column, squared: difference ** 2 * weight };
+      })
+      .filter(({ squared }) => squared > 0);
   }
 
   /**

@@ -1,0 +1,187 @@
+// This shape and another: where on their surfaces the distance between them lies, feature by feature and in colours.
+
+import { calm, element, focused } from "../base/dom.js";
+import { figure, shortened } from "../base/words.js";
+import { byFeature, sumOf } from "../bins-kit/difference.js";
+import { Stage } from "../bins-kit/stage.js";
+import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
+import { whole } from "./similar-shapes.js";
+
+/** @import { ShapeState } from "../addresses/shape.js" */
+/** @import { FeaturePart } from "../bins-kit/difference.js" */
+/** @import { Bins } from "../database/bins.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { Similarity } from "../database/similarity.js" */
+/** @import { Comparison } from "./comparison.js" */
+/** @import { ShapeLinks } from "./links.js" */
+
+const LONGEST = 40;
+
+export class SideBySide {
+  /**
+   * @param {Database} database
+   * @param {Bins} bins
+   * @param {ShapeState} state
+   * @param {{ links: ShapeLinks, comparison: Comparison, similarity: Similarity, selection: Chunk.Selection }} parts
+   */
+  constructor(database, bins, state, { links, comparison, similarity, selection }) {
+    this.database = database;
+    this.bins = bins;
+    this.state = state;
+    this.links = links;
+    this.comparison = comparison;
+    this.similarity = similarity;
+    this.section = document.getElementById("beside");
+    this.features = document.getElementById("beside-features");
+    /** @param {string} id */
+    const stage = (id) =>
+      new Stage(document.getElementById(id), { database, load: modelsOf(selection), keys: "turn-keys" });
+    this.surfaces = new TwoSurfaces(database, bins, selection, {
+      stages: [stage("beside-own"), stage("beside-other")],
+      legend: document.getElementById("beside-legend"),
+    });
+    document.getElementById("beside-close").addEventListener("click", () => {
+      state.set({ beside: null, within: "" });
+      document.getElementById("similar-title").focus();
+    });
+    state.listen((changed) => {
+      if (changed.has("shape") && !changed.has("beside") && state.get("beside") !== null)
+        state.set({ beside: null, within: "" });
+      if (["shape", "beside", "within", "features", "bins", "theme"].some((name) => changed.has(name))) this.render();
+      if (changed.has("beside") && !this.section.hidden) this.#bringIntoSight();
+    });
+  }
+
+  /** This shape and the one beside it; null where there is none. */
+  get pair() {
+    const { state } = this;
+    const [own, other] = [state.get("shape"), state.get("beside")];
+    return own === null || other === null || own === other ? null : /** @type {[number, number]} */ ([own, other]);
+  }
+
+  render() {
+    const { pair } = this;
+    this.section.hidden = pair === null;
+    if (pair === null) {
+      this.surfaces.leave();
+      for (const stage of this.surfaces.stages) stage.rest();
+      return;
+    }
+    const parts = this.similarity.differences(...pair, this.comparison.choice);
+    const features = byFeature(parts, this.bins, pair);
+    const within =
+      features.find(({ feature }) => this.bins.features[feature].name === this.state.get("within")) ?? null;
+    this.#title(pair);
+    this.#tell(pair, Math.sqrt(sumOf(parts)), within === null ? features : [within]);
+    this.#list(features, within);
+    this.surfaces.show(
+      pair,
+      parts.filter(({ column }) => within === null || this.bins.featureOf(column) === within.feature),
+      sumOf(parts),
+    );
+  }
+
+  /** Feature by feature, for the tables: `[name, share of the distance, on this shape, on the other]`. */
+  rows() {
+    const { pair, bins } = this;
+    if (pair === null) return [];
+    const parts = this.similarity.differences(...pair, this.comparison.choice);
+    return byFeature(parts, bins, pair).map(({ feature, share, on, beside }) => [
+      bins.features[feature].name,
+      whole(share),
+      ...on.map((own) => (beside > 0 ? "–" : whole(own))),
+    ]);
+  }
+
+  /** @param {[number, number]} pair */
+  #title([own, other]) {
+    const title = document.getElementById("beside-title");
+    title.replaceChildren("Where ", this.#name(own), " and ", this.#name(other), " differ");
+    for (const [place, row] of [own, other].entries())
+      document
+        .getElementById(["beside-own-name", "beside-other-name"][place])
+        .replaceChildren(place === 0 ? this.#name(row) : this.links.link(row, {}, this.#name(row)));
+  }
+
+  /** @param {number} row */
+  #name(row) {
+    return element("bdi", {}, shortened(this.database.names[row], LONGEST));
+  }
+
+  /**
+   * @param {[number, number]} pair
+   * @param {number} distance
+   * @param {FeaturePart[]} told
+   */
+  #tell([own, other], distance, told) {
+    const words = document.getElementById("beside-words");
+    if (told.length === 0) {
+      words.replaceChildren(element("p", {}, "Nothing that is compared tells the two apart."));
+      return;
+    }
+    const [here, there] = [0, 1].map((side) => told.reduce((sum, { on }) => sum + on[side], 0));
+    const nowhere = told.reduce((sum, { beside }) => sum + beside, 0);
+    const one = told.length === 1 && this.bins.features[told[0].feature];
+    words.replaceChildren(
+      element(
+        "p",
+        {},
+        "Of all that sets the two apart, ",
+        one && [element("bdi", {}, one.title), " makes ", element("b", {}, whole(told[0].share)), ": "],
+        element("b", {}, whole(here)),
+        " lies on ",
+        this.#name(own),
+        " and ",
+        element("b", {}, whole(there)),
+        " on ",
+        this.#name(other),
+        nowhere > 0 && [" and ", element("b", {}, whole(nowhere)), " on no surface, for it was brought along"],
+        ". What one has and the other lacks is coloured; what both have as much of is not.",
+      ),
+      element(
+        "details",
+        {},
+        element("summary", {}, "How this is reckoned"),
+        `The squared distance of the two, ${figure(distance)}², is a sum over bins. What a bin adds is dealt out evenly over all of both surfaces that falls into it, so that the colours of both add up to the distance.`,
+      ),
+    );
+  }
+
+  /**
+   * @param {FeaturePart[]} features
+   * @param {FeaturePart | null} within
+   */
+  #list(features, within) {
+    const { bins, state } = this;
+    const kept = this.features.contains(focused()) ? focused().dataset.within : null;
+    const longest = features[0]?.share ?? 1;
+    this.features.replaceChildren(
+      ...features.map((part) => {
+        const { name, title } = bins.features[part.feature];
+        const bar = element("i", {});
+        bar.style.width = `${(100 * part.share) / longest}%`;
+        bar.style.background = bins.colorOf(part.feature);
+        return element(
+          "button",
+          {
+            type: "button",
+            class: "plain difference",
+            "data-within": name,
+            "aria-pressed": String(part === within),
+            title: "Colour both surfaces by this alone",
+            onclick: () => state.set({ within: part === within ? "" : name }),
+          },
+          element("span", { class: "feature" }, element("bdi", {}, shortened(title, LONGEST))),
+          element("span", { class: "length", "aria-hidden": "true" }, bar),
+          element("span", {}, whole(part.share)),
+        );
+      }),
+    );
+    if (kept) [...this.features.children].find((node) => node.dataset.within === kept)?.focus({ preventScroll: true });
+  }
+
+  #bringIntoSight() {
+    this.section.scrollIntoView({ behavior: calm() ? "instant" : "smooth", block: "start" });
+    document.getElementById("beside-title").focus({ preventScroll: true });
+  }
+}
