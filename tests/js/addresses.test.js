@@ -227,7 +227,7 @@ test("a row says which values of the state it has", () => {
   const [address] = PAGES.workbench;
   const isPlace = ({ place }) => place;
   assert.ok(address.has(new Set(["bins"]), isPlace));
-  assert.ok(!address.has(new Set(["scorer", "theme"]), isPlace));
-  assert.ok(address.has(new Set(["scorer"])));
+  assert.ok(!address.has(new Set(["color", "theme"]), isPlace));
+  assert.ok(address.has(new Set(["color"])));
   assert.ok(!address.has(new Set(["theme"])));
 });

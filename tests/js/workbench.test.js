@@ -2,12 +2,18 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { alike, changes } from "../../site/scripts/workbench/history.js";
+import { alike, changes, History, turns } from "../../site/scripts/workbench/history.js";
 
-const step = (bins, hidden = [], features = [0, 1]) => ({
+const step = (bins, { hidden = [], features = [0, 1], taken = 0, ...manner } = {}) => ({
   bins: new Set(bins),
   hidden: new Set(hidden),
   features: new Set(features),
+  projection: "tsne",
+  scorer: "rfe",
+  separation: { from: null, against: null, each: true },
+  sample: false,
+  taken,
+  ...manner,
 });
 
 test("a step says what it added before what it took away", () => {
@@ -16,12 +22,38 @@ test("a step says what it added before what it took away", () => {
     [-2, "bin"],
   ]);
   // A class is taken out of use by hiding it.
-  assert.deepEqual(changes(step([]), step([], [4])), [[-1, "class"]]);
-  assert.deepEqual(changes(step([], [], [0]), step([], [], [0, 1])), [[1, "feature"]]);
+  assert.deepEqual(changes(step([]), step([], { hidden: [4] })), [[-1, "class"]]);
+  assert.deepEqual(changes(step([], { features: [0] }), step([])), [[1, "feature"]]);
   assert.deepEqual(changes(step([1]), step([1])), []);
+  assert.deepEqual(turns(step([1]), step([2], { projection: "umap", sample: true })), ["other map", "a sample"]);
 });
 
-test("steps are alike by what they choose, in whatever order", () => {
+test("steps are alike by what they choose and how they look at it, in whatever order", () => {
+  const some = { from: new Set([1, 2]), against: null, each: true };
   assert.ok(alike(step([1, 2]), step([2, 1])));
   assert.ok(!alike(step([1, 2]), step([1, 3])));
+  assert.ok(!alike(step([1]), step([1], { projection: "umap" })));
+  assert.ok(alike(step([], { separation: some }), step([], { separation: { ...some, from: new Set([2, 1]) } })));
+  assert.ok(!alike(step([], { separation: some }), step([])));
+});
+
+test("steps are those of the browser's history", () => {
+  const history = new History();
+  const bins = () => history.steps.map((one) => [...one.bins].join());
+  history.take(step([], { taken: 2 }));
+  for (const bin of [1, 2]) history.take(step([bin], { taken: 2 + bin }));
+  // What the page does by itself takes no step.
+  history.take(step([2, 3], { taken: 4 }));
+  assert.deepEqual(bins(), ["", "1", "2,3"]);
+  history.arrive(step([1], { taken: 3 }));
+  assert.deepEqual([history.at, history.canUndo, history.canRedo], [1, true, true]);
+  // From before the page was opened anew.
+  history.arrive(step([9], { taken: 0 }));
+  assert.deepEqual(bins(), ["9", "", "1", "2,3"]);
+  assert.deepEqual([history.at, history.canUndo], [0, false]);
+  // An address written by hand, where another step had been undone.
+  history.arrive(step([1], { taken: 3 }));
+  history.arrive(step([7], { taken: 4 }));
+  assert.deepEqual(bins(), ["9", "", "1", "7"]);
+  assert.equal(history.canRedo, false);
 });

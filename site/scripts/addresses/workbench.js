@@ -45,7 +45,7 @@ export const DEFAULT_SCORER = "rfe";
 export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true });
 
 /**
- * What is in use makes a step of the work.
+ * The work is a place, each change of it a step; how the maps look is none.
  * @param {Database} database
  * @param {Chunk.Workbench} data
  */
@@ -55,9 +55,15 @@ export function workAddress(database, data) {
     { name: "hidden", ...classesInUse(database), place: true },
     { names: ["features", "bins"], ...binsInUse(data), place: true },
     { name: "projection", key: "map", kind: choice(PROJECTIONS), standard: method, place: true },
-    { name: "scorer", key: "scorer", kind: choice(data.scorers.map(({ key }) => key)), standard: DEFAULT_SCORER },
-    { name: "separation", ...separation(database) },
-    { name: "sample", key: "sample", kind: flag, standard: false },
+    {
+      name: "scorer",
+      key: "scorer",
+      kind: choice(data.scorers.map(({ key }) => key)),
+      standard: DEFAULT_SCORER,
+      place: true,
+    },
+    { name: "separation", ...separation(database), place: true },
+    { name: "sample", key: "sample", kind: flag, standard: false, place: true },
     { name: "color", key: "color", kind: choice(database.labelled ? COLORS : COLORS.slice(0, 1)), standard: COLORS[0] },
     brushed(database),
   ]);

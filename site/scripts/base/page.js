@@ -1,7 +1,7 @@
 // What all pages begin and end with: a state that follows the address and the theme, and a voice.
 
 import { Address } from "./address.js";
-import { pushHash, readHash, replaceHash } from "./place.js";
+import { arriveHere, pushHash, readHash, replaceHash } from "./place.js";
 import { State } from "./state.js";
 import { currentTheme, watchTheme } from "./theme.js";
 
@@ -21,6 +21,7 @@ export async function openPage({ address = new Address([]), settle = (found) => 
   /** @type {State} */
   const state = new State({ brushing: false, ...values, ...(await read()), theme: currentTheme() });
   let arriving = false;
+  arriveHere();
   const acted = watchActs();
   const step = () => {
     const query = address.write(state);
@@ -50,7 +51,8 @@ export async function openPage({ address = new Address([]), settle = (found) => 
      * @param {{ arrive?: (found: Record<string, any>) => void, redraw?: () => void }} [how]
      */
     ready({ arrive = (found) => state.set(found), redraw = () => {} } = {}) {
-      window.addEventListener("hashchange", async () => {
+      window.addEventListener("popstate", async () => {
+        arriveHere();
         const found = await read();
         arriving = true;
         arrive(found);

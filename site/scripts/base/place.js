@@ -28,7 +28,7 @@ export function readHash() {
  * @param {URLSearchParams} query
  */
 export function replaceHash(query) {
-  if (!leaving()) window.history.replaceState(null, "", hashAddress(query));
+  if (!leaving()) window.history.replaceState(window.history.state, "", hashAddress(query));
 }
 
 /**
@@ -36,7 +36,30 @@ export function replaceHash(query) {
  * @param {URLSearchParams} query
  */
 export function pushHash(query) {
-  if (!leaving()) window.history.pushState(null, "", hashAddress(query));
+  if (leaving()) return;
+  steps += 1;
+  window.history.pushState({ steps }, "", hashAddress(query));
+}
+
+let steps = -1;
+
+/** How many steps of the reader lead to this place from the one on which the page was opened first. */
+export function stepsTaken() {
+  return steps;
+}
+
+/** The reader came here on the browser's ways; by a link, or an address written by hand, it is a further step. */
+export function arriveHere() {
+  if (window.history.state?.steps === undefined) window.history.replaceState({ steps: steps + 1 }, "");
+  ({ steps } = window.history.state);
+}
+
+/**
+ * Go some steps on, or with a number below zero back, as the browser's own ways do.
+ * @param {number} number
+ */
+export function walk(number) {
+  window.history.go(number);
 }
 
 /**

@@ -47,7 +47,7 @@ async function main() {
     });
   const marks = () => data.marks[currentTheme()];
   new FeatureList(bins, state, marks, (features) => desk.use({ features }));
-  const strip = new HistoryStrip(database, state, desk.history, { go: (place) => desk.go(place) });
+  const strip = new HistoryStrip(database, state, desk);
   const section = new BinSection(database, data, bins, state, answers, desk, announce);
   watchControls(database, data, state, desk);
   watchKeys(state, desk, maps.gestures);

@@ -33,7 +33,7 @@ export function watchControls(database, data, state, desk) {
     state.listen((now) => now.has(name) && check());
     check();
   };
-  radios("projections", "projection", (projection) => desk.change({ projection }));
+  radios("projections", "projection", (projection) => desk.use({ projection }));
   radios("colors", "color");
   radios("drag", "drag", (drag) => {
     state.set({ drag });
@@ -78,7 +78,7 @@ function watchScorer(data, state, desk) {
     select.value = state.get("scorer");
     words.textContent = data.scorers.find(({ key }) => key === select.value)?.explanation ?? "";
   };
-  select.addEventListener("change", () => desk.change({ scorer: select.value }));
+  select.addEventListener("change", () => desk.use({ scorer: select.value }));
   state.listen((changed) => changed.has("scorer") && show());
   show();
 }
@@ -103,12 +103,12 @@ function watchSeparation(database, state, desk) {
   };
   against.addEventListener("change", (event) => {
     const separation = state.get("separation");
-    desk.change({
+    desk.use({
       separation: { ...separation, against: event.target.value === "rest" ? null : new Set(database.classes.keys()) },
     });
   });
   each.addEventListener("change", (event) =>
-    desk.change({ separation: { ...state.get("separation"), each: event.target.value === "each" } }),
+    desk.use({ separation: { ...state.get("separation"), each: event.target.value === "each" } }),
   );
   state.listen((changed) => (changed.has("separation") || changed.has("hidden")) && show());
   show();
@@ -139,11 +139,7 @@ function watchPicked(state, desk) {
     else {
       node.replaceChildren(
         element("span", {}, `A sample of ${grouped(MOST_SHAPES)} shapes at most`),
-        element(
-          "button",
-          { type: "button", class: "plain", onclick: () => desk.change({ sample: false }) },
-          "All shapes",
-        ),
+        element("button", { type: "button", class: "plain", onclick: () => desk.use({ sample: false }) }, "All shapes"),
       );
     }
   };
@@ -163,7 +159,8 @@ export function watchKeys(state, desk, gestures) {
     if (event.ctrlKey || event.metaKey) {
       if (typing || event.key.toLowerCase() !== "z") return;
       event.preventDefault();
-      desk.go(desk.history.at + (event.shiftKey ? 1 : -1));
+      if (event.shiftKey) desk.redo();
+      else desk.undo();
       return;
     }
     if (event.key === "Escape" && !event.defaultPrevented) {

@@ -2,6 +2,7 @@
 // taken back; every change asks anew what it makes out of date.
 
 import { changeWords } from "../base/figures.js";
+import { stepsTaken, walk } from "../base/place.js";
 import { figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 import { MOST_SHAPES } from "../database/sample.js";
@@ -16,21 +17,13 @@ import { contests, separationWords } from "./separation.js";
 /** @import { Standing } from "../engine/inquiry.js" */
 /** @import { LiveScene } from "../map/live-scene.js" */
 /** @import { Answers } from "./answers.js" */
-/** @import { Step, Use } from "./history.js" */
-/** @import { Separation } from "./separation.js" */
+/** @import { Use, Work } from "./history.js" */
 
 /**
  * The questions that a reader keeps asking: for the two maps, for the scores of the bins, and for a few bins that make a
  * better map.
  * @typedef {"original" | "refined"} Which
  * @typedef {Which | "scores" | "offer"} Question
- *
- * What a reader may ask by.
- * @typedef {object} Manner
- * @property {string} [scorer]
- * @property {Separation} [separation]
- * @property {string} [projection]
- * @property {boolean} [sample]
  */
 
 /** Fewer shapes have no map worth the name. */
@@ -75,7 +68,7 @@ export class Desk {
     this.scenes = scenes;
     this.announce = announce;
     this.history = new History();
-    this.history.push(this.#step());
+    this.history.take(this.#stepOf(this.#work()));
     /** @param {Question} name */
     const inquiry = (name) => new Inquiry((/** @type {Standing} */ status) => state.set({ [`${name}Status`]: status }));
     /** @type {Record<Question, Inquiry>} */
@@ -94,19 +87,19 @@ export class Desk {
   // Steps
 
   /**
-   * Take other classes, features or bins into use, and ask other questions with it. Bins of a feature that is not in use
+   * Take other classes, features or bins into use, or look at them in another way. Bins of a feature that is not in use
    * go with it.
-   * @param {Partial<Use>} patch
-   * @param {Manner} [questions]
+   * @param {Partial<Work>} patch
    */
-  use(patch, questions = {}) {
-    this.state.set(questions);
-    const next = { ...this.#step(), ...patch };
+  use(patch) {
+    const next = { ...this.#work(), ...patch };
     const kept = [...next.bins].filter((column) => next.features.has(this.bins.featureOf(column)));
     if (kept.length < next.bins.size) next.bins = new Set(kept);
     if (alike(next, this.history.current)) return;
-    this.history.push(next);
-    this.#show(next);
+    // Written into the address, it is a step there, or in the place of the last one; so it is here.
+    this.state.set(next);
+    this.history.take(this.#stepOf(next));
+    this.#renew();
   }
 
   /** @param {number[]} columns */
@@ -182,62 +175,61 @@ export class Desk {
   }
 
   /**
-   * Go to another step.
+   * Go to another step, as the browser's own way does.
    * @param {number} place
    */
   go(place) {
-    if (place < 0 || place >= this.history.steps.length || place === this.history.at) return;
-    this.history.at = place;
-    this.#show(this.history.current);
-    this.announce(`Step ${place + 1} of ${this.history.steps.length}`);
+    const step = this.history.steps[place];
+    if (step && place !== this.history.at) walk(step.taken - stepsTaken());
+  }
+
+  /** One step back, which may lead to before the page was opened anew. */
+  undo() {
+    if (this.history.canUndo) walk(-1);
+  }
+
+  redo() {
+    if (this.history.canRedo) walk(1);
   }
 
   /**
-   * The address was changed from outside: by the browser's own way back, or by hand.
-   * @param {Use & Manner} found
+   * The reader came to another place: by undo or redo, by the browser's own ways, or by an address written by hand.
+   * @param {Work & Record<string, any>} found what the address holds; what is looked at beside the work stays
    */
-  arrive({ hidden, features, bins, ...questions }) {
-    const step = { hidden, features, bins, originalMap: null, refinedMap: null };
-    const known = this.history.find(step);
-    if (known < 0) this.history.push(step);
-    else this.history.at = known;
-    this.state.set(questions);
-    this.#show(this.history.current);
+  arrive({ hidden, features, bins, scorer, separation, projection, sample }) {
+    const { history } = this;
+    history.arrive(this.#stepOf({ hidden, features, bins, scorer, separation, projection, sample }));
+    const { taken: _taken, originalMap: _original, refinedMap: _refined, ...work } = history.current;
+    this.state.set(work);
+    this.#renew();
+    this.announce(`Step ${history.at + 1} of ${history.steps.length}`);
   }
 
-  /** @returns {Step} */
-  #step() {
+  /** @returns {Work} */
+  #work() {
     const { state } = this;
     return {
       hidden: state.get("hidden"),
       features: state.get("features"),
       bins: state.get("bins"),
-      originalMap: null,
-      refinedMap: null,
+      scorer: state.get("scorer"),
+      separation: state.get("separation"),
+      projection: state.get("projection"),
+      sample: state.get("sample"),
     };
   }
 
-  /** @param {Use} use */
-  #show({ hidden, features, bins }) {
-    this.state.set({ hidden, features, bins, step: this.history.current });
-    this.#renew();
+  /** @param {Work} work */
+  #stepOf(work) {
+    return { ...work, taken: stepsTaken(), originalMap: null, refinedMap: null };
   }
 
   // Questions
 
-  /**
-   * Ask by another scorer, for another separation, with another projection, or of a sample.
-   * @param {Manner} values
-   */
-  change(values) {
-    this.state.set(values);
-    this.#renew();
-  }
-
   /** Ask all anew; what bins were looked for was another question. */
   #renew() {
     this.inquiries.offer.rest();
-    this.state.set({ refused: null });
+    this.state.set({ refused: null, step: this.history.current });
     this.ask();
   }
 
@@ -260,7 +252,7 @@ export class Desk {
    * @param {number[]} groups
    */
   separate(part, groups) {
-    this.change({ separation: { ...this.state.get("separation"), [part]: new Set(groups) } });
+    this.use({ separation: { ...this.state.get("separation"), [part]: new Set(groups) } });
   }
 
   /** Whether anything is being worked on. */

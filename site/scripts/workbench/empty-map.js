@@ -37,7 +37,7 @@ export function emptyMap(which, state, answers, desk) {
       ),
       element(
         "button",
-        { type: "button", class: "plain strong", id: "use-sample", onclick: () => desk.change({ sample: true }) },
+        { type: "button", class: "plain strong", id: "use-sample", onclick: () => desk.use({ sample: true }) },
         "Use a sample",
       ),
     ];

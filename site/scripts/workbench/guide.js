@@ -178,7 +178,7 @@ export class Guide {
         ],
         action: "Score the bins for that",
         todo: () =>
-          act.change({
+          act.use({
             scorer: DEFAULT_SCORER,
             separation: { from: new Set([one]), against: new Set([other]), each: true },
           }),
@@ -191,7 +191,7 @@ export class Guide {
       () => ({
         words: finding("Looking for bins …") ?? this.#resultOfTwo(pair),
         action: "Bring all classes back",
-        todo: working("offer", "refined") ? null : () => act.use({ hidden: new Set() }, { separation: EVERY_CLASS }),
+        todo: working("offer", "refined") ? null : () => act.use({ hidden: new Set(), separation: EVERY_CLASS }),
       }),
       () => ({
         words: settled("refined", "original")

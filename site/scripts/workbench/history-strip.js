@@ -3,32 +3,32 @@
 import { element, focused } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { pictureOfMap } from "../map/plot.js";
-import { changes } from "./history.js";
+import { changes, turns } from "./history.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
-/** @import { History, Step, Use } from "./history.js" */
+/** @import { Desk } from "./desk.js" */
+/** @import { Step } from "./history.js" */
 
 const SIZE = 56;
 
 export class HistoryStrip {
   /**
    * @param {Database} database
-   * @param {History} history
    * @param {WorkState} state
-   * @param {{ go: (place: number) => void }} ways goes to a step
+   * @param {Desk} desk goes to a step
    */
-  constructor(database, state, history, { go }) {
+  constructor(database, state, desk) {
     this.database = database;
     this.state = state;
-    this.history = history;
-    this.go = go;
+    this.history = desk.history;
+    this.go = (/** @type {number} */ place) => desk.go(place);
     this.list = document.getElementById("steps");
     this.list.addEventListener("keydown", (event) => this.#key(event));
     this.undo = document.getElementById("undo");
     this.redo = document.getElementById("redo");
-    this.undo.addEventListener("click", () => go(history.at - 1));
-    this.redo.addEventListener("click", () => go(history.at + 1));
+    this.undo.addEventListener("click", () => desk.undo());
+    this.redo.addEventListener("click", () => desk.redo());
     state.listen((changed) => {
       if (changed.has("theme")) this.#pictures = new WeakMap();
       if (["step", "originalMap", "refinedMap", "theme"].some((name) => changed.has(name))) this.render();
@@ -36,7 +36,7 @@ export class HistoryStrip {
   }
 
   // By step: a strip is made anew with every step, its pictures only with every map.
-  /** @type {WeakMap<Use, { map: ShapeMap, canvas: HTMLCanvasElement }>} */
+  /** @type {WeakMap<Step, { map: ShapeMap, canvas: HTMLCanvasElement }>} */
   #pictures = new WeakMap();
 
   render() {
@@ -69,17 +69,22 @@ export class HistoryStrip {
     // Where steps were made by different projections, each says by which.
     const mixed = new Set(history.steps.map((one) => mapOf(one)?.title).filter(Boolean)).size > 1;
     const changed = place === 0 ? [] : changes(history.steps[place - 1], step);
-    const words = place === 0 ? "start" : changed.map(([number, word]) => changeOf(number, word)).join(", ");
+    const turned = place === 0 ? [] : turns(history.steps[place - 1], step);
+    const words =
+      place === 0 ? "start" : [...changed.map(([number, word]) => changeOf(number, word)), ...turned].join(", ");
     const parts =
       place === 0
         ? [element("span", {}, "start")]
-        : changed.map(([number, word]) =>
-            element(
-              "span",
-              { class: number < 0 ? "removed" : "added" },
-              `${number < 0 ? "−" : "+"}${count(Math.abs(number), word, many(word))}`,
+        : [
+            ...changed.map(([number, word]) =>
+              element(
+                "span",
+                { class: number < 0 ? "removed" : "added" },
+                `${number < 0 ? "−" : "+"}${count(Math.abs(number), word, many(word))}`,
+              ),
             ),
-          );
+            ...turned.map((word) => element("span", {}, word)),
+          ];
     return element(
       "button",
       {

@@ -1,7 +1,8 @@
-// The steps of the work, for undo, redo and the strip of small maps. A step is what undo takes back: the classes, the
-// features and the bins in use. It keeps the maps that were made for it.
+// The steps of the work, for undo, redo and the strip of small maps. They are those of the browser's own history: what a
+// step back leads to, undo does too. A step keeps the maps that were made for it.
 
 /** @import { ShapeMap } from "../database/database.js" */
+/** @import { Separation } from "./separation.js" */
 
 /**
  * What is in use at a step, and the maps of it as far as they are made.
@@ -10,7 +11,16 @@
  * @property {Set<number>} features
  * @property {Set<number>} bins
  *
- * @typedef {Use & { originalMap: ShapeMap | null, refinedMap: ShapeMap | null }} Step
+ * How it is looked at.
+ * @typedef {object} Manner
+ * @property {string} scorer
+ * @property {Separation} separation
+ * @property {string} projection
+ * @property {boolean} sample
+ *
+ * `taken` counts the reader's steps up to this one.
+ * @typedef {Use & Manner} Work
+ * @typedef {Work & { taken: number, originalMap: ShapeMap | null, refinedMap: ShapeMap | null }} Step
  */
 
 const MOST_STEPS = 200;
@@ -25,7 +35,7 @@ export class History {
   }
 
   get canUndo() {
-    return this.at > 0;
+    return this.current.taken > 0;
   }
 
   get canRedo() {
@@ -33,45 +43,58 @@ export class History {
   }
 
   /**
-   * A new step after the current one; what had been undone is gone.
+   * A step that was just taken; what had been undone is gone. What the page did by itself takes no step: it is in the
+   * place of the current one.
    * @param {Step} step
    */
-  push(step) {
-    this.steps.length = this.at + 1;
+  take(step) {
+    const kept = this.steps.findIndex(({ taken }) => taken >= step.taken);
+    this.steps.length = kept < 0 ? this.steps.length : kept;
     this.steps.push(step);
     if (this.steps.length > MOST_STEPS) this.steps.shift();
     this.at = this.steps.length - 1;
   }
 
   /**
-   * The step nearest to the current one that has the same classes, features and bins; -1 if there is none.
-   * @param {Use} step
+   * The reader went to another step. One from before the page was opened anew is put into its place; an address written
+   * by hand is a step that was just taken.
+   * @param {Step} step
    */
-  find(step) {
-    let best = -1;
-    for (const [place, other] of this.steps.entries()) {
-      if (alike(step, other) && (best < 0 || Math.abs(place - this.at) < Math.abs(best - this.at))) best = place;
+  arrive(step) {
+    const place = this.steps.findIndex(({ taken }) => taken >= step.taken);
+    const known = this.steps[place]?.taken === step.taken;
+    if (known && !alike(this.steps[place], step)) {
+      this.take(step);
+      return;
     }
-    return best;
+    this.at = place < 0 ? this.steps.length : place;
+    if (!known) this.steps.splice(this.at, 0, step);
   }
 }
 
 /**
- * Whether two steps have the same classes, features and bins.
- * @param {Use} one
- * @param {Use} other
+ * Whether two steps are of the same work.
+ * @param {Work} one
+ * @param {Work} other
  */
 export function alike(one, other) {
-  return /** @type {(keyof Use)[]} */ (["hidden", "features", "bins"]).every((name) =>
-    sameMembers(one[name], other[name]),
-  );
+  return CHANGES.every(({ name }) => sameMembers(one[name], other[name])) && turns(one, other).length === 0;
 }
 
 /**
- * @param {Set<number>} one
- * @param {Set<number>} other
+ * @param {Separation} one
+ * @param {Separation} other
+ */
+function sameQuestion(one, other) {
+  return one.each === other.each && sameMembers(one.from, other.from) && sameMembers(one.against, other.against);
+}
+
+/**
+ * @param {Set<number> | null} one
+ * @param {Set<number> | null} other
  */
 function sameMembers(one, other) {
+  if (one === null || other === null) return one === other;
   return one.size === other.size && [...one].every((member) => other.has(member));
 }
 
@@ -98,4 +121,19 @@ export function changes(before, after) {
     if (less > 0) found.push([-less * sign, word]);
   }
   return found.sort((a, b) => b[0] - a[0]);
+}
+
+/**
+ * In what other ways a step looks at what is in use.
+ * @param {Manner} before
+ * @param {Manner} after
+ * @returns {string[]}
+ */
+export function turns(before, after) {
+  return [
+    before.projection !== after.projection && "other map",
+    before.scorer !== after.scorer && "other scorer",
+    !sameQuestion(before.separation, after.separation) && "other question",
+    before.sample !== after.sample && (after.sample ? "a sample" : "all shapes"),
+  ].filter(Boolean);
 }

@@ -211,7 +211,8 @@ def test_the_theme_is_chosen_and_stays(visit):
 
 def test_the_worker_scores_bins_and_lays_out_a_map(visit):
     window = visit("workbench", "workbench.html")
-    window.click("figure[data-map=refined] .empty button")
+    window.until("() => !document.querySelector('#bin-add').disabled")
+    window.click("#bin-add")
     refined = "figure[data-map=refined] .value"
     window.until("(refined) => document.querySelector(refined)?.innerText > 0", refined)
     window.until("() => document.querySelector('main').ariaBusy !== 'true'")
@@ -313,6 +314,33 @@ def test_tables_open_and_close(visit):
     window.until("() => document.querySelector('dialog[open]') === null")
 
 
+def test_undo_leads_where_the_way_back_does(visit):
+    window = visit("workbench", "workbench.html")
+
+    def at(*held):
+        window.until(
+            "(held) => ['bins=', 'map='].every((name) => location.hash.includes(name) === held.includes(name))",
+            list(held),
+        )
+
+    window.until("() => !document.querySelector('#bin-add').disabled")
+    window.click("#bin-add")
+    at("bins=")
+    window.click("#projections label", "UMAP")
+    at("bins=", "map=")
+    window.click("#undo")
+    at("bins=")
+    window.back()
+    at()
+    window.click("#redo")
+    at("bins=")
+    # An address written by hand is a step too.
+    window.evaluate("() => void (location.hash = 'map=umap')")
+    window.until("() => document.querySelector('#projections input:checked').value === 'umap'")
+    window.click("#undo")
+    at("bins=")
+
+
 def test_the_policy_is_in_force(visit):
     window = visit("plain", "index.html")
     refused = window.evaluate(
@@ -339,5 +367,6 @@ def test_links_lead_through_a_site_in_one_file(visit, heard_file, follow):
 def test_the_worker_runs_in_a_site_in_one_file(visit, heard_file):
     window = visit("", "", f"{heard_file('workbench')}#/workbench?select={SHAPE}")
     named(window, 1)
-    window.click("figure[data-map=refined] .empty button")
+    window.until("() => !document.querySelector('#bin-add').disabled")
+    window.click("#bin-add")
     window.until("() => document.querySelector('figure[data-map=refined] .value')?.innerText > 0")
