@@ -21,19 +21,18 @@ how present it is: 0 hidden, 1 faint, 2 normal, 3 chosen.
 
 from __future__ import annotations
 
-from typing import TypeVar
-
 import altair as alt
 
 from shapeviz_report.charts.palette import SYMBOLS, class_symbol_indices
 
-Framed = TypeVar("Framed", alt.Chart, alt.LayerChart)
-
 #: Opacity of a shape that is there only for orientation.
 FAINT_OPACITY = 0.14
 
+_FAINT = "emphasis[datum.index] == 1"
+_PRESENT = "emphasis[datum.index] > 1"
 
-def class_map(class_count: int) -> alt.Chart:
+
+def class_map(class_count: int) -> alt.LayerChart:
     """Every shape as a symbol in the colour of its class."""
     groups = list(range(class_count))
     symbols = [SYMBOLS[index] for index in class_symbol_indices(class_count)]
@@ -47,10 +46,10 @@ def class_map(class_count: int) -> alt.Chart:
         alt.Shape("group:N", legend=None, scale=alt.Scale(domain=groups, range=symbols)),
         alt.value(SYMBOLS[0]),
     )
-    return _points(color, "Map of all shapes, coloured by class").encode(shape=shape)
+    return _points(color, "Map of all shapes, coloured by class", shape=shape)
 
 
-def hit_map() -> alt.Chart:
+def hit_map() -> alt.LayerChart:
     """Every shape as a dot from red (no neighbour of its class) to yellow (all, or as many as its class has others)."""
     color = alt.condition(
         "datum.shown_hit >= 0",
@@ -61,63 +60,86 @@ def hit_map() -> alt.Chart:
 
 
 def thumbnail_map() -> alt.LayerChart:
-    """Every shape as its picture; where pictures would cover each other, the page turns some into dots.
+    """Every shape as its picture; where they would cover each other, the page moves some and turns others into dots.
 
     Parameter ``pictured`` says for every shape whether its picture is drawn, ``picture_size`` how large, in
-    pixels.
+    pixels; ``shift_x`` and ``shift_y`` how far from its place, in sizes of a picture, of which one is ``shift_size``
+    in the plane.
     """
-    base = _placed()
-    dots = (
-        base.transform_filter("!pictured[datum.index] && emphasis[datum.index] > 0")
-        .mark_circle(clip=True, opacity=1, size=alt.ExprRef("mark_size * 0.4"))
-        .encode(
-            **_position(),
-            color=alt.value(alt.ExprRef("unlabelled")),
-            opacity=alt.condition("emphasis[datum.index] == 1", alt.value(FAINT_OPACITY), alt.value(0.7)),
+
+    def marks(emphasis: str) -> tuple[alt.Chart, alt.Chart]:
+        base = _placed(shift=True)
+        dots = (
+            base.transform_filter(f"!pictured[datum.index] && {emphasis}")
+            .mark_circle(clip=True, opacity=0.7, size=alt.ExprRef("mark_size * 0.4"))
+            .encode(**_position(), color=alt.value(alt.ExprRef("unlabelled")))
         )
-    )
-    pictures = (
-        base.transform_filter("pictured[datum.index] && emphasis[datum.index] > 0")
-        .mark_image(clip=True, width=alt.ExprRef("picture_size"), height=alt.ExprRef("picture_size"))
-        .encode(
-            **_position(),
-            url=alt.Url("picture:N"),
-            opacity=alt.condition("emphasis[datum.index] == 1", alt.value(FAINT_OPACITY), alt.value(1)),
+        pictures = (
+            base.transform_filter(f"pictured[datum.index] && {emphasis}")
+            .mark_image(clip=True, width=alt.ExprRef("picture_size"), height=alt.ExprRef("picture_size"))
+            .encode(**_position(), url=alt.Url("picture:N"))
         )
-    )
+        return dots, pictures
+
     return _framed(
-        alt.LayerChart(layer=[dots, pictures], data=alt.NamedData("shapes")),
+        alt.LayerChart(layer=[*marks(_FAINT), _veil(), *marks(_PRESENT)], data=alt.NamedData("shapes")),
         "Map of all shapes as pictures",
         pictured=[],
         picture_size=40,
+        shift_x=[],
+        shift_y=[],
+        shift_size=0,
     )
 
 
-def _points(color: object, description: str) -> alt.Chart:
-    chart = (
-        _placed(alt.NamedData("shapes"))
-        .transform_filter("emphasis[datum.index] > 0")
-        .mark_point(clip=True, filled=True, stroke=alt.ExprRef("outline"), strokeWidth=0.6, opacity=1)
-        .encode(
-            **_position(),
-            color=color,
-            size=alt.condition(
-                "emphasis[datum.index] == 3",
-                alt.value(alt.ExprRef("mark_size * 1.5")),
-                alt.value(alt.ExprRef("mark_size")),
-            ),
-            opacity=alt.condition("emphasis[datum.index] == 1", alt.value(FAINT_OPACITY), alt.value(0.92)),
-            order=alt.Order("rank:Q"),
+def _points(color: object, description: str, **channels: object) -> alt.LayerChart:
+    def marks(emphasis: str) -> alt.Chart:
+        return (
+            _placed()
+            .transform_filter(emphasis)
+            .mark_point(clip=True, filled=True, stroke=alt.ExprRef("outline"), strokeWidth=0.6, opacity=0.92)
+            .encode(
+                **_position(),
+                **channels,
+                color=color,
+                size=alt.condition(
+                    "emphasis[datum.index] == 3",
+                    alt.value(alt.ExprRef("mark_size * 1.5")),
+                    alt.value(alt.ExprRef("mark_size")),
+                ),
+                order=alt.Order("rank:Q"),
+            )
         )
+
+    return _framed(
+        alt.LayerChart(layer=[marks(_FAINT), _veil(), marks(_PRESENT)], data=alt.NamedData("shapes")),
+        description,
     )
-    return _framed(chart, description)
 
 
-def _placed(data: alt.NamedData | alt.utils.schemapi.UndefinedType = alt.Undefined) -> alt.Chart:
+def _veil() -> alt.Chart:
+    """What makes all that lies below it faint alike, where anything does: marks that lie on each other, too."""
+    return (
+        alt.Chart()
+        .transform_filter(_FAINT)
+        .transform_aggregate(faint="count()")
+        .transform_filter("datum.faint > 0")
+        .mark_rect(color=alt.ExprRef("ground"), opacity=1 - FAINT_OPACITY)
+        .encode(x=alt.value(0), x2=alt.value("width"), y=alt.value(0), y2=alt.value("height"))
+    )
+
+
+def _placed(*, shift: bool = False) -> alt.Chart:
     """Rows moved along the way from one projection to the next, drawn from faint to chosen."""
-    return alt.Chart(data).transform_calculate(
-        moved_x="datum.x[origin] + progress * (datum.x[target] - datum.x[origin])",
-        moved_y="datum.y[origin] + progress * (datum.y[target] - datum.y[origin])",
+
+    def moved(axis: str, sign: str) -> str:
+        place = f"datum.{axis}[origin] + progress * (datum.{axis}[target] - datum.{axis}[origin])"
+        return f"{place} {sign} (shift_{axis}[datum.index] || 0) * shift_size" if shift else place
+
+    return alt.Chart().transform_calculate(
+        moved_x=moved("x", "+"),
+        # On a screen, down is up.
+        moved_y=moved("y", "-"),
         # A number even where there is none: Vega-Lite would drop or recolour the shape otherwise.
         shown_hit="isValid(datum.hit[target]) ? datum.hit[target] : -1",
         rank="emphasis[datum.index]",
@@ -141,7 +163,7 @@ def _position() -> dict[str, alt.X | alt.Y]:
     }
 
 
-def _framed(chart: Framed, description: str, **parameters: object) -> Framed:
+def _framed(chart: alt.LayerChart, description: str, **parameters: object) -> alt.LayerChart:
     """Add the parameters every map has and the frame that the page resizes."""
     defaults: dict[str, object] = {
         "origin": 0,
@@ -153,6 +175,7 @@ def _framed(chart: Framed, description: str, **parameters: object) -> Framed:
         "mark_size": 60,
         "unlabelled": "#888888",
         "outline": "#00000055",
+        "ground": "#ffffff",
         **parameters,
     }
     return (

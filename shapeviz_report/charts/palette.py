@@ -132,7 +132,7 @@ LIGHT = Theme(
 
 DARK = Theme(
     name="dark",
-    ground="#16181c",
+    ground="#15171b",
     ink="#e9e7e2",
     unlabelled="#83868c",
     outline="#00000066",

@@ -69,6 +69,7 @@ class ThemeMarks(TypedDict):
     hit: list[str]
     unlabelled: str
     outline: str
+    ground: str
     ink: str
 
 

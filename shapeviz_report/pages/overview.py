@@ -147,6 +147,7 @@ def _marks(class_count: int) -> Marks:
                 "hit": list(theme.hit),
                 "unlabelled": theme.unlabelled,
                 "outline": theme.outline,
+                "ground": theme.ground,
                 "ink": theme.ink,
             }
             for theme in charts.THEMES

@@ -51,6 +51,7 @@ declare namespace Chunk {
     hit: string[];
     unlabelled: string;
     outline: string;
+    ground: string;
     ink: string;
   }
   /** The symbol of every class, as a path, and the colours of each theme. */

@@ -265,22 +265,23 @@ class TestOverview:
     def test_a_subset_opens_there(self, open_page, site):
         page = open_page("searched", "features.html#features=Gc PFH")
         page.click("#open-overview")
-        page.wait_for_selector("#quality .value")
+        page.click("#how-good summary")
+        page.wait_for_selector("#bars svg")
         subset = next(s for s in subsets_of(site("searched")) if s["features"] == ["Gc", "PFH"])
-        assert page.locator("#quality .value").inner_text() == f"{subset['nh_s']:.3f}"
-        assert "Gc, PFH alone" in page.locator("#quality").inner_text()
+        assert page.locator("#quality .value").text_content() == f"{subset['nh_s']:.3f}"
+        assert "Gc, PFH alone" in page.locator("#quality").text_content()
         assert page.locator("#features input:checked").get_attribute("value") == "chosen"
         names = page.locator("#legend .name").all_inner_texts()
         values = page.eval_on_selector_all("#bars text", "nodes => nodes.map(node => node.textContent)")
         assert dict(zip(names, values, strict=True)) == {n: f"{v:.3f}" for n, v in subset["nh_c"].items()}
 
     def test_it_offers_all_features_and_the_best_subset(self, open_page, site):
-        page = open_page("searched", "index.html#open=class002/0003")
+        page = open_page("searched", "index.html#view=hit&open=class002/0003")
         ring = page.locator("figure[data-slot=large] .ring.opened")
         place = ring.get_attribute("cx")
         best = subsets_of(site("searched"))[0]
         page.locator("#features label", has_text="Best subset").click()
-        eventually(page, lambda: page.locator("#quality .value").inner_text() == f"{best['nh_s']:.3f}")
+        eventually(page, lambda: page.locator("#quality .value").text_content() == f"{best['nh_s']:.3f}")
         eventually(page, lambda: ring.get_attribute("cx") != place)
         eventually(page, lambda: f"features={' '.join(best['features'])}" in address(page))
         page.locator("#features label", has_text="All features").click()
@@ -299,10 +300,10 @@ class TestOverview:
     def test_a_reload_shows_the_same_subset_and_the_neighbours_that_nh_counts(self, open_page):
         page = open_page("searched", "index.html#features=Gc Sc&open=class003/0004")
         place = page.locator("figure[data-slot=large] .ring.opened").get_attribute("cx")
-        shown = page.locator("#quality").inner_text()
+        shown = page.locator("#quality").text_content()
         page.reload()
         page.wait_for_selector("html[data-ready]", state="attached")
-        assert page.locator("#quality").inner_text() == shown
+        assert page.locator("#quality").text_content() == shown
         assert page.locator("figure[data-slot=large] .ring.opened").get_attribute("cx") == place
         page.wait_for_selector("#detail .neighbours .shape")
         hit = float(page.locator("#detail p b").first.inner_text())
@@ -328,7 +329,7 @@ class TestOverview:
         page.reload()
         page.wait_for_selector("html[data-ready]", state="attached")
         everything = next(s for s in subsets_of(site("chosen bins")) if len(s["features"]) == len(FEATURES))
-        assert page.locator("#quality .value").inner_text() == f"{everything['nh_s']:.3f}"
+        assert page.locator("#quality .value").text_content() == f"{everything['nh_s']:.3f}"
         assert float(ring.get_attribute("cx")) != pytest.approx(float(place))
         page.locator("#features label", has_text="2 chosen bins").click()
         eventually(page, lambda: float(ring.get_attribute("cx")) == pytest.approx(float(place)))
@@ -402,7 +403,8 @@ class TestStates:
         assert reading(page) == before
         if page.locator("#open-overview").count():
             page.click("#open-overview")
-            page.wait_for_selector("#quality .value")
+            page.click("#how-good summary")
+        page.wait_for_selector("#bars svg")
 
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}

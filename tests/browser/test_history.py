@@ -40,13 +40,13 @@ def test_a_page_that_opens_makes_no_step(open_page, name, file) -> None:
 def test_on_the_overview(open_page) -> None:
     page = open_page("plain")
     choose(page, "#methods", "UMAP")
-    page.locator(".promote[data-view=hit]").click()
+    choose(page, "#views", r"Fit \(NH\)")
     page.locator("#legend button[aria-pressed]").first.click()
     eventually(page, lambda: page.locator("#legend button[aria-pressed=false]").count() == 1)
     page.go_back()
     eventually(page, lambda: page.locator("#legend button[aria-pressed=false]").count() == 0)
     page.go_back()
-    eventually(page, lambda: page.locator("figure[data-slot=large][data-view=class]").count() == 1)
+    eventually(page, lambda: page.locator("figure[data-slot=large][data-view=thumbnail]").count() == 1)
     assert checked(page, "#methods") == "UMAP"
     page.go_back()
     eventually(page, lambda: checked(page, "#methods") == "t-SNE")

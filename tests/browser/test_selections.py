@@ -153,7 +153,7 @@ def test_a_link_keeps_a_selection_of_its_own(open_page):
     )
     follow(page, lambda: page.click("#other-shape"))
     assert named(page) == ["kind b 2, kind b"]
-    assert page.locator("figure[data-view=hit]").get_attribute("data-slot") == "large"
+    assert page.locator("figure[data-slot=large]").get_attribute("data-view") == "hit"
 
 
 def test_many_shapes_go_along_too(open_page):

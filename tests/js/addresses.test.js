@@ -134,6 +134,7 @@ const PAGES = {
     overviewAddress(database),
     [
       "",
+      "view=three&exact=",
       "map=pca&view=hit&hide=ant&hide=cup+%26+plate&hide-unlabelled=",
       "select=ant%2F1&select=lost&open=bee%2F1&find=two+words&at=0.5%2C-12.25%2C3",
     ],
@@ -205,7 +206,7 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
     const prefixed = ["range.faces", "is.kind", "is.folders", "hide", "a", "select", "selected"];
     const keys = new Set([...address.rows.flatMap(({ key }) => key ?? []), ...prefixed]);
     // Any text is valid there.
-    for (const key of ["find", "bin", "parts", "closed", "down", "sample"]) keys.delete(key);
+    for (const key of ["find", "bin", "parts", "closed", "down", "sample", "exact"]) keys.delete(key);
     if (page === "shape") for (const key of ["features", "bins", "within"]) keys.delete(key);
     for (const key of keys)
       for (const word of NONSENSE) assert.equal(writtenAgain([[key, word]]), usual, `${key}=${word}`);

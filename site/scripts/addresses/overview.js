@@ -1,6 +1,6 @@
 // The state of the Overview in its address.
 
-import { Address, choice, named, text } from "../base/address.js";
+import { Address, choice, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
@@ -14,20 +14,22 @@ import { brushed } from "./selected.js";
 /**
  * What the Overview has in its state, beside what maps have.
  * @typedef {object} OverviewValues
- * @property {string} view name of the large map
+ * @property {string} view what the map shows, or `three` for the three linked maps beside each other
+ * @property {boolean} exact whether pictures stand at their exact places, where they may cover each other
  * @property {string} query of the search
  * @property {Camera | null} camera the part in view; all where it is null
  *
  * @typedef {State<OverviewValues & MapValues & Shared>} OverviewState
  */
 
-const VIEWS = ["class", "hit", "thumbnail"];
+export const VIEWS = ["thumbnail", "class", "hit", "three"];
 
 /** @param {Database} database */
 export function overviewAddress(database) {
   return new Address([
     { names: ["method", "features"], ...mapOfFeatures(database), place: true },
     { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true },
+    { name: "exact", key: "exact", kind: flag, standard: false, place: true },
     { name: "hidden", ...hiddenClasses(database), place: true },
     brushed(database),
     { name: "opened", key: "open", kind: named(database.ids), standard: null },

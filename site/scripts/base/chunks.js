@@ -97,8 +97,14 @@ async function received(name, address) {
   return handed;
 }
 
-/** @param {string} address */
-function addScript(address) {
+/**
+ * Run a script of the site.
+ * @param {string} address
+ * @returns {Promise<any>}
+ */
+export function addScript(address) {
+  const standing = window.shapeviz.scripts.get(address);
+  if (standing) return Promise.resolve(standing());
   return new Promise((resolve, reject) => {
     const script = document.createElement("script");
     script.src = address;

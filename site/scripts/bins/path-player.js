@@ -3,6 +3,7 @@
 import { calm, element, svg } from "../base/dom.js";
 import { difference, symbol } from "../base/figures.js";
 import { count, figure } from "../base/words.js";
+import { classNaming } from "../map/coloring.js";
 import { Labels } from "../map/labels.js";
 import { FULL } from "../map/marks.js";
 import { mapOf, pictureOfMap, Plot } from "../map/plot.js";
@@ -106,7 +107,7 @@ export class PathPlayer {
     const { database } = this;
     const surface = document.getElementById("step-surface");
     const overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
-    const labels = new Labels(database, overlay);
+    const labels = new Labels(classNaming(database), overlay);
     this.plot = new Plot(database, {
       label: "Map of the step",
       margin: 30,

@@ -65,7 +65,6 @@ export class ChosenMap {
     watchDrag(state);
     const gestures = new Gestures(this.view, {
       open: (shape) => this.toggle(shape),
-      promote: () => {},
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
     });
     watchMapKeys(this.view.surface, state, gestures);

@@ -12,15 +12,13 @@ export class Gestures extends ShapeBrush {
    * @param {MapView} view
    * @param {object} ways
    * @param {(index: number) => void} ways.open is told of the shape that is clicked
-   * @param {(name: string) => void} ways.promote of a small map that is to be the large one
    * @param {(index: number) => void} ways.announce of the shape that keys went to
    */
-  constructor(view, { open, promote, announce }) {
+  constructor(view, { open, announce }) {
     super(view.surface, view.brush, view, view.state);
     this.view = view;
     this.scene = view.scene;
     this.open = open;
-    this.promote = promote;
     this.announce = announce;
     const { surface } = view;
     surface.addEventListener("pointerleave", () => this.state.set({ pointed: null }));
@@ -53,8 +51,7 @@ export class Gestures extends ShapeBrush {
    */
   click(place, { pointerType, shiftKey }) {
     const index = this.view.at(...place, pointerType === "mouse" ? 6 : 16);
-    if (!this.view.large) this.promote(this.view.name);
-    else if (index !== null && shiftKey) this.#toggle(index);
+    if (index !== null && shiftKey) this.#toggle(index);
     else if (index !== null) this.open(index);
     else this.state.set({ selection: new Set() });
   }
@@ -79,7 +76,7 @@ export class Gestures extends ShapeBrush {
     const zoom = (camera.zoom * now.spread) / before.spread;
     const whole = this.view.scale / this.scene.camera().zoom;
     const [old, scale] = [whole * camera.zoom, whole * zoom];
-    const { width, clearHeight: height } = this.view;
+    const { width, height } = this.view;
     const x = camera.x + (before.middle[0] - width / 2) / old;
     const y = camera.y - (before.middle[1] - height / 2) / old;
     this.scene.look({
@@ -98,7 +95,7 @@ export class Gestures extends ShapeBrush {
   #wheel(event) {
     // Where the page itself scrolls, the wheel belongs to it unless the reader asks for zoom.
     const scrolls = document.documentElement.scrollHeight > window.innerHeight + 1;
-    if (!this.view.large || (scrolls && !event.ctrlKey && !event.metaKey)) return;
+    if (scrolls && !event.ctrlKey && !event.metaKey) return;
     event.preventDefault();
     const lines = event.deltaMode === 1 ? 18 : 1;
     this.zoom(Math.exp((-event.deltaY * lines * (event.ctrlKey ? 4 : 1)) / 500), this.placeOf(event));
@@ -109,7 +106,7 @@ export class Gestures extends ShapeBrush {
    * @param {number} factor
    * @param {Place} [place]
    */
-  zoom(factor, place = [this.view.width / 2, this.view.clearHeight / 2]) {
+  zoom(factor, place = [this.view.width / 2, this.view.height / 2]) {
     const camera = this.scene.camera();
     const zoom = Math.min(Math.max(camera.zoom * factor, 1), 40);
     const [x, y] = this.view.toPlane(...place);
@@ -127,8 +124,7 @@ export class Gestures extends ShapeBrush {
       if (event.shiftKey) this.#pan(directions[event.key]);
       else this.#step(directions[event.key]);
     } else if (event.key === "Enter") {
-      if (!this.view.large) this.promote(this.view.name);
-      else if (pointed !== null) this.open(pointed);
+      if (pointed !== null) this.open(pointed);
     } else if (event.key === " ") {
       if (pointed !== null) this.#toggle(pointed);
     } else return;
@@ -149,7 +145,7 @@ export class Gestures extends ShapeBrush {
   #step([dx, dy]) {
     const { view, scene } = this;
     const from = this.state.get("pointed");
-    const [x, y] = from === null ? [view.width / 2, view.clearHeight / 2] : view.screen(from);
+    const [x, y] = from === null ? [view.width / 2, view.height / 2] : view.screen(from);
     /** @type {[number | null, number]} */
     let [best, least] = [null, Infinity];
     for (let index = 0; index < view.database.count; index += 1) {
@@ -163,7 +159,7 @@ export class Gestures extends ShapeBrush {
     }
     if (best === null) return;
     const [px, py] = view.screen(best);
-    if (px < 0 || py < 0 || px > view.width || py > view.clearHeight) {
+    if (px < 0 || py < 0 || px > view.width || py > view.height) {
       scene.look({ ...scene.camera(), x: scene.x[best], y: scene.y[best] });
     }
     this.state.set({ pointed: best, pointedFrom: view });

@@ -1,10 +1,10 @@
-// Class names on a map, each with the mark of its class before it; where they stand is decided in placement.js.
+// Names of classes on a map, or of other groups, each with its mark before it; where they stand is decided in placement.js.
 
 import { svg } from "../base/dom.js";
 import { shortened } from "../base/words.js";
 import { leaderOf, placeNames } from "./placement.js";
 
-/** @import { Database } from "../database/database.js" */
+/** @import { Naming } from "./coloring.js" */
 /** @import { Mark, Place } from "./placement.js" */
 /** @typedef {Place & { node: Element, mark: Element, line: Element | null }} Label */
 
@@ -27,11 +27,11 @@ export class Labels {
   #widths = new Map();
 
   /**
-   * @param {Database} database
+   * @param {Naming} naming of the groups whose names stand there
    * @param {Element} overlay
    */
-  constructor(database, overlay) {
-    this.database = database;
+  constructor(naming, overlay) {
+    this.naming = naming;
     overlay.append(this.#layer);
   }
 
@@ -55,7 +55,7 @@ export class Labels {
     this.#labels = places.map((place) => {
       const { group, leader } = place;
       const mark = svg("path", {
-        d: this.database.symbol(group),
+        d: this.naming.lookOf(group).symbol,
         transform: `translate(${RADIUS} 0) scale(${RADIUS})`,
       });
       const text = svg("text", { x: INDENT, "dominant-baseline": "central" }, this.#text(group));
@@ -84,7 +84,7 @@ export class Labels {
         top: y + dy - height / 2,
         bottom: y + dy + height / 2,
       };
-      mark.setAttribute("fill", this.database.color(group));
+      mark.setAttribute("fill", this.naming.lookOf(group).color);
       node.setAttribute("transform", `translate(${box.left + PADDING} ${y + dy})`);
       for (const [name, value] of Object.entries(line === null ? {} : leaderOf(box, { x, y })))
         line?.setAttribute(name, `${value}`);
@@ -93,7 +93,7 @@ export class Labels {
 
   /** @param {number} group */
   #text(group) {
-    return shortened(this.database.className(group), LONGEST);
+    return shortened(this.naming.nameOf(group), LONGEST);
   }
 
   /** @param {number} group */

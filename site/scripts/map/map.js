@@ -1,15 +1,32 @@
-// One of the linked maps: a chart, and above it names, rings and the brush.
+// One of the linked maps: marks that a chart draws, or that are drawn here, and above them names, rings and the brush.
 
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
-import { entry } from "../base/entry.js";
+import { classColoring, classNaming, hitColoring } from "./coloring.js";
 import { Dots } from "./dots.js";
 import { Labels } from "./labels.js";
-import { CHOSEN, crowded } from "./scene.js";
+import { animate, CHOSEN, crowded } from "./scene.js";
+import { spread, thinned } from "./spread.js";
 
+/** @import { Coloring } from "./coloring.js" */
 /** @import { Scene } from "./scene.js" */
 
-/** @typedef {"class" | "hit" | "thumbnail"} MapName what its marks tell */
+/** @typedef {"class" | "hit" | "thumbnail" | "color"} MapName what its marks tell; `color` what its reader chose */
+
+/** How long pictures take to go to their new places, in milliseconds. */
+const GLIDE = 240;
+/** Pictures and the rings about them, which do not touch each other. */
+const RIM = 3;
+/** The share of a map that pictures fill when it is shown whole, the smallest that one makes out, and the largest. */
+const FILLED = 0.4;
+const SMALLEST = 36;
+const LARGEST = 110;
+/** The largest when zoomed in. */
+const CLOSEST = 200;
+/** Where pictures stand at their exact places, they may cover each other by half. */
+const EXACT_APART = 0.5;
+/** On a smaller map there is no room for names. */
+const NAMED_WIDTH = 280;
 
 export class MapView {
   width = 0;
@@ -18,24 +35,31 @@ export class MapView {
   /**
    * @param {Scene} scene
    * @param {Found} figure
+   * @param {{ charted?: boolean }} [how] whether a chart draws the marks at rest; a map that is seen first waits for none
    */
-  constructor(scene, figure) {
+  constructor(scene, figure, { charted = true } = {}) {
     this.scene = scene;
     this.database = scene.database;
     this.state = scene.state;
     this.figure = figure;
+    this.charted = charted;
     this.name = /** @type {MapName} */ (figure.dataset.view);
+    /** @type {Coloring | null} what the marks of a map that its reader colours tell */
+    this.chosenColoring = null;
     this.surface = figure.querySelector(".surface");
     this.node = element("div", { class: "chart", "aria-hidden": "true" });
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
-    this.labels = new Labels(this.database, this.overlay);
+    this.labels = new Labels(classNaming(this.database), this.overlay);
     this.ties = this.overlay.insertBefore(svg("path", { class: "ties" }), this.overlay.firstChild);
     this.opened = this.overlay.appendChild(svg("circle", { class: "ring opened" }));
     this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
     this.brush = this.overlay.appendChild(svg("rect", { class: "brush" }));
     this.surface.append(this.node, this.overlay);
-    /** @type {boolean[]} */
+    /** @type {ArrayLike<number>} 1 for a shape that is drawn as a picture */
     this.pictured = [];
+    // How far each picture stands from its place, in sizes of a picture.
+    /** @type {{ x: Float64Array, y: Float64Array }} */
+    this.shift = { x: new Float64Array(this.database.count), y: new Float64Array(this.database.count) };
     /** @type {Map<string, any>} */
     this.sent = new Map();
     this.started = false;
@@ -50,23 +74,34 @@ export class MapView {
     this.measure();
   }
 
-  get large() {
-    return this.figure.dataset.slot === "large";
+  /** Whether a chart draws the marks when they are at rest. */
+  get #onChart() {
+    return this.charted && this.name !== "color" && !crowded(this.database);
+  }
+
+  /**
+   * What the colours of marks say.
+   * @returns {Coloring}
+   */
+  get coloring() {
+    if (this.name === "hit") return hitColoring(this.database, this.database.methods[this.scene.target]);
+    if (this.name === "color" && this.chosenColoring !== null) return this.chosenColoring;
+    return classColoring(this.database);
   }
 
   /** Draw the map with the colours of the theme in use; called again when the theme changes. */
   async start() {
-    if (!crowded(this.database)) await this.#startChart();
+    if (this.#onChart) await this.#startChart();
     this.started = true;
-    performance.mark(`drawn: ${this.name}`);
     this.settle();
+    performance.mark(`drawn: ${this.name}`);
   }
 
   async #startChart() {
     this.vega?.finalize();
     this.vega = null;
     this.sent.clear();
-    const spec = this.database.data.charts[this.name];
+    const spec = this.database.data.charts[/** @type {"class" | "hit" | "thumbnail"} */ (this.name)];
     // Browsers scale SVG pictures down better than canvas does, and many dots are quicker on canvas.
     const renderer = this.name === "thumbnail" ? "svg" : "canvas";
     const vega = await drawChart(this.node, spec, this.database.marks.config, renderer);
@@ -90,38 +125,38 @@ export class MapView {
 
   // Plane and screen
 
-  /** Height of the part that nothing covers. */
-  get clearHeight() {
-    return this.height - (this.large ? this.scene.covered : 0);
-  }
-
   get scale() {
     const { width, height } = this.scene.bounds;
-    const margin = Math.max(this.large ? 36 : 12, this.name === "thumbnail" ? this.#wholeSize / 2 : 0);
+    const margin = Math.max(Math.min(this.width / 14, 36), this.name === "thumbnail" ? this.#wholeSize / 2 + RIM : 0);
     /** @param {number} size */
     const room = (size) => Math.max(size - 2 * margin, 8);
-    return Math.min(room(this.width) / width, room(this.clearHeight) / height) * this.scene.camera().zoom;
+    return Math.min(room(this.width) / width, room(this.height) / height) * this.scene.camera().zoom;
   }
 
-  /** How the plane lies on the screen at this moment, for who wants the places of many shapes. */
+  /** How the plane lies on the screen at this moment. */
   lay() {
     const camera = this.scene.camera();
     const scale = this.scale;
-    return { scale, left: this.width / 2 - camera.x * scale, top: this.clearHeight / 2 + camera.y * scale };
+    return { scale, left: this.width / 2 - camera.x * scale, top: this.height / 2 + camera.y * scale };
+  }
+
+  /**
+   * Where shapes are drawn on the screen, for who wants the places of many.
+   * @returns {(index: number) => number[]}
+   */
+  placing() {
+    const { scale, left, top } = this.lay();
+    const { x, y } = this.scene;
+    const size = this.name === "thumbnail" ? this.pictureSize : 0;
+    return (index) => [
+      left + x[index] * scale + this.shift.x[index] * size,
+      top - y[index] * scale + this.shift.y[index] * size,
+    ];
   }
 
   /** @param {number} index */
   screen(index) {
-    return this.toScreen(this.scene.x[index], this.scene.y[index]);
-  }
-
-  /**
-   * @param {number} x
-   * @param {number} y
-   */
-  toScreen(x, y) {
-    const { scale, left, top } = this.lay();
-    return [left + x * scale, top - y * scale];
+    return this.placing()(index);
   }
 
   /**
@@ -131,13 +166,12 @@ export class MapView {
   toPlane(x, y) {
     const camera = this.scene.camera();
     const scale = this.scale;
-    return [camera.x + (x - this.width / 2) / scale, camera.y - (y - this.clearHeight / 2) / scale];
+    return [camera.x + (x - this.width / 2) / scale, camera.y - (y - this.height / 2) / scale];
   }
 
   get markSize() {
     const many = Math.min(Math.max(42000 / this.scene.present, 26), 150);
-    const size = this.large ? many * Math.min(Math.max(this.width / 800, 0.5), 1) : Math.max(many * 0.22, 9);
-    return size * Math.min(this.scene.camera().zoom, 4) ** 0.5;
+    return many * Math.min(Math.max(this.width / 800, 0.5), 1) * Math.min(this.scene.camera().zoom, 4) ** 0.5;
   }
 
   get markRadius() {
@@ -145,13 +179,13 @@ export class MapView {
   }
 
   get pictureSize() {
-    return Math.min(this.#wholeSize * this.scene.camera().zoom ** 0.5, 180);
+    return Math.min(this.#wholeSize * this.scene.camera().zoom ** 0.6, Math.max(CLOSEST, this.#wholeSize));
   }
 
   /** Size of a picture when the whole map is shown. */
   get #wholeSize() {
-    const room = Math.sqrt((this.width * this.height * 0.7) / this.database.count);
-    return Math.min(Math.max(room, this.large ? Math.min(44, this.width / 11) : 15), this.large ? 110 : 40);
+    const room = Math.sqrt((this.width * this.height * FILLED) / this.database.count);
+    return Math.min(Math.max(room, Math.min(SMALLEST, this.width / 13)), LARGEST);
   }
 
   /**
@@ -161,13 +195,14 @@ export class MapView {
    * @param {number} reach
    */
   at(x, y, reach) {
-    const { scale, left, top } = this.lay();
+    const placeOf = this.placing();
     const [pictureReach, markReach] = [this.pictureSize / 2, this.markRadius + reach];
     /** @type {[number | null, number]} */
     let [best, least] = [null, Infinity];
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
-      const distance = Math.hypot(left + this.scene.x[index] * scale - x, top - this.scene.y[index] * scale - y);
+      const [left, top] = placeOf(index);
+      const distance = Math.hypot(left - x, top - y);
       if (distance <= (this.pictured[index] ? pictureReach : markReach) && distance < least)
         [best, least] = [index, distance];
     }
@@ -182,12 +217,12 @@ export class MapView {
    * @param {number} south
    */
   inside(west, north, east, south) {
-    const { scale, left, top } = this.lay();
+    const placeOf = this.placing();
     /** @type {number[]} */
     const found = [];
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
-      const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
+      const [x, y] = placeOf(index);
       if (x >= west && x <= east && y >= north && y <= south) found.push(index);
     }
     return found;
@@ -197,31 +232,27 @@ export class MapView {
 
   draw() {
     this.drawRings();
-    this.labels.follow((index) => this.screen(index));
-    if (!this.started) return;
-    if (this.scene.moving || crowded(this.database)) this.#drawDots();
-    else if (this.vega) {
+    this.labels.follow(this.placing());
+    if (this.started) this.#drawMarks();
+  }
+
+  #drawMarks() {
+    if (this.scene.moving || !this.#onChart) {
+      this.dots ??= new Dots(this);
+      this.dots.draw();
+    } else if (this.vega) {
       this.#send();
       this.#run();
     }
-  }
-
-  #drawDots() {
-    this.dots ??= new Dots(this);
-    this.dots.draw();
   }
 
   /** After the last of a series of changes: what would be too slow or too restless for every frame. */
   settle() {
     if (!this.started || this.scene.moving) return;
     this.#choosePictures();
-    if (crowded(this.database)) this.#drawDots();
-    else if (this.vega) {
-      this.#send();
-      this.#run();
-    }
+    this.#drawMarks();
     this.drawRings();
-    if (this.large) this.#name();
+    if (this.width >= NAMED_WIDTH) this.#name();
     else this.labels.clear();
   }
 
@@ -264,8 +295,18 @@ export class MapView {
       mark_size: this.markSize,
       unlabelled: this.database.marks.unlabelled,
       outline: this.database.marks.outline,
+      ground: this.database.marks.ground,
     };
-    if (this.name === "thumbnail") Object.assign(values, { pictured: this.pictured, picture_size: this.pictureSize });
+    if (this.name === "thumbnail") {
+      const size = this.pictureSize;
+      Object.assign(values, {
+        pictured: this.pictured,
+        picture_size: size,
+        shift_x: this.shift.x,
+        shift_y: this.shift.y,
+        shift_size: size / this.scale,
+      });
+    }
     for (const [name, value] of Object.entries(values)) {
       const before = this.sent.get(name);
       if (before === value || (name.endsWith("_domain") && before?.[0] === value[0] && before[1] === value[1]))
@@ -297,58 +338,103 @@ export class MapView {
   /** Lines from the opened shape to the neighbours that its NH counts. */
   #drawTies() {
     const index = this.state.get("opened");
-    const shown = this.large && index !== null && this.scene.visible(index);
+    const shown = index !== null && this.scene.visible(index);
     this.ties.classList.toggle("shown", shown);
     if (!shown) return;
-    const from = this.screen(index);
+    const placeOf = this.placing();
+    const from = placeOf(index);
     const near = this.database.neighbours(index, this.scene.target).filter((other) => this.scene.visible(other));
-    this.ties.setAttribute("d", near.map((other) => `M${from}L${this.screen(other)}`).join(""));
+    this.ties.setAttribute("d", near.map((other) => `M${from}L${placeOf(other)}`).join(""));
   }
 
-  /** Which shapes are drawn as pictures: as many as lie apart, chosen ones first; the rest are dots. */
+  /** Which shapes are drawn as pictures, and where: beside each other, or at their places where the reader asks for it. */
   #choosePictures() {
-    if (this.name !== "thumbnail") return;
-    const { emphasis } = this.scene;
-    const apart = this.pictureSize * (this.database.count > MOST_PICTURES ? 0.8 : 0.5);
-    /** @type {Map<number, [number, number][]>} */
-    const taken = new Map();
-    /**
-     * @param {number} column
-     * @param {number} row
-     */
-    const cell = (column, row) => row * 100000 + column;
-    /**
-     * @param {number} x
-     * @param {number} y
-     */
-    const free = (x, y) => {
-      const [column, row] = [Math.floor(x / apart), Math.floor(y / apart)];
-      for (let i = -1; i <= 1; i += 1) {
-        for (let j = -1; j <= 1; j += 1) {
-          for (const [px, py] of taken.get(cell(column + i, row + j)) ?? []) {
-            if (Math.max(Math.abs(px - x), Math.abs(py - y)) < apart) return false;
-          }
-        }
+    const { count } = this.database;
+    const pictured = new Uint8Array(count);
+    const shift = { x: new Float64Array(count), y: new Float64Array(count) };
+    if (this.name === "thumbnail") {
+      const { x, y } = this.scene;
+      const { zoom, ...camera } = this.scene.camera();
+      const [scale, size] = [this.scale, this.pictureSize + RIM];
+      // Beyond what is in view, too: a map that is moved a little shows the same pictures.
+      const [wide, high] = [this.width, this.height].map((room) => room / scale);
+      const rows = this.#scattered().filter(
+        (index) =>
+          this.scene.visible(index) && Math.abs(x[index] - camera.x) < wide && Math.abs(y[index] - camera.y) < high,
+      );
+      const places = [rows.map((index) => x[index] * scale), rows.map((index) => -y[index] * scale)];
+      const { bounds } = this.scene;
+      const [halfWidth, halfHeight] = [(this.width * zoom) / 2, (this.height * zoom) / 2];
+      const frame = {
+        left: bounds.x * scale - halfWidth,
+        right: bounds.x * scale + halfWidth,
+        top: -bounds.y * scale - halfHeight,
+        bottom: -bounds.y * scale + halfHeight,
+      };
+      const found = this.state.get("exact")
+        ? thinned(places[0], places[1], size, EXACT_APART)
+        : spread(places[0], places[1], size, frame);
+      for (const [place, index] of rows.entries()) {
+        pictured[index] = found.pictured[place];
+        shift.x[index] = (found.x[place] - places[0][place]) / this.pictureSize;
+        shift.y[index] = (found.y[place] - places[1][place]) / this.pictureSize;
       }
-      entry(taken, cell(column, row), () => []).push([x, y]);
-      return true;
-    };
-    const half = this.pictureSize / 2;
-    const { scale, left, top } = this.lay();
-    const pictured = new Array(this.database.count).fill(false);
-    let room = MOST_PICTURES;
-    for (const chosen of [true, false]) {
-      for (const index of this.#scattered()) {
-        if (room === 0) break;
-        if (!this.scene.visible(index) || (emphasis[index] === CHOSEN) !== chosen) continue;
-        const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
-        if (x < -half || y < -half || x > this.width + half || y > this.height + half || !free(x, y)) continue;
-        pictured[index] = true;
-        room -= 1;
-      }
+      this.#addChosen(rows, places, pictured);
     }
-    if (pictured.some((value, index) => value !== this.pictured[index])) this.pictured = pictured;
+    this.pictured = pictured;
+    this.#glide(shift);
   }
+
+  /**
+   * Pictures of what stands out, too, at their places: what they may cover is faint, and nothing else moves for them.
+   * @param {number[]} rows
+   * @param {number[][]} places
+   * @param {Uint8Array} pictured
+   */
+  #addChosen(rows, [x, y], pictured) {
+    const chosen = [...rows.keys()].filter((place) => this.scene.emphasis[rows[place]] === CHOSEN);
+    const inOrder = [
+      ...chosen.filter((place) => pictured[rows[place]]),
+      ...chosen.filter((place) => !pictured[rows[place]]),
+    ];
+    const found = thinned(
+      inOrder.map((place) => x[place]),
+      inOrder.map((place) => y[place]),
+      this.pictureSize,
+      EXACT_APART,
+    );
+    for (const [number, place] of inOrder.entries()) if (found.pictured[number]) pictured[rows[place]] = 1;
+  }
+
+  /**
+   * Let pictures go to where they now stand.
+   * @param {{ x: Float64Array, y: Float64Array }} goal
+   */
+  #glide(goal) {
+    this.#gliding?.abort();
+    const from = this.shift;
+    const still = goal.x.every((value, index) => value === from.x[index] && goal.y[index] === from.y[index]);
+    if (still) return;
+    if (this.dots === null || this.#onChart) {
+      this.shift = goal;
+      return;
+    }
+    this.#gliding = new AbortController();
+    animate(GLIDE, this.#gliding.signal, (share) => {
+      const rest = (1 - share) ** 3;
+      /**
+       * @param {Float64Array} to
+       * @param {Float64Array} before
+       */
+      const mix = (to, before) => to.map((value, index) => value + rest * (before[index] - value));
+      this.shift = rest === 0 ? goal : { x: mix(goal.x, from.x), y: mix(goal.y, from.y) };
+      this.draw();
+      if (rest === 0) this.#name();
+    });
+  }
+
+  /** @type {AbortController | null} */
+  #gliding = null;
 
   /** All shapes in an order that favours no class and is always the same, so that pictures stay when others come. */
   #scattered() {
@@ -357,26 +443,21 @@ export class MapView {
   }
 
   #name() {
-    const { scale, left, top } = this.lay();
+    const placeOf = this.placing();
+    const naming = this.coloring.naming ?? classNaming(this.database);
+    this.labels.naming = naming;
     const points = [];
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
-      const [x, y] = [left + this.scene.x[index] * scale, top - this.scene.y[index] * scale];
-      if (x < 0 || y < 0 || x > this.width || y > this.clearHeight) continue;
-      points.push({ index, group: this.database.groups[index], x, y });
+      const [x, y] = placeOf(index);
+      if (x < 0 || y < 0 || x > this.width || y > this.height) continue;
+      points.push({ index, group: naming.groupOf(index), x, y });
     }
-    this.labels.place(
-      points,
-      this.width,
-      this.clearHeight,
-      this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius,
-    );
-    this.labels.follow((index) => this.screen(index));
+    const radius = this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius;
+    this.labels.place(points, this.width, this.height, radius);
+    this.labels.follow(placeOf);
   }
 }
-
-/** More pictures than this make a map slow, and none of them readable. */
-const MOST_PICTURES = 500;
 
 /** @param {number} index */
 function scatter(index) {

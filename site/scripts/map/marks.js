@@ -68,13 +68,21 @@ export class Marks {
     );
   }
 
+  /**
+   * Make all that was laid fainter, as one layer: marks that lie on each other are then no darker than one.
+   * @param {number} opacity
+   */
+  fade(opacity) {
+    const { data } = /** @type {ImageData} */ (this.sheet);
+    for (let alpha = 3; alpha < data.length; alpha += 4) data[alpha] *= opacity;
+  }
+
   /** Show what was laid. What follows is drawn above it. */
   show() {
     this.pen.resetTransform();
     this.pen.putImageData(/** @type {ImageData} */ (this.sheet), 0, 0);
     this.sheet = null;
     this.pen.scale(this.density, this.density);
-    this.pen.imageSmoothingQuality = "high";
   }
 
   /**
@@ -106,18 +114,6 @@ export class Marks {
       pen.lineTo(other[0], other[1]);
     }
     pen.stroke();
-  }
-
-  /**
-   * A picture in the place of a mark.
-   * @param {HTMLImageElement} image
-   * @param {number[]} place
-   * @param {number} side
-   * @param {number} opacity
-   */
-  picture(image, [x, y], side, opacity) {
-    this.pen.globalAlpha = opacity;
-    this.pen.drawImage(image, x - side / 2, y - side / 2, side, side);
   }
 }
 

@@ -31,6 +31,8 @@ const WAYS = Array.from({ length: 20 }, (_, step) => {
   return [Math.cos(angle), Math.sin(angle)];
 });
 const STEP = 5;
+/** The radius of marks from which there is something to see on them. */
+const LARGE = 6;
 /** The longest way from the anchor, beside the class and with a line. */
 const BESIDE = 130;
 const LED = 190;
@@ -161,8 +163,8 @@ function best(anchors, group, size, field, taken, radius) {
         if (others <= radius / 2) continue;
         const own = field.gap(candidate.box, SIGHT, (of) => of === group);
         if (way <= BESIDE && own < SIGHT) {
-          // Better a little farther than over marks of its own.
-          const cost = way + (own > 0 ? 0 : 12 + 4 * field.covered(candidate.box));
+          // Better a little farther than over marks of its own, and much farther than over its pictures.
+          const cost = way + (own > 0 ? 0 : 12 + 4 * (field.covered(candidate.box) + Math.max(radius - LARGE, 0)));
           if (cost < least && field.gap(candidate.box, own + CLEARLY, (of) => of !== group) > own + CLEARLY)
             [beside, least] = [candidate, cost];
         }

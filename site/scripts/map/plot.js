@@ -151,12 +151,15 @@ export class Plot {
     /** @param {number} index */
     const faded = (index) => chosen.size > 0 && !chosen.has(index);
     marks.begin(width, height);
-    for (const below of [true, false]) {
+    /** @param {number} index */
+    const layer = (index) => (faded(index) ? 0 : this.first(index) ? 1 : 2);
+    for (const now of [0, 1, 2]) {
       for (let index = 0; index < database.count; index += 1) {
-        if (Number.isNaN(map.x[index]) || (this.first(index) || faded(index)) !== below) continue;
+        if (Number.isNaN(map.x[index]) || layer(index) !== now) continue;
         const { path, color, radius, alpha } = this.mark(index);
-        marks.lay(marks.stamp(path, color, radius, outline), this.screen(index), faded(index) ? FADED : alpha);
+        marks.lay(marks.stamp(path, color, radius, outline), this.screen(index), now === 0 ? 1 : alpha);
       }
+      if (now === 0 && chosen.size > 0) marks.fade(FADED);
     }
     marks.show();
     this.drawn(marks);

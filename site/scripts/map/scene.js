@@ -19,6 +19,7 @@ import { calm, coarse } from "../base/dom.js";
  * @property {number} method the map that is shown
  * @property {Set<number>} hidden classes
  * @property {Set<number>} selection
+ * @property {boolean} [exact] whether pictures stand at their exact places
  * @property {Set<number> | null} matches shapes that a search finds
  * @property {number | null} opened
  * @property {number | null} pointed
@@ -28,7 +29,6 @@ import { calm, coarse } from "../base/dom.js";
  */
 
 const DURATION = 650;
-const COVER_DURATION = 180;
 const LARGEST_ZOOM = 40;
 const CROWD = 1500;
 
@@ -80,23 +80,23 @@ export class Scene {
     this.moving = false;
     /** @type {MapView[]} */
     this.views = [];
-    this.covered = 0;
     this.weigh();
     state.listen((changed) => {
       if (changed.has("method")) this.#travel(state.get("method"));
       if (["hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.weigh();
-      if ([camera, "hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.draw();
+      if ([camera, "hidden", "selection", "matches", "pointedGroup", "exact"].some((name) => changed.has(name)))
+        this.draw();
       else if (changed.has("pointed") || changed.has("opened")) for (const view of this.views) view.drawRings();
     });
   }
 
-  /** Draw all maps with the next frame; small ones of a crowd with every fourth, and when all is still. */
+  /** Draw all maps with the next frame; of a crowd the first, and the others with every fourth and when all is still. */
   draw() {
     this.#frame ??= requestAnimationFrame(() => {
       this.#frame = null;
       this.#frames += 1;
       const few = crowded(this.database) && this.#frames % 4 > 0;
-      for (const view of this.views) if (view.large || !few) view.draw();
+      for (const view of few ? this.views.slice(0, 1) : this.views) view.draw();
     });
     clearTimeout(this.#settling);
     this.#settling = setTimeout(() => this.#settle(), 160);
@@ -108,9 +108,9 @@ export class Scene {
   /** @type {number | undefined} */
   #settling;
 
-  /** The large map first, each in a frame of its own, so that no frame takes long. */
+  /** One map after the other, each in a frame of its own, so that no frame takes long. */
   #settle() {
-    const views = [...this.views].sort((a, b) => Number(b.large) - Number(a.large));
+    const views = [...this.views];
     const next = () => {
       views.shift()?.settle();
       if (views.length > 0) this.#settling = setTimeout(next, 0);
@@ -123,23 +123,6 @@ export class Scene {
     return this.emphasis[index] > HIDDEN;
   }
 
-  /**
-   * Keep the large map clear of `height` pixels at its bottom, where the tray lies; the map makes room, it does not jump.
-   * @param {number} height
-   */
-  cover(height) {
-    this.#uncover?.abort();
-    this.#uncover = new AbortController();
-    const { signal } = this.#uncover;
-    const from = this.covered;
-    animate(COVER_DURATION, signal, (progress) => {
-      this.covered = from + eased(progress) * (height - from);
-      this.draw();
-    });
-  }
-
-  /** @type {AbortController | null} */
-  #uncover = null;
   /** @type {AbortController | null} */
   #voyage = null;
 
@@ -174,6 +157,7 @@ export class Scene {
         this.state.set({ [this.cameraName]: linear < 1 ? view : null });
       }
       this.draw();
+      if (linear === 1) this.#settle();
     });
   }
 
@@ -241,7 +225,7 @@ export class Scene {
  * @param {AbortSignal} signal
  * @param {(share: number) => void} step
  */
-function animate(duration, signal, step) {
+export function animate(duration, signal, step) {
   const started = performance.now();
   const frame = () => {
     if (signal.aborted) return;

@@ -1,8 +1,8 @@
-// Trusted Types: no text can become markup on these pages, and no script but the site's own data can be added.
+// Trusted Types: no text can become markup on these pages, and no script but the site's own can be added.
 
 import { chunk } from "../base/chunks.js";
 
-const OWN_DATA = /^(assets\/chunk-[a-z-]+\.js\?[0-9a-f]{8}|models\/[0-9a-f]{20}\.js)$/;
+const OWN = /^(assets\/(chunk-[a-z-]+|vega)\.js\?[0-9a-f]{8}|models\/[0-9a-f]{20}\.js)$/;
 
 /** The address of the one worker that is being started at this moment. */
 /** @type {string | null} */
@@ -13,8 +13,7 @@ export function trustOnlyOurselves() {
   window.trustedTypes.createPolicy("default", {
     // Vega empties its container by assigning an empty string.
     createHTML: (/** @type {string} */ text) => (text === "" ? "" : null),
-    createScriptURL: (/** @type {string} */ address) =>
-      OWN_DATA.test(address) || address === starting ? address : null,
+    createScriptURL: (/** @type {string} */ address) => (OWN.test(address) || address === starting ? address : null),
   });
 }
 

@@ -1,7 +1,7 @@
-// The classes: a legend that filters, a bar of NH for each, and in words what the map as a whole reaches.
+// The classes: a legend that filters; and how good the map is, for who asks: in words, and by a bar of NH for each.
 
 import { drawChart } from "../base/chart.js";
-import { element, focused, swatch } from "../base/dom.js";
+import { element, focused, swatch, watchSize } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 
@@ -19,9 +19,14 @@ export class ClassList {
     this.list = document.getElementById("legend");
     this.node = document.getElementById("bars");
     this.all = document.getElementById("show-all");
+    this.asked = document.getElementById("how-good");
+    this.asked.open = this.#asksItself;
+    this.asked.addEventListener("toggle", () => this.start());
     this.all.addEventListener("click", () => state.set({ hidden: new Set() }));
     this.list.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
+    watchSize([this.node], () => this.#mark());
     state.listen((changed) => {
+      if (changed.has("view") && this.#asksItself) this.asked.open = true;
       if (changed.has("method")) this.render();
       else if (changed.has("hidden")) this.#mark();
     });
@@ -30,12 +35,19 @@ export class ClassList {
   /** @type {Map<number, HTMLButtonElement>} */
   buttons = new Map();
 
+  /** Whether the maps in view are about how good they are. */
+  get #asksItself() {
+    return ["hit", "three"].includes(this.state.get("view"));
+  }
+
+  /** Draw the bars, where they are asked for, in the colours of the theme in use. */
   async start() {
     this.vega?.finalize();
     this.vega = null;
-    if (this.database.labelled) {
+    const rated = this.asked.open && this.database.labelled;
+    this.list.parentElement.parentElement.toggleAttribute("data-rated", rated);
+    if (rated)
       this.vega = await drawChart(this.node, this.database.data.charts.bars, this.database.marks.config, "svg");
-    }
     this.render();
   }
 
@@ -102,7 +114,7 @@ export class ClassList {
     const hidden = this.state.get("hidden");
     for (const [group, button] of this.buttons) button.setAttribute("aria-pressed", String(!hidden.has(group)));
     this.all.hidden = hidden.size === 0;
-    if (!this.vega) return;
+    if (!this.vega || !this.asked.open) return;
     const method = this.database.methods[this.state.get("method")];
     const { hitOfClass, chance } = method;
     const { highestOfClass } = rangeOf(this.database, method);
@@ -116,10 +128,6 @@ export class ClassList {
     this.vega.width(this.node.clientWidth).height(height);
     this.vega.signal("chance", chance ?? -1).signal("ink", this.database.marks.ink);
     this.vega.data("classes", rows).runAsync();
-  }
-
-  resize() {
-    if (this.buttons.size > 0) this.#mark();
   }
 
   /**

@@ -1,22 +1,22 @@
 // The controls of the maps, and their keys.
 
+import { VIEWS } from "../addresses/overview.js";
 import { coarse } from "../base/dom.js";
-import { VIEWS } from "./arrangement.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
-/** @import { Gestures } from "../map/gestures.js" */
-
-/** @typedef {Map<string, Gestures>} AllGestures by the names of their maps */
+/** @import { OverviewMaps } from "./maps.js" */
 
 /**
  * @param {Database} database
  * @param {OverviewState} state
- * @param {AllGestures} gestures
+ * @param {OverviewMaps} maps
  */
-export function watchControls(database, state, gestures) {
+export function watchControls(database, state, maps) {
   const methods = document.getElementById("methods");
   const drag = document.getElementById("drag");
+  const views = document.getElementById("views");
+  const exact = document.getElementById("exact");
   /**
    * @param {Found} group
    * @param {string} value
@@ -27,21 +27,25 @@ export function watchControls(database, state, gestures) {
   const show = () => {
     check(methods, database.methods[database.methods[state.get("method")].base].key);
     check(drag, state.get("drag"));
+    check(views, state.get("view"));
+    exact.checked = state.get("exact");
     document.body.dataset.drag = state.get("drag");
     document.body.toggleAttribute("data-zoomed", state.get("camera") !== null);
   };
   methods.addEventListener("change", (event) => {
     state.set({ method: database.methods.findIndex(({ key }) => key === event.target.value) });
   });
+  views.addEventListener("change", (event) => state.set({ view: event.target.value }));
+  exact.addEventListener("change", () => state.set({ exact: exact.checked }));
   drag.addEventListener("change", (event) => state.set({ drag: event.target.value }));
   for (const button of document.querySelectorAll("[data-zoom]")) {
-    button.addEventListener("click", () => zoom(button.dataset.zoom ?? "", state, gestures));
+    button.addEventListener("click", () => zoom(button.dataset.zoom ?? "", state, maps));
   }
   for (const button of document.querySelectorAll(".promote")) {
     button.addEventListener("click", () => state.set({ view: button.dataset.view }));
   }
   state.listen((changed) => {
-    if (changed.has("method") || changed.has("drag") || changed.has("camera")) show();
+    if (["method", "drag", "camera", "view", "exact"].some((name) => changed.has(name))) show();
   });
   show();
 }
@@ -49,18 +53,18 @@ export function watchControls(database, state, gestures) {
 /**
  * @param {string} how
  * @param {OverviewState} state
- * @param {AllGestures} gestures
+ * @param {OverviewMaps} maps
  */
-function zoom(how, state, gestures) {
+function zoom(how, state, maps) {
   if (how === "fit") state.set({ camera: null });
-  else gestures.get(state.get("view"))?.zoom(how === "in" ? 1.5 : 1 / 1.5);
+  else maps.gestures.get(maps.large)?.zoom(how === "in" ? 1.5 : 1 / 1.5);
 }
 
 /**
  * @param {OverviewState} state
- * @param {AllGestures} gestures
+ * @param {OverviewMaps} maps
  */
-export function watchKeys(state, gestures) {
+export function watchKeys(state, maps) {
   /** @type {Record<string, string>} */
   const zooms = { "+": "in", "=": "in", "-": "out", 0: "fit" };
   document.addEventListener("keydown", (event) => {
@@ -71,8 +75,8 @@ export function watchKeys(state, gestures) {
       return;
     }
     if (event.target instanceof HTMLInputElement && event.target.type === "search") return;
-    if (["1", "2", "3"].includes(event.key)) state.set({ view: VIEWS[Number(event.key) - 1] });
-    else if (event.key in zooms) zoom(zooms[event.key], state, gestures);
+    if (event.key >= "1" && event.key <= String(VIEWS.length)) state.set({ view: VIEWS[Number(event.key) - 1] });
+    else if (event.key in zooms) zoom(zooms[event.key], state, maps);
     else if (event.key === "/") document.getElementById("search").focus();
     else return;
     event.preventDefault();

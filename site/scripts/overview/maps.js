@@ -1,16 +1,26 @@
-// The three linked maps: one in the large place, the other two beside it.
+// The maps of the Overview: one that is seen first, and drawn at once; and the three of the paper (Fig. 2), in charts, two of
+// them beside it where the window is wide, or all of them in its place.
 
 import { watchSize } from "../base/dom.js";
 import { Gestures } from "../map/gestures.js";
 import { MapView } from "../map/map.js";
 import { Scene } from "../map/scene.js";
-import { arrange, swap, VIEWS } from "./arrangement.js";
 import { tellReading } from "./readings.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { MapName } from "../map/map.js" */
 
-export class LinkedMaps {
+/** In the order in which they stand beside another. */
+const LINKED = ["class", "hit", "thumbnail"];
+
+/** Where there is room for two maps beside the one, as styles/tokens.css has it. */
+const wide = window.matchMedia("(width >= 1600px) and (height >= 560px)");
+
+export class OverviewMaps {
+  /** @type {Map<string, MapView>} those of the paper that were shown */
+  #linked = new Map();
+
   /**
    * @param {Database} database
    * @param {OverviewState} state
@@ -19,53 +29,108 @@ export class LinkedMaps {
   constructor(database, state, announce) {
     this.database = database;
     this.state = state;
+    this.announce = announce;
     this.scene = new Scene(database, state);
-    this.figures = new Map([...document.querySelectorAll("figure.map")].map((node) => [node.dataset.view ?? "", node]));
-    arrange(this.figures, state.get("view"));
-    /** @param {string} name */
-    const viewOf = (name) => new MapView(this.scene, /** @type {Found} */ (this.figures.get(name)));
-    this.views = new Map(VIEWS.map((name) => [name, viewOf(name)]));
-    this.scene.views = [...this.views.values()];
-    /** @type {ConstructorParameters<typeof Gestures>[1]} */
-    const does = {
-      open: (opened) => state.set({ opened }),
-      promote: (view) => state.set({ view }),
-      /** @param {number} index */
-      announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
-    };
-    this.gestures = new Map([...this.views].map(([name, view]) => [name, new Gestures(view, does)]));
+    const figures = [...document.querySelectorAll("figure.linked")];
+    this.figures = new Map(figures.map((figure) => [figure.dataset.view ?? "", figure]));
+    this.figure = document.querySelector("figure[data-slot=large]");
+    this.figure.dataset.view = this.#name;
+    this.main = new MapView(this.scene, this.figure, { charted: false });
+    /** @type {Map<MapView, Gestures>} */
+    this.gestures = new Map();
+    this.#watch(this.main);
+    this.#arrange();
     state.listen((changed) => {
-      if (changed.has("view")) swap(this.figures, state.get("view"), this.scene);
+      if (changed.has("view")) this.#show();
       if (changed.has("method")) this.#tellReadings();
     });
-    this.#tellReadings();
+    wide.addEventListener("change", () => this.start());
+  }
+
+  /** What the one map shows; it keeps to pictures while the three stand in its place. */
+  get #name() {
+    const view = this.state.get("view");
+    return /** @type {MapName} */ (view === "three" ? "thumbnail" : view);
+  }
+
+  /** The names of those of the paper that are shown. */
+  get #beside() {
+    const view = this.state.get("view");
+    if (view === "three") return LINKED;
+    return wide.matches && this.database.labelled ? LINKED.filter((name) => name !== view).slice(0, 2) : [];
   }
 
   /**
-   * The map in the large place.
+   * The map that has the room.
    * @returns {MapView}
    */
   get large() {
-    return /** @type {MapView} */ (this.views.get(this.state.get("view")));
+    return this.scene.views[0];
   }
 
+  /** Draw what is not drawn yet. */
   async start() {
-    for (const view of this.scene.views) if (!view.large) await view.start();
-    watchSize(
-      this.scene.views.map(({ surface }) => surface),
-      () => {
-        for (const view of this.scene.views) view.resize();
-      },
-    );
+    this.#arrange();
+    for (const view of this.scene.views) {
+      view.measure();
+      if (view.started) view.settle();
+      else await view.start();
+    }
   }
 
   /** Draw all in the colours of the theme in use. */
   redraw() {
-    for (const view of this.scene.views) view.start();
+    for (const view of this.#linked.values()) view.started = false;
+    this.main.settle();
+    this.#tellReadings();
+    this.start();
+  }
+
+  #show() {
+    this.main.name = this.#name;
+    this.figure.dataset.view = this.#name;
+    this.start();
+  }
+
+  /** Which figures are there, and how the page is laid out for them. */
+  #arrange() {
+    const beside = this.#beside;
+    const three = this.state.get("view") === "three";
+    const page = document.getElementById("content");
+    page.toggleAttribute("data-three", three);
+    page.toggleAttribute("data-beside", !three && beside.length > 0);
+    this.figure.hidden = three;
+    for (const [name, figure] of this.figures) figure.hidden = !beside.includes(name);
+    const views = beside.map((name) => this.#view(name));
+    this.scene.views = three ? views : [this.main, ...views];
     this.#tellReadings();
   }
 
+  /** @param {string} name */
+  #view(name) {
+    const known = this.#linked.get(name);
+    if (known) return known;
+    const view = new MapView(this.scene, /** @type {Found} */ (this.figures.get(name)));
+    this.#linked.set(name, view);
+    this.#watch(view);
+    return view;
+  }
+
+  /** @param {MapView} view */
+  #watch(view) {
+    const { database, state, announce } = this;
+    const gestures = new Gestures(view, {
+      open: (opened) => state.set({ opened }),
+      announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
+    });
+    this.gestures.set(view, gestures);
+    watchSize([view.surface], () => {
+      if (this.scene.views.includes(view)) view.resize();
+    });
+  }
+
   #tellReadings() {
-    for (const figure of this.figures.values()) tellReading(figure, this.database, this.state);
+    for (const figure of [this.figure, ...this.figures.values()])
+      if (!figure.hidden) tellReading(figure, this.database, this.state);
   }
 }

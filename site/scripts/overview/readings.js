@@ -24,7 +24,7 @@ export function tellReading(figure, database, state) {
 function reading(name, database, state) {
   const method = database.methods[state.get("method")];
   if (name === "class") return [method.note];
-  if (name === "thumbnail") return ["Dots are shapes whose picture would cover another: zoom in to see them."];
+  if (name === "thumbnail") return [method.note, " Zoom in to see pictures of the dots."];
   if (!database.labelled) return ["Without labels there is no neighbourhood hit."];
   const scale = element("span", { class: "ramp", role: "img", "aria-label": "from red to yellow" });
   scale.style.background = `linear-gradient(to right, ${database.marks.hit.join(", ")})`;

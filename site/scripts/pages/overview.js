@@ -1,8 +1,7 @@
-// The Overview: three linked maps, the classes, the tray, the card and the panel of one shape.
+// The Overview: the map of all shapes, the linked maps, the classes, the tray, the card and the panel of one shape.
 
 import { overviewAddress } from "../addresses/overview.js";
 import { chunk } from "../base/chunks.js";
-import { watchSize } from "../base/dom.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
@@ -16,7 +15,7 @@ import { trayHint, watchControls, watchKeys } from "../overview/controls.js";
 import { Detail } from "../overview/detail.js";
 import { addressedMap, FeatureChoice } from "../overview/feature-choice.js";
 import { watchIntroduction } from "../overview/introduction.js";
-import { LinkedMaps } from "../overview/maps.js";
+import { OverviewMaps } from "../overview/maps.js";
 import { carrySelection } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
@@ -27,8 +26,7 @@ async function main() {
     settle: (found) => addressedMap(database, found),
     values: { ...NOTHING_POINTED, ...dragging(), matches: null },
   });
-  const maps = new LinkedMaps(database, state, announce);
-  const { scene, gestures } = maps;
+  const maps = new OverviewMaps(database, state, announce);
   // Pictures beside the map point at their shape on it.
   /** @param {number | null} pointed */
   const point = (pointed) => state.set({ pointed, pointedFrom: maps.large });
@@ -40,20 +38,18 @@ async function main() {
     open: (opened) => state.set({ opened }),
     point,
     hint: trayHint(),
-    cover: (height) => scene.cover(height),
   });
   carrySelection(database, state);
   watchTables(() => mapTables(database, state));
   if (database.data.subsets) new FeatureChoice(database, state);
   watchIntroduction();
-  watchControls(database, state, gestures);
-  watchKeys(state, gestures);
+  watchControls(database, state, maps);
+  watchKeys(state, maps);
 
   // What is seen first is drawn first.
-  await maps.large.start();
-  await classes.start();
+  classes.render();
   await maps.start();
-  watchSize([classes.node], () => classes.resize());
+  await classes.start();
   if (state.get("query") !== "") await search.run();
   if (state.get("opened") !== null) await detail.show();
   ready({

@@ -24,22 +24,19 @@ export class Tray {
    * @param {(index: number) => void} options.open is called with the shape whose picture is clicked
    * @param {(index: number | null) => void} [options.point] with the one under the pointer
    * @param {Child} [options.hint] said while nothing is selected; without one the tray is then not there
-   * @param {(height: number) => void} [options.cover] is told how many pixels of what is above it the tray covers
    */
-  constructor(database, state, { open, point = () => {}, hint = null, cover = () => {} }) {
+  constructor(database, state, { open, point = () => {}, hint = null }) {
     this.database = database;
     this.state = state;
     this.open = open;
     this.point = point;
     this.hint = hint;
-    this.cover = cover;
     this.node = document.getElementById("tray");
     this.here = document.body.className;
     state.listen((changed) => {
       if (["selection", "brushing", "theme"].some((name) => changed.has(name))) this.#fillSoon();
       if (changed.has("opened")) this.#markOpened();
     });
-    this.overlap = 0;
     this.#fill();
   }
 
@@ -63,10 +60,6 @@ export class Tray {
     if (selection.size === 0) this.node.replaceChildren(element("p", { class: "hint" }, this.hint ?? ""));
     else if (!unfolded) this.node.replaceChildren(this.#head(selection));
     else this.node.replaceChildren(this.#head(selection), this.#strip(this.#sorted(selection)));
-    const overlap = unfolded ? Math.max(-parseFloat(getComputedStyle(this.node).marginTop), 0) : 0;
-    if (overlap !== this.overlap) this.cover(overlap);
-    this.overlap = overlap;
-    this.node.parentElement.style.setProperty("--covered", `${overlap}px`);
     this.#markOpened();
   }
 

@@ -38,7 +38,6 @@ export class WorkMaps {
     /** @type {ConstructorParameters<typeof Gestures>[1]} */
     const does = {
       open: (shape) => this.toggle(shape),
-      promote: () => {},
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
     };
     this.gestures = new Map(this.views.map((view) => [view.surface, new Gestures(view, does)]));

@@ -147,8 +147,8 @@ def test_keys_go_through_a_map_and_select(visit):
     window.press("ArrowRight", " ")
     named(window, 1)
     window.press("3")
-    window.until("() => document.querySelector('figure[data-slot=large]').dataset.view === 'thumbnail'")
-    addressed(window, "view=thumbnail")
+    window.until("() => document.querySelector('figure[data-slot=large]').dataset.view === 'hit'")
+    addressed(window, "view=hit")
 
 
 def test_the_wheel_zooms_about_the_pointer(visit):

@@ -30,10 +30,11 @@ def spec(chart, name, rows, class_count=2, **parameters) -> dict:
     return value
 
 
-def pixels(chart, **parameters) -> np.ndarray:
-    """The map as an image: 600 x 600, white ground."""
+def pixels(chart, rows=ROWS, **parameters) -> np.ndarray:
+    """The map as an image: 600 x 600, white ground, as opaque as a page."""
     settings = {"emphasis": [2, 2, 2], "mark_size": 900, "unlabelled": LIGHT.unlabelled, **parameters}
-    png = vl_convert.vegalite_to_png(json.dumps(spec(chart, "shapes", ROWS, **settings)))
+    page = {**spec(chart, "shapes", rows, **settings), "background": "white"}
+    png = vl_convert.vegalite_to_png(json.dumps(page))
     image = Image.open(io.BytesIO(png)).convert("RGBA")
     white = Image.new("RGBA", image.size, "white")
     return np.asarray(Image.alpha_composite(white, image).convert("RGB"))
@@ -96,6 +97,18 @@ def test_emphasis_hides_and_fades():
     assert near(color_at(image, 0.0, -0.5), LIGHT.unlabelled)
 
 
+def test_what_lies_on_each_other_is_as_faint_as_one():
+    row = {"group": 0, "x": [0.0, 0.0], "y": [0.0, 0.0], "hit": [1.0, 1.0], "picture": "a.webp"}
+    one, three = (
+        color_at(
+            pixels(charts.class_map(2), rows=[row | {"index": i} for i in range(n)], emphasis=[1] * n), 0, 0
+        )
+        for n in (1, 3)
+    )
+    assert near(one, three)
+    assert one != "#ffffff"
+
+
 @pytest.mark.parametrize("class_count", [0, 1, 45])
 def test_class_map_is_valid_for_any_number_of_classes(class_count):
     chart = charts.class_map(class_count)
@@ -114,7 +127,8 @@ def test_thumbnail_map_draws_pictures_where_asked_and_dots_elsewhere():
     )
     vega = vl_convert.vegalite_to_vega(json.dumps(value))
     marks = {mark["type"] for mark in vega["marks"]}
-    assert marks == {"symbol", "image"}
+    # The rectangle is what makes marks faint.
+    assert marks == {"symbol", "image", "rect"}
     svg = vl_convert.vegalite_to_svg(json.dumps(value), allowed_base_urls=[])
     assert len(re.findall(r"<image", svg)) == 1
     assert len(re.findall(r'aria-roledescription="circle"', svg)) == 1
