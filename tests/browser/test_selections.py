@@ -277,3 +277,194 @@ def test_without_labels_the_tray_says_no_classes(open_page):
     page = open_page("no labels", "workbench.html#select=class000%2F0001")
     assert named(page) == ["shape 1"]
     assert page.locator("#tray .census").count() == 0
+
+
+LARGE = MAPS["index.html"]
+LEFT_HALF = [(0.02, 0.02), (0.5, 0.02), (0.5, 0.98), (0.02, 0.98)]
+UPPER_LEFT = [(0.02, 0.02), (0.98, 0.02), (0.02, 0.98)]
+
+
+def draw(page, places, selector=LARGE, *, keys=()) -> None:
+    """Drag along places of a map, given in shares of its size, with keys held down."""
+    box = page.locator(selector).bounding_box()
+    (x, y), *rest = [(box["x"] + box["width"] * x, box["y"] + box["height"] * y) for x, y in places]
+    for key in keys:
+        page.keyboard.down(key)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for x, y in rest:
+        page.mouse.move(x, y, steps=4)
+    page.mouse.up()
+    for key in keys:
+        page.keyboard.up(key)
+
+
+def where_all_is(page) -> list[str]:
+    """Where names and the chart are: what would tell that the map has moved."""
+    return page.evaluate(
+        """() => [...document.querySelectorAll("figure[data-slot=large] .labels > g")]
+            .map((name) => name.getAttribute("transform"))"""
+    )
+
+
+def on_a_shape(page, selector=LARGE) -> tuple[float, float]:
+    """A place of the screen that is on a shape."""
+    box = page.locator(selector).bounding_box()
+    for share in range(4, 97):
+        x, y = box["x"] + box["width"] * share / 100, box["y"] + box["height"] * 0.5
+        page.mouse.move(x, y)
+        if page.locator(f"{selector}.on-shape").count():
+            return x, y
+    raise AssertionError("no shape on the line")
+
+
+def test_a_lasso_selects_what_it_goes_round_and_the_map_stays_where_it_is(open_page):
+    page = open_page("workbench", "index.html")
+    page.wait_for_selector(f"{LARGE} .labels > g")
+    before = where_all_is(page)
+    draw(page, UPPER_LEFT, keys=["Control"])
+    by_key = named(page)
+    page.click("#drag label:has-text('Lasso')")
+    draw(page, UPPER_LEFT)
+    assert named(page) == by_key
+    assert 0 < counted(page) < 80
+    page.click("#drag label:has-text('Box')")
+    draw(page, [(0.02, 0.02), (0.98, 0.98)])
+    assert set(by_key) < set(named(page))
+    page.wait_for_timeout(400)
+    assert where_all_is(page) == before
+
+
+@pytest.mark.parametrize("file", MAPS)
+@pytest.mark.parametrize("kind", ["box", "lasso"])
+def test_shift_adds_an_area_and_alt_takes_it_away(open_page, file, kind):
+    page = open_page(SITE_OF.get(file, "workbench"), file)
+    selector = MAPS[file]
+    page.locator(selector).scroll_into_view_if_needed()
+    own = ["Control"] if kind == "lasso" else []
+    left = [(0.01, 0.01), (0.5, 0.01), (0.5, 0.99), (0.01, 0.99)]
+    right = [(0.5, 0.01), (0.99, 0.01), (0.99, 0.99), (0.5, 0.99)]
+    if kind == "box":
+        left, right = left[::2], [right[0], right[2]]
+    draw(page, left, selector, keys=own)
+    at_left = counted(page)
+    draw(page, right, selector, keys=own)
+    at_right = counted(page)
+    assert at_left > 0
+    assert at_right > 0
+    draw(page, left, selector, keys=[*own, "Shift"])
+    everyone = counted(page)
+    assert everyone > max(at_left, at_right)
+    draw(page, left, selector, keys=[*own, "Alt"])
+    assert counted(page) == everyone - at_left
+
+
+@pytest.mark.parametrize("file", ["index.html", "bins.html"])
+def test_a_click_with_alt_takes_a_shape_out_and_one_beside_all_does_nothing(open_page, file):
+    page = open_page(SITE_OF.get(file, "workbench"), file)
+    selector = MAPS[file]
+    page.locator(selector).scroll_into_view_if_needed()
+    draw(page, [(0.01, 0.01), (0.99, 0.99)], selector)
+    everyone = counted(page)
+    x, y = on_a_shape(page, selector)
+    page.keyboard.down("Alt")
+    page.mouse.click(x, y)
+    assert counted(page) == everyone - 1
+    box = page.locator(selector).bounding_box()
+    page.mouse.click(box["x"] + 3, box["y"] + 3)
+    assert counted(page) == everyone - 1
+    page.keyboard.up("Alt")
+
+
+def test_a_double_click_zooms_and_keeps_the_selection(open_page):
+    page = open_page("workbench", "index.html#select=class000%2F0001&select=class002%2F0003")
+    box = page.locator(LARGE).bounding_box()
+    page.mouse.dblclick(box["x"] + 4, box["y"] + 4)
+    page.wait_for_selector("body[data-zoomed]")
+    assert counted(page) == 2
+    page.keyboard.press("0")
+    page.wait_for_selector("body:not([data-zoomed])")
+    page.focus(LARGE)
+    page.keyboard.press("z")
+    eventually(page, lambda: "at=" in page.url)
+    by_key = parse_qs(urlsplit(page.url).fragment)["at"]
+    page.keyboard.press("0")
+    eventually(page, lambda: "at=" not in page.url)
+    page.click("#tray >> text=Zoom to them")
+    eventually(page, lambda: "at=" in page.url)
+    assert parse_qs(urlsplit(page.url).fragment)["at"] == by_key
+    assert float(by_key[0].split(",")[2]) > 1
+
+
+def test_keys_select_a_shape_a_box_and_all(open_page):
+    page = open_page("workbench", "index.html")
+    page.focus(LARGE)
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press(" ")
+    assert counted(page) == 1
+    for _ in range(6):
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("ArrowUp")
+    page.keyboard.press("Shift+ ")
+    in_box = counted(page)
+    assert in_box > 2
+    page.keyboard.press("Control+a")
+    assert counted(page) == 80
+    page.keyboard.press("Shift+Delete")
+    assert counted(page) == 79
+
+
+def test_two_groups_are_taken_from_two_pages_into_compare(open_page):
+    page = open_page("workbench", "index.html#select=class000%2F0001&select=class000%2F0002")
+    page.click("#tray >> text=Take as A")
+    assert page.locator("#tray >> text='A: 2 shapes ×'").count() == 1
+    page.click("#tray >> text=Clear")
+    go(page, "Shapes")
+    page.evaluate("location.hash = 'select=class003/0001'")
+    eventually(page, lambda: page.locator("#tray h2").is_visible() and counted(page) == 1)
+    follow(page, lambda: page.click("#tray >> text=Take as B"))
+    address = parse_qs(urlsplit(page.url).fragment)
+    assert "compare.html" in page.url
+    assert address["a-select"] == ["class000/0001", "class000/0002"]
+    assert address["b-select"] == ["class003/0001"]
+    # Nothing is kept for the next comparison; here, groups are exchanged in place.
+    page.evaluate("location.hash += '&select=class004/0001'")
+    eventually(page, lambda: counted(page) == 2)
+    page.click("#tray >> text=Take as A")
+    both = ["class003/0001", "class004/0001"]
+    eventually(page, lambda: parse_qs(urlsplit(page.url).fragment).get("a-select") == both)
+    go(page, "Overview")
+    assert page.locator("#tray >> text=Take as A").count() == 1
+
+
+def test_fingers_draw_a_lasso_and_say_what_it_does(open_page):
+    page = open_page(
+        "workbench", "index.html", viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True
+    )
+
+    def choose(words):
+        page.locator(f".choice label:has-text('{words}')").click()
+        page.wait_for_selector(f".choice label:has-text('{words}') input:checked", state="attached")
+
+    choose("Lasso")
+    touch = page.context.new_cdp_session(page)
+
+    def finger(places):
+        page.locator(LARGE).scroll_into_view_if_needed()
+        box = page.locator(LARGE).bounding_box()
+        for number, (x, y) in enumerate(places):
+            point = {"x": box["x"] + x * box["width"], "y": box["y"] + y * box["height"]}
+            kind = "touchStart" if number == 0 else "touchMove"
+            touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [point]})
+        touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+    finger(LEFT_HALF)
+    at_left = counted(page)
+    assert 0 < at_left < 80
+    choose("Add")
+    finger([(0.5, 0.02), (0.98, 0.02), (0.98, 0.98), (0.5, 0.98)])
+    everyone = counted(page)
+    assert everyone > at_left
+    choose("Take away")
+    finger(LEFT_HALF)
+    assert counted(page) == everyone - at_left

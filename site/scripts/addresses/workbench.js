@@ -9,6 +9,7 @@ import { brushed } from "./selected.js";
 /** @import { State } from "../base/state.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
+/** @import { MapValues } from "../map/scene.js" */
 /** @import { Standing } from "../engine/inquiry.js" */
 
 /**
@@ -32,7 +33,7 @@ import { brushed } from "./selected.js";
  * @property {number | null} refused NH that no bins were found to exceed
  * @property {Float64Array | null} scores
  *
- * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null, drag: "move" | "select" }>} WorkState
+ * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null} & Pick<MapValues, "drag" | "join">>} WorkState
  */
 
 const PROJECTIONS = ["tsne", "umap"];

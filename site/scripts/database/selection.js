@@ -10,7 +10,7 @@ import { entry } from "../base/entry.js";
  * What the state of every page of shapes has.
  * @typedef {object} Shared
  * @property {Set<number>} selection shapes
- * @property {boolean} brushing whether a box is being drawn
+ * @property {boolean} brushing whether a box or a lasso is being drawn
  * @property {Theme} theme
  */
 
@@ -63,6 +63,31 @@ export function toggled(selection, index) {
 }
 
 /**
+ * What becomes of a selection with some shapes that were found.
+ * @typedef {"replace" | "add" | "subtract"} Join
+ *
+ * @param {Set<number>} before
+ * @param {number[]} found
+ * @param {Join} join
+ */
+export function combined(before, found, join) {
+  if (join === "replace") return new Set(found);
+  if (join === "add") return new Set([...before, ...found]);
+  const gone = new Set(found);
+  return new Set([...before].filter((index) => !gone.has(index)));
+}
+
+/**
+ * The selection after a click on a shape with a key held down: Shift takes it in, or out again; Alt takes it out.
+ * @param {Set<number>} before
+ * @param {number} index
+ * @param {{ altKey: boolean }} keys
+ */
+export function clicked(before, index, { altKey }) {
+  return altKey ? combined(before, [index], "subtract") : toggled(before, index);
+}
+
+/**
  * @param {Database} database
  * @param {Set<number>} selection
  */
@@ -88,8 +113,11 @@ function unpacked(database, text) {
 /** @type {WeakMap<Database, string>} */
 const marks = new WeakMap();
 
-/** @param {Database} database */
-function mark(database) {
+/**
+ * What tells a database from others of the same place.
+ * @param {Database} database
+ */
+export function mark(database) {
   return entry(marks, database, () => hashed(database.ids));
 }
 

@@ -2,10 +2,11 @@
 
 import { watchSize } from "../base/dom.js";
 import { Card } from "../map/card.js";
+import { watchDragging } from "../map/dragging.js";
 import { Gestures } from "../map/gestures.js";
 import { MapView } from "../map/map.js";
 import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
-import { watchColors, watchDrag, watchMapKeys } from "./controls.js";
+import { watchColors, watchMapKeys } from "./controls.js";
 import { shown } from "./subset-map.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
@@ -31,6 +32,8 @@ export function nothingShown() {
 export class ChosenMap {
   /** @type {MapView} */
   view;
+  /** @type {Gestures} */
+  gestures;
 
   /**
    * @param {Database} database
@@ -62,12 +65,12 @@ export class ChosenMap {
     figure.dataset.view = state.get("color");
     this.view = new MapView(scene, figure);
     scene.views = [this.view];
-    watchDrag(state);
-    const gestures = new Gestures(this.view, {
+    watchDragging(state);
+    this.gestures = new Gestures(this.view, {
       open: (shape) => this.toggle(shape),
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
     });
-    watchMapKeys(this.view.surface, state, gestures);
+    watchMapKeys(this.view.surface, state, this.gestures);
     watchColors(state, this.view);
     new Card(/** @type {State<MapValues & Shared>} */ (/** @type {State} */ (state)));
     state.listen((changed) => changed.has("chosen") && this.#follow());

@@ -21,22 +21,6 @@ export function watchMapKeys(surface, state, gestures) {
 }
 
 /**
- * What dragging on the map does.
- * @param {FeaturesState} state
- */
-export function watchDrag(state) {
-  const inputs = document.querySelectorAll("#drag input");
-  for (const input of inputs) {
-    input.checked = input.value === state.get("drag");
-    input.addEventListener("change", () => {
-      state.set({ drag: input.value });
-      document.body.dataset.drag = input.value;
-    });
-  }
-  document.body.dataset.drag = state.get("drag");
-}
-
-/**
  * Colours of the map: by class or by neighbourhood hit.
  * @param {FeaturesState} state
  * @param {MapView} map

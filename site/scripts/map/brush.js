@@ -1,19 +1,27 @@
-// One gesture for all that is dragged on: a press becomes a box, or it moves what is shown; two fingers pinch. Escape, a
-// second finger, and a browser that takes the pointer for itself give a box up.
+// One gesture for all that is dragged on: a press becomes an area, or it moves what is shown; two fingers pinch. Escape, a
+// second finger, and a browser that takes the pointer for itself give an area up.
+
+import { combined } from "../database/selection.js";
+import { boxOf, lassoOf } from "./area.js";
 
 /** @import { State } from "../base/state.js" */
-/** @import { Shared } from "../database/selection.js" */
+/** @import { Join, Shared } from "../database/selection.js" */
+/** @import { Area } from "./area.js" */
 /** @import { MapValues } from "./scene.js" */
 
 /**
  * What a press is becoming, and what was shown as it began.
- * @typedef {{ kind: "click" | "box" | "move", becomes: "box" | "move", from: Place, held: any }} Press
+ * @typedef {{ kind: "click" | "area" | "move", becomes: "area" | "move", from: Place, held: any }} Press
  * @typedef {{ spread: number, middle: Place }} Fingers
  * @typedef {{ kind: "pinch", fingers: Fingers, held: any } | { kind: "over" }} Other
  * @typedef {PointerEvent & Targeted} Pointed
  */
 
 const CLICK = 4;
+
+/** Two clicks are one double click within these milliseconds and pixels. */
+const DOUBLE = 400;
+const SAME = 12;
 
 /** @typedef {[number, number]} Place  on the surface */
 
@@ -26,6 +34,8 @@ export class Brush {
   #pointers = new Map();
   /** @type {Press | Other | null} */
   #press = null;
+  /** @type {{ time: number, place: Place } | null} */
+  #clicked = null;
 
   /** @param {HTMLElement} surface */
   constructor(surface) {
@@ -80,7 +90,15 @@ export class Brush {
    */
   click(_place, _event) {}
   /**
-   * A box begins, grows from one place to another, and is made or given up.
+   * A second click where the first one was.
+   * @param {Place} place
+   * @param {Pointed} event
+   */
+  double(place, event) {
+    this.click(place, event);
+  }
+  /**
+   * An area begins, grows from one place to another, and is made or given up.
    * @param {Pointed} _event
    */
   begin(_event) {}
@@ -128,7 +146,7 @@ export class Brush {
       this.#press = { kind: "pinch", fingers, held: this.hold(fingers.middle) };
       return;
     }
-    const becomes = this.moves(event) || event.button === 1 ? "move" : "box";
+    const becomes = this.moves(event) || event.button === 1 ? "move" : "area";
     this.#press = { kind: "click", becomes, from: place, held: this.hold(place) };
   }
 
@@ -144,9 +162,9 @@ export class Brush {
     if (press.kind === "click" && this.distance(place, press.from) > CLICK) {
       press.kind = press.becomes;
       this.dragged = true;
-      if (press.kind === "box") this.begin(event);
+      if (press.kind === "area") this.begin(event);
     }
-    if (press.kind === "box") this.draw(press.from, place, press.held);
+    if (press.kind === "area") this.draw(press.from, place, press.held);
     else if (press.kind === "move") this.move(press.from, place, press.held);
     else if (press.kind === "pinch") this.pinch(press.fingers, this.#fingers(), press.held);
   }
@@ -154,8 +172,20 @@ export class Brush {
   /** @param {Pointed} event */
   #up(event) {
     const kind = this.#release(event);
-    if (kind === "box") this.end();
-    else if (kind === "click") this.click(this.placeOf(event), event);
+    if (kind === "area") this.end();
+    else if (kind === "click") this.#click(this.placeOf(event), event);
+  }
+
+  /**
+   * @param {Place} place
+   * @param {Pointed} event
+   */
+  #click(place, event) {
+    const before = this.#clicked;
+    const again = before && event.timeStamp - before.time < DOUBLE && this.distance(place, before.place) < SAME;
+    this.#clicked = again ? null : { time: event.timeStamp, place };
+    if (again) this.double(place, event);
+    else this.click(place, event);
   }
 
   /** @param {Pointed} event */
@@ -166,14 +196,14 @@ export class Brush {
 
   /** @param {KeyboardEvent} event */
   #escape(event) {
-    if (event.key !== "Escape" || this.#press?.kind !== "box") return;
+    if (event.key !== "Escape" || this.#press?.kind !== "area") return;
     event.preventDefault();
     event.stopPropagation();
     this.#giveUp();
   }
 
   #giveUp() {
-    if (this.#press?.kind !== "box") return;
+    if (this.#press?.kind !== "area") return;
     this.giveUp();
     this.#press = { kind: "over" };
   }
@@ -196,32 +226,49 @@ export class Brush {
   }
 }
 
-/** @typedef {{ inside(left: number, top: number, right: number, bottom: number): number[] }} Inside  says which shapes are inside a rectangle */
+/** @typedef {{ inside(holds: Area["holds"]): number[] }} Inside  says which of the shapes that it shows an area of the surface holds */
 
-/** A box on a map of shapes: it selects those in it; with shift, beside those that are selected. */
+/** Places of a lasso are so many pixels apart. */
+const STRIDE = 3;
+
+/**
+ * Whether a press with these keys selects, wherever dragging moves.
+ * @param {{ shiftKey: boolean, altKey: boolean, ctrlKey: boolean, metaKey: boolean }} keys
+ */
+export function selects({ shiftKey, altKey, ctrlKey, metaKey }) {
+  return shiftKey || altKey || ctrlKey || metaKey;
+}
+
+/**
+ * A box or a lasso on a map of shapes: it selects those in it; with Shift, beside those that are selected; with Alt, it
+ * takes them out. The state says which of the two a drag draws; with Ctrl or Command it is the other one.
+ */
 export class ShapeBrush extends Brush {
   /** @type {Set<number>} */
   #before = new Set();
-  /** @type {Set<number>} */
-  #kept = new Set();
+  /** @type {Join} */
+  #join = "replace";
+  /** @type {Place[] | null} the way of a lasso */
+  #line = null;
 
   /**
    * @param {HTMLElement} surface
-   * @param {SVGRectElement} frame shows the box
+   * @param {SVGPathElement} outline shows the area
    * @param {Inside} plot
    * @param {State<MapValues & Shared>} state
    */
-  constructor(surface, frame, plot, state) {
+  constructor(surface, outline, plot, state) {
     super(surface);
-    this.frame = frame;
+    this.outline = outline;
     this.plot = plot;
     this.state = state;
   }
 
   /** @param {Pointed} event */
-  begin({ shiftKey }) {
+  begin({ shiftKey, altKey, ctrlKey, metaKey }) {
     this.#before = this.state.get("selection");
-    this.#kept = shiftKey ? this.#before : new Set();
+    this.#join = altKey ? "subtract" : shiftKey ? "add" : (this.state.get("join") ?? "replace");
+    this.#line = (this.state.get("drag") === "lasso") === (ctrlKey || metaKey) ? null : [];
     this.state.set({ brushing: true, pointed: null });
   }
 
@@ -229,15 +276,26 @@ export class ShapeBrush extends Brush {
    * @param {Place} from
    * @param {Place} to
    */
-  draw([fromX, fromY], [toX, toY]) {
-    const [left, right] = [Math.min(fromX, toX), Math.max(fromX, toX)];
-    const [top, bottom] = [Math.min(fromY, toY), Math.max(fromY, toY)];
-    showBox(this.frame, { x: left, y: top, width: right - left, height: bottom - top });
-    this.state.set({ selection: new Set([...this.#kept, ...this.plot.inside(left, top, right, bottom)]) });
+  draw(from, to) {
+    const { path, holds } = this.#line === null ? boxOf(from, to) : lassoOf(this.#extend(this.#line, from, to));
+    this.outline.classList.add("shown");
+    this.outline.setAttribute("d", path);
+    this.state.set({ selection: combined(this.#before, this.plot.inside(holds), this.#join) });
+  }
+
+  /**
+   * @param {Place[]} line
+   * @param {Place} from
+   * @param {Place} to
+   */
+  #extend(line, from, to) {
+    if (line.length === 0) line.push(from);
+    if (Math.hypot(to[0] - line.at(-1)[0], to[1] - line.at(-1)[1]) >= STRIDE) line.push(to);
+    return line;
   }
 
   end() {
-    showBox(this.frame, null);
+    this.outline.classList.remove("shown");
     this.state.set({ brushing: false });
   }
 
@@ -245,14 +303,4 @@ export class ShapeBrush extends Brush {
     this.state.set({ selection: this.#before });
     this.end();
   }
-}
-
-/**
- * Show a box as a rectangle of an SVG, or none with null.
- * @param {Element} frame
- * @param {{ x: number, y: number, width: number, height: number } | null} box
- */
-export function showBox(frame, box) {
-  frame.classList.toggle("shown", box !== null);
-  for (const [name, value] of Object.entries(box ?? {})) frame.setAttribute(name, value);
 }

@@ -1,13 +1,24 @@
 // Pointer, wheel and keys on a map.
 
-import { toggled } from "../database/selection.js";
-import { ShapeBrush } from "./brush.js";
+import { clicked, combined, toggled } from "../database/selection.js";
+import { boxOf } from "./area.js";
+import { ShapeBrush, selects } from "./brush.js";
 
+/** @import { Join } from "../database/selection.js" */
 /** @import { Fingers, Place } from "./brush.js" */
 /** @import { MapView } from "./map.js" */
 /** @import { Camera } from "./scene.js" */
 
+/** Space about the shapes that are zoomed to, in pixels, and how far one of them is zoomed to. */
+const SPACE = 48;
+const CLOSEST = 8;
+
 export class Gestures extends ShapeBrush {
+  /** @type {Set<number> | null} what the first of two clicks dropped */
+  #dropped = null;
+  /** @type {number | null} the last shape that Space took in or out */
+  #anchor = null;
+
   /**
    * @param {MapView} view
    * @param {object} ways
@@ -27,8 +38,9 @@ export class Gestures extends ShapeBrush {
     surface.addEventListener("blur", () => this.state.set({ pointed: null }));
   }
 
-  moves() {
-    return this.state.get("drag") === "move";
+  /** @param {PointerEvent} event */
+  moves(event) {
+    return this.state.get("drag") === "move" && !selects(event);
   }
 
   hold() {
@@ -49,11 +61,31 @@ export class Gestures extends ShapeBrush {
    * @param {Place} place
    * @param {PointerEvent} event
    */
-  click(place, { pointerType, shiftKey }) {
-    const index = this.view.at(...place, pointerType === "mouse" ? 6 : 16);
-    if (index !== null && shiftKey) this.#toggle(index);
-    else if (index !== null) this.open(index);
-    else this.state.set({ selection: new Set() });
+  click(place, event) {
+    const index = this.view.at(...place, event.pointerType === "mouse" ? 6 : 16);
+    const selection = this.state.get("selection");
+    this.#dropped = null;
+    if (selects(event)) {
+      if (index !== null) this.state.set({ selection: clicked(selection, index, event) });
+    } else if (index !== null) this.open(index);
+    else {
+      this.#dropped = selection;
+      this.state.set({ selection: new Set() });
+    }
+  }
+
+  /**
+   * Zoom to where it was clicked; what the first click dropped is selected again.
+   * @param {Place} place
+   * @param {PointerEvent} event
+   */
+  double(place, event) {
+    if (selects(event)) {
+      this.click(place, event);
+      return;
+    }
+    if (this.#dropped !== null) this.state.set({ selection: this.#dropped });
+    this.zoom(2, place);
   }
 
   /**
@@ -86,11 +118,6 @@ export class Gestures extends ShapeBrush {
     });
   }
 
-  /** @param {number} index */
-  #toggle(index) {
-    this.state.set({ selection: toggled(this.state.get("selection"), index) });
-  }
-
   /** @param {WheelEvent} event */
   #wheel(event) {
     // Where the page itself scrolls, the wheel belongs to it unless the reader asks for zoom.
@@ -114,8 +141,31 @@ export class Gestures extends ShapeBrush {
     this.scene.look({ x: x + (camera.x - x) * keep, y: y + (camera.y - y) * keep, zoom });
   }
 
+  /** Zoom until the selected shapes, as far as they are shown, fill the map. */
+  zoomToSelection() {
+    const { scene, view } = this;
+    const shown = [...this.state.get("selection")].filter((index) => scene.visible(index));
+    if (shown.length === 0) return;
+    const [x, y] = [scene.x, scene.y].map((values) => shown.map((index) => values[index]));
+    const [west, east, south, north] = [Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
+    const whole = view.scale / scene.camera().zoom;
+    const scale = Math.min(
+      Math.max(view.width - 2 * SPACE, SPACE) / (east - west),
+      Math.max(view.height - 2 * SPACE, SPACE) / (north - south),
+    );
+    const zoom = Math.min(scale / whole, CLOSEST);
+    scene.look({ x: (west + east) / 2, y: (south + north) / 2, zoom });
+  }
+
   /** @param {KeyboardEvent} event */
   #key(event) {
+    if ((event.ctrlKey || event.metaKey) && event.key === "a") {
+      this.#take(
+        this.view.inside(() => true),
+        "replace",
+      );
+      event.preventDefault();
+    }
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     /** @type {Record<string, Place>} */
     const directions = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
@@ -125,10 +175,34 @@ export class Gestures extends ShapeBrush {
       else this.#step(directions[event.key]);
     } else if (event.key === "Enter") {
       if (pointed !== null) this.open(pointed);
-    } else if (event.key === " ") {
-      if (pointed !== null) this.#toggle(pointed);
-    } else return;
+    } else if (event.key === " " || (event.shiftKey && event.key === "Delete")) {
+      if (pointed !== null) this.#pick(pointed, event);
+    } else if (event.key === "z") this.zoomToSelection();
+    else return;
     event.preventDefault();
+  }
+
+  /**
+   * Take a shape in or out; with Shift, what lies in the box between it and the one before, as a drag would.
+   * @param {number} index
+   * @param {KeyboardEvent} event
+   */
+  #pick(index, { key, shiftKey }) {
+    const before = this.#anchor ?? index;
+    this.#anchor = index;
+    if (!shiftKey) this.state.set({ selection: toggled(this.state.get("selection"), index) });
+    else {
+      const [from, to] = [before, index].map((corner) => /** @type {Place} */ (this.view.screen(corner)));
+      this.#take(this.view.inside(boxOf(from, to).holds), key === "Delete" ? "subtract" : "add");
+    }
+  }
+
+  /**
+   * @param {number[]} found
+   * @param {Join} join
+   */
+  #take(found, join) {
+    this.state.set({ selection: combined(this.state.get("selection"), found, join) });
   }
 
   /** @param {Place} way */

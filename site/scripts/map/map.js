@@ -53,7 +53,7 @@ export class MapView {
     this.ties = this.overlay.insertBefore(svg("path", { class: "ties" }), this.overlay.firstChild);
     this.opened = this.overlay.appendChild(svg("circle", { class: "ring opened" }));
     this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
-    this.brush = this.overlay.appendChild(svg("rect", { class: "brush" }));
+    this.brush = this.overlay.appendChild(svg("path", { class: "brush" }));
     this.surface.append(this.node, this.overlay);
     /** @type {ArrayLike<number>} 1 for a shape that is drawn as a picture */
     this.pictured = [];
@@ -210,20 +210,17 @@ export class MapView {
   }
 
   /**
-   * Visible shapes in a rectangle of the screen.
-   * @param {number} west
-   * @param {number} north
-   * @param {number} east
-   * @param {number} south
+   * Visible shapes whose place on the screen an area holds.
+   * @param {(x: number, y: number) => boolean} holds
    */
-  inside(west, north, east, south) {
+  inside(holds) {
     const placeOf = this.placing();
     /** @type {number[]} */
     const found = [];
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
       const [x, y] = placeOf(index);
-      if (x >= west && x <= east && y >= north && y <= south) found.push(index);
+      if (holds(x, y)) found.push(index);
     }
     return found;
   }

@@ -125,16 +125,13 @@ export class Plot {
   }
 
   /**
-   * The shapes in a rectangle.
-   * @param {number} left
-   * @param {number} top
-   * @param {number} right
-   * @param {number} bottom
+   * The shapes whose place an area holds.
+   * @param {(x: number, y: number) => boolean} holds
    */
-  inside(left, top, right, bottom) {
+  inside(holds) {
     return [...this.database.ids.keys()].filter((index) => {
       const [x, y] = this.screen(index);
-      return x >= left && x <= right && y >= top && y <= bottom;
+      return holds(x, y);
     });
   }
 

@@ -1,8 +1,8 @@
-// Pointing at a shape on a plot: its picture and name beside the pointer; a click chooses it, and a box selects.
+// Pointing at a shape on a plot: its picture and name beside the pointer; a click chooses it, and an area selects.
 
 import { element, picture, svg, swatch } from "../base/dom.js";
-import { toggled } from "../database/selection.js";
-import { ShapeBrush } from "./brush.js";
+import { clicked } from "../database/selection.js";
+import { ShapeBrush, selects } from "./brush.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
@@ -25,7 +25,7 @@ export class Pointing {
 
   /**
    * Watch a plot in its surface; `choose` is told of the shape that was clicked. With a `state`, its selection is what
-   * a box has in it, as on all maps, and a click beside all shapes drops it.
+   * a box or a lasso has in it, as on all maps, and a click beside all shapes drops it.
    * @param {HTMLElement} surface
    * @param {Plot} plot
    * @param {(index: number) => void} choose
@@ -45,8 +45,10 @@ export class Pointing {
     surface.addEventListener("click", (event) => {
       if (brush?.dragged) return;
       const index = at(event);
-      if (index !== null && !(state && event.shiftKey)) choose(index);
-      else state?.set({ selection: index === null ? new Set() : toggled(state.get("selection"), index) });
+      if (state && selects(event)) {
+        if (index !== null) state.set({ selection: clicked(state.get("selection"), index, event) });
+      } else if (index !== null) choose(index);
+      else state?.set({ selection: new Set() });
     });
   }
 
@@ -90,7 +92,7 @@ export class Pointing {
   }
 }
 
-/** A mouse draws boxes on a plot; a finger scrolls the page. */
+/** A mouse draws areas on a plot; a finger scrolls the page. */
 class PlotBrush extends ShapeBrush {
   /** @type {number | null} */
   #frame = null;
@@ -101,9 +103,9 @@ class PlotBrush extends ShapeBrush {
    * @param {State} state
    */
   constructor(surface, plot, state) {
-    const box = svg("rect", { class: "brush" });
-    surface.append(svg("svg", { class: "overlay", "aria-hidden": "true" }, box));
-    super(surface, box, plot, state);
+    const outline = svg("path", { class: "brush" });
+    surface.append(svg("svg", { class: "overlay", "aria-hidden": "true" }, outline));
+    super(surface, outline, plot, state);
     this.shapes = plot;
     state.listen((changed) => {
       if (changed.has("selection")) this.#frame ??= requestAnimationFrame(() => this.#redraw());

@@ -5,6 +5,7 @@ import { calm, coarse } from "../base/dom.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Bounds, Database } from "../database/database.js" */
+/** @import { Join } from "../database/selection.js" */
 /** @import { MapView } from "./map.js" */
 
 /**
@@ -25,7 +26,8 @@ import { calm, coarse } from "../base/dom.js";
  * @property {number | null} pointed
  * @property {MapView | null} pointedFrom
  * @property {number | null} pointedGroup
- * @property {"move" | "select"} drag
+ * @property {"move" | "select" | "lasso"} drag what dragging does: with "select" it draws a box
+ * @property {Join} [join] what a drawn area does to the selection, where no key says it
  */
 
 const DURATION = 650;
@@ -51,10 +53,10 @@ export const NOTHING_POINTED = Object.freeze({ pointed: null, pointedFrom: null,
 
 /**
  * The part that says what dragging does, at first: fingers move a map, a mouse selects.
- * @returns {Pick<MapValues, "drag">}
+ * @returns {Pick<MapValues, "drag" | "join">}
  */
 export function dragging() {
-  return { drag: coarse() ? "move" : "select" };
+  return { drag: coarse() ? "move" : "select", join: "replace" };
 }
 
 export class Scene {

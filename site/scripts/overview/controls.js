@@ -2,6 +2,7 @@
 
 import { VIEWS } from "../addresses/overview.js";
 import { coarse } from "../base/dom.js";
+import { watchDragging } from "../map/dragging.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
@@ -14,7 +15,6 @@ import { coarse } from "../base/dom.js";
  */
 export function watchControls(database, state, maps) {
   const methods = document.getElementById("methods");
-  const drag = document.getElementById("drag");
   const views = document.getElementById("views");
   const exact = document.getElementById("exact");
   /**
@@ -26,10 +26,8 @@ export function watchControls(database, state, maps) {
   };
   const show = () => {
     check(methods, database.methods[database.methods[state.get("method")].base].key);
-    check(drag, state.get("drag"));
     check(views, state.get("view"));
     exact.checked = state.get("exact");
-    document.body.dataset.drag = state.get("drag");
     document.body.toggleAttribute("data-zoomed", state.get("camera") !== null);
   };
   methods.addEventListener("change", (event) => {
@@ -37,7 +35,7 @@ export function watchControls(database, state, maps) {
   });
   views.addEventListener("change", (event) => state.set({ view: event.target.value }));
   exact.addEventListener("change", () => state.set({ exact: exact.checked }));
-  drag.addEventListener("change", (event) => state.set({ drag: event.target.value }));
+  watchDragging(state);
   for (const button of document.querySelectorAll("[data-zoom]")) {
     button.addEventListener("click", () => zoom(button.dataset.zoom ?? "", state, maps));
   }
@@ -45,7 +43,7 @@ export function watchControls(database, state, maps) {
     button.addEventListener("click", () => state.set({ view: button.dataset.view }));
   }
   state.listen((changed) => {
-    if (["method", "drag", "camera", "view", "exact"].some((name) => changed.has(name))) show();
+    if (["method", "camera", "view", "exact"].some((name) => changed.has(name))) show();
   });
   show();
 }
@@ -95,6 +93,6 @@ function takeBack(state) {
 
 export function trayHint() {
   return coarse()
-    ? "Tap a shape to see what is known of it. With Select, drag a box to collect shapes here."
-    : "Drag a box on a map to collect shapes here. Click a shape to see what is known of it.";
+    ? "Tap a shape to see what is known of it. With Box or Lasso above the map, draw round shapes to collect them here."
+    : "Drag a box on a map to collect shapes here; Shift adds, Alt takes away. Click a shape to see what is known of it.";
 }

@@ -33,7 +33,7 @@ async function main() {
   new Tabs(state);
   /** @param {number} index */
   const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
-  new Tray(database, state, { open });
+  new Tray(database, state, { open, take: (side, group) => groups.chooser.choose(side, group) });
   carrySelection(database, state);
   groups.compare();
   outliers.render();

@@ -41,7 +41,7 @@ async function main() {
 
   // The map comes with the largest chunk of the page, so it waits for what is above it.
   const map = new ChosenMap(database, subsets, state, announce);
-  new Tray(database, state, { open: (shape) => map.toggle(shape) });
+  new Tray(database, state, { open: (shape) => map.toggle(shape), zoom: () => map.gestures.zoomToSelection() });
   carrySelection(database, state);
   await map.open();
   const charts = subsets.labelled ? [new Boxes(database, subsets, state, marks), ...dotCharts(subsets, marks)] : [];

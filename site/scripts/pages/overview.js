@@ -38,6 +38,7 @@ async function main() {
     open: (opened) => state.set({ opened }),
     point,
     hint: trayHint(),
+    zoom: () => maps.gestures.get(maps.large)?.zoomToSelection(),
   });
   carrySelection(database, state);
   watchTables(() => mapTables(database, state));

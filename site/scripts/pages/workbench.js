@@ -37,7 +37,7 @@ async function main() {
   const desk = new Desk(database, data, bins, state, answers, maps.scenes, announce);
   new Card(state);
   // A picture in the tray marks its shape on both maps.
-  new Tray(database, state, { open: (shape) => maps.toggle(shape) });
+  new Tray(database, state, { open: (shape) => maps.toggle(shape), zoom: () => maps.zoomToSelection() });
   carrySelection(database, state);
   const panels = mapPanels(database, state, bins, answers, desk);
   if (database.labelled)

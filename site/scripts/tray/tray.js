@@ -6,12 +6,16 @@ import { element, focused, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, shortened } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
+import { follow } from "./carry.js";
 import { saveCsv, saveJson } from "./export.js";
+import { Pair } from "./pair.js";
 
+/** @import { GroupSpec } from "../addresses/compare.js" */
 /** @import { Child } from "../base/dom.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
+/** @import { Side } from "./pair.js" */
 
 const PAGE = 200;
 const MOST_CLASSES = 8;
@@ -24,13 +28,19 @@ export class Tray {
    * @param {(index: number) => void} options.open is called with the shape whose picture is clicked
    * @param {(index: number | null) => void} [options.point] with the one under the pointer
    * @param {Child} [options.hint] said while nothing is selected; without one the tray is then not there
+   * @param {() => void} [options.zoom] zooms the map of the page to the selected shapes
+   * @param {(side: Side, group: GroupSpec) => void} [options.take] on the page that compares them, takes the shapes as
+   *   one of its groups
    */
-  constructor(database, state, { open, point = () => {}, hint = null }) {
+  constructor(database, state, { open, point = () => {}, hint = null, zoom, take }) {
     this.database = database;
     this.state = state;
     this.open = open;
     this.point = point;
     this.hint = hint;
+    this.zoom = zoom;
+    this.take = take;
+    this.pair = new Pair(database);
     this.node = document.getElementById("tray");
     this.here = document.body.className;
     state.listen((changed) => {
@@ -54,12 +64,13 @@ export class Tray {
   #fill() {
     const selection = this.state.get("selection");
     // The tray unfolds when the brush is let go, not under it.
-    const unfolded = selection.size > 0 && !this.state.get("brushing");
+    const letGo = !this.state.get("brushing");
+    const unfolded = selection.size > 0 && letGo;
     this.node.classList.toggle("filled", unfolded);
     this.node.hidden = selection.size === 0 && this.hint === null;
     if (selection.size === 0) this.node.replaceChildren(element("p", { class: "hint" }, this.hint ?? ""));
-    else if (!unfolded) this.node.replaceChildren(this.#head(selection));
-    else this.node.replaceChildren(this.#head(selection), this.#strip(this.#sorted(selection)));
+    else if (!unfolded) this.node.replaceChildren(this.#head(selection, letGo));
+    else this.node.replaceChildren(this.#head(selection, true), this.#strip(this.#sorted(selection)));
     this.#markOpened();
   }
 
@@ -72,22 +83,16 @@ export class Tray {
     return [...selection].sort((a, b) => groups[a] - groups[b] || a - b);
   }
 
-  /** @param {Set<number>} selection */
-  #head(selection) {
+  /**
+   * @param {Set<number>} selection
+   * @param {boolean} ways whether it is said what can be done with them
+   */
+  #head(selection, ways) {
     const { database } = this;
     const census = database.census(selection);
     /** @param {string} name */
     const save = (/** @type {string} */ name, /** @type {typeof saveCsv} */ to) =>
-      element(
-        "button",
-        {
-          type: "button",
-          class: "plain",
-          title: `Save the selection as a ${name} file`,
-          onclick: () => to(database, this.#sorted(selection)),
-        },
-        name,
-      );
+      plain(name, () => to(database, this.#sorted(selection)), `Save the selection as a ${name} file`);
     return element(
       "div",
       { class: "tray-head" },
@@ -109,19 +114,65 @@ export class Tray {
             ),
           census.length > MOST_CLASSES && element("span", {}, `and ${census.length - MOST_CLASSES} more`),
         ),
-      element(
-        "div",
-        { class: "tray-ways" },
-        this.#links(selection).map(([words, address]) => element("a", { href: address }, words)),
-        save("CSV", saveCsv),
-        save("JSON", saveJson),
+      ways &&
         element(
-          "button",
-          { type: "button", class: "plain", onclick: () => this.state.set({ selection: new Set() }) },
-          "Clear",
+          "div",
+          { class: "tray-ways" },
+          this.#links(selection).map(([words, address]) => element("a", { href: address }, words)),
+          this.#taking("a", selection),
+          this.#taking("b", selection),
+          this.zoom && plain("Zoom to them", this.zoom, "Zoom the map to the selected shapes (Z)"),
+          save("CSV", saveCsv),
+          save("JSON", saveJson),
+          plain("Clear", () => this.state.set({ selection: new Set() })),
         ),
-      ),
     );
+  }
+
+  /**
+   * Takes the selected shapes as one of two groups to compare, which stand beside each other when both are taken; a group
+   * that is taken is let go.
+   * @param {Side} side
+   * @param {Set<number>} selection
+   */
+  #taking(side, selection) {
+    const { pair, take } = this;
+    const letter = side.toUpperCase();
+    if (!take && pair.taken?.side === side)
+      return plain(
+        `${letter}: ${count(pair.taken.shapes.size, "shape")} ×`,
+        () => this.#keep(null),
+        `Let go of group ${letter}`,
+      );
+    const title = take
+      ? `Compare them as group ${letter}`
+      : pair.taken
+        ? `Compare them with group ${pair.taken.side.toUpperCase()}`
+        : `Keep them as group ${letter}, then select the other group and take it: the two are compared`;
+    return plain(`Take as ${letter}`, () => this.#take(side, selection), title);
+  }
+
+  /**
+   * @param {Side} side
+   * @param {Set<number>} selection
+   */
+  #take(side, selection) {
+    /** @param {Set<number>} shapes */
+    const groupOf = (shapes) => ({ kind: /** @type {const} */ ("shapes"), shapes });
+    const { taken } = this.pair;
+    if (this.take) this.take(side, groupOf(selection));
+    else if (taken === null) this.#keep({ side, shapes: selection });
+    else {
+      const [a, b] = side === "b" ? [taken.shapes, selection] : [selection, taken.shapes];
+      this.pair.keep(null);
+      follow(compareAddress(this.database, groupOf(a), groupOf(b)));
+    }
+  }
+
+  /** @param {Pair["taken"]} taken */
+  #keep(taken) {
+    this.pair.keep(taken);
+    this.#fill();
   }
 
   /**
@@ -211,6 +262,15 @@ export class Tray {
     for (const item of this.node.querySelectorAll(".shape"))
       item.classList.toggle("opened", item.dataset.index === opened);
   }
+}
+
+/**
+ * @param {string} words
+ * @param {() => void} onclick
+ * @param {string | null} [title]
+ */
+function plain(words, onclick, title = null) {
+  return element("button", { type: "button", class: "plain", title, onclick }, words);
 }
 
 /**

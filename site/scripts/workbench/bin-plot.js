@@ -4,7 +4,6 @@ import { calm, element, penOf, svg } from "../base/dom.js";
 import { styleColor } from "../base/theme.js";
 import { axisEnd, edges, paintBars, paintRows } from "../bins-kit/bin-bars.js";
 import { BinScale } from "../bins-kit/bin-scale.js";
-import { showBox } from "../map/brush.js";
 import { BinStrip } from "./bin-strip.js";
 
 /** @import { Bars } from "../bins-kit/bin-bars.js" */
@@ -513,12 +512,11 @@ export class BinPlot {
    * @param {number} least
    */
   #span(frame, range, least) {
-    if (range === null) {
-      showBox(frame, null);
-      return;
-    }
+    frame.classList.toggle("shown", range !== null);
+    if (range === null) return;
     const [start, end] = [this.scale.xOf(Math.min(...range)), this.scale.xOf(Math.max(...range) + 1)];
     const width = Math.max(end - start, least);
-    showBox(frame, { x: (start + end - width) / 2, y: 0, width, height: this.height });
+    const box = { x: (start + end - width) / 2, y: 0, width, height: this.height };
+    for (const [name, value] of Object.entries(box)) frame.setAttribute(name, value);
   }
 }

@@ -3,6 +3,7 @@
 import { element } from "../base/dom.js";
 import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
+import { watchDragging } from "../map/dragging.js";
 import { contests, separationWords } from "./separation.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
@@ -20,7 +21,7 @@ import { contests, separationWords } from "./separation.js";
 export function watchControls(database, data, state, desk) {
   /**
    * @param {string} id
-   * @param {"projection" | "color" | "drag"} name
+   * @param {"projection" | "color"} name
    * @param {(value: any) => any} [changed]
    */
   const radios = (id, name, changed = (value) => state.set({ [name]: value })) => {
@@ -35,11 +36,7 @@ export function watchControls(database, data, state, desk) {
   };
   radios("projections", "projection", (projection) => desk.use({ projection }));
   radios("colors", "color");
-  radios("drag", "drag", (drag) => {
-    state.set({ drag });
-    document.body.dataset.drag = drag;
-  });
-  document.body.dataset.drag = state.get("drag");
+  watchDragging(state);
   watchRamp(database, state);
   watchPicked(state, desk);
   if (database.separable) {

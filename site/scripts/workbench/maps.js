@@ -52,6 +52,10 @@ export class WorkMaps {
     this.state.set({ opened: shape === this.state.get("opened") ? null : shape });
   }
 
+  zoomToSelection() {
+    for (const gestures of this.gestures.values()) gestures.zoomToSelection();
+  }
+
   async start() {
     for (const view of this.views) await view.start();
     watchSize(
