@@ -450,12 +450,14 @@ def test_fingers_draw_a_lasso_and_say_what_it_does(open_page):
     touch = page.context.new_cdp_session(page)
 
     def finger(places):
-        page.locator(LARGE).scroll_into_view_if_needed()
+        page.locator(LARGE).evaluate("node => node.scrollIntoView({ block: 'start' })")
         box = page.locator(LARGE).bounding_box()
         for number, (x, y) in enumerate(places):
             point = {"x": box["x"] + x * box["width"], "y": box["y"] + y * box["height"]}
             kind = "touchStart" if number == 0 else "touchMove"
             touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [point]})
+            # Browsers hand on one movement a frame.
+            drawn_again(page)
         touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
 
     finger(LEFT_HALF)

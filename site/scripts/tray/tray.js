@@ -63,8 +63,12 @@ export class Tray {
 
   #fill() {
     const selection = this.state.get("selection");
-    // The tray unfolds when the brush is let go, not under it.
+    // The tray unfolds when the brush is let go, not under it; nor does it fold, which would let a page scroll.
     const letGo = !this.state.get("brushing");
+    if (!letGo && this.node.classList.contains("filled")) {
+      this.node.firstElementChild.replaceWith(this.#head(selection, true));
+      return;
+    }
     const unfolded = selection.size > 0 && letGo;
     this.node.classList.toggle("filled", unfolded);
     this.node.hidden = selection.size === 0 && this.hint === null;
