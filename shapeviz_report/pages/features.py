@@ -135,11 +135,11 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
             for spread in search.spread
         ],
         "charts": {
-            "bars": charts.subset_bars().to_dict(),
-            "matrix": charts.feature_matrix().to_dict(),
-            "boxes": charts.class_boxes().to_dict(),
-            "effects": charts.effect_dots().to_dict(),
-            "seeds": charts.seed_dots().to_dict(),
+            "bars": charts.spec_of(charts.subset_bars),
+            "matrix": charts.spec_of(charts.feature_matrix),
+            "boxes": charts.spec_of(charts.class_boxes),
+            "effects": charts.spec_of(charts.effect_dots),
+            "seeds": charts.spec_of(charts.seed_dots),
         },
         "marks": feature_marks(),
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from shapeviz_report.types.arrays import FloatArray
 
@@ -50,7 +51,7 @@ class FeatureTable:
     blocks: tuple[FeatureBlock, ...]
     values: FloatArray
 
-    @property
+    @cached_property
     def columns(self) -> tuple[str, ...]:
         """The name of every column."""
         return tuple(column for block in self.blocks for column in block.columns)
