@@ -1,4 +1,4 @@
-"""Bins: single columns of the feature table, their meaning in words, and how a choice of them is compared.
+"""Bins: single columns of the feature table, and how a choice of them is compared.
 
 ``docs/method/bins.md`` says what a bin is and why a choice of bins is scaled as it is.
 """
@@ -15,7 +15,6 @@ from pathlib import Path
 import numpy as np
 
 from shapeviz_report.cells import read_cell
-from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import Preset, compared_values
 from shapeviz_report.files import read_regular
@@ -23,8 +22,6 @@ from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 
 MOST_BYTES = 1024**2
 """Size of the largest file of bins."""
-
-_DESCRIPTORS = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
 
 
 def read_bins(path: Path, blocks: Sequence[FeatureBlock]) -> tuple[str, ...]:
@@ -119,100 +116,3 @@ def features_of(table: FeatureTable, bins: Sequence[str]) -> tuple[str, ...]:
     """The features that have one of these bins, in the order of the table."""
     chosen = set(bins)
     return tuple(block.name for block in table.blocks if not chosen.isdisjoint(block.columns))
-
-
-def explain_bins(table: FeatureTable, edges: FloatArray, *, by_area: bool) -> tuple[str, ...]:
-    """What the value of every column is, a sentence each.
-
-    Parameters
-    ----------
-    table : FeatureTable
-    edges : (d, 11) float array
-        As in :class:`~shapeviz_report.types.Report`.
-    by_area : bool
-        Whether histograms count surface or vertices.
-    """
-    whole = word_whole(by_area)
-    return tuple(
-        f"The value of {column}, a feature that was brought along."
-        if condition is None
-        else f"What share of {whole} lies where {condition}."
-        for column, condition in zip(table.columns, word_conditions(table, edges))
-    )
-
-
-def word_whole(by_area: bool) -> str:
-    """What histograms count, as it stands in "a share of"."""
-    return "the surface" if by_area else "the vertices"
-
-
-def word_conditions(table: FeatureTable, edges: FloatArray) -> tuple[str | None, ...]:
-    """Where the surface lies that every column counts, as it stands after "where"; None for external features.
-
-    Parameters
-    ----------
-    table : FeatureTable
-    edges : (d, 11) float array
-        As in :class:`~shapeviz_report.types.Report`.
-    """
-    conditions: list[str | None] = []
-    row = 0
-    for block in table.blocks:
-        if block.bins == 1:
-            conditions += [None] * block.width
-            continue
-        descriptor = _DESCRIPTORS.get(block.name)
-        for dimension in range(block.dimensions):
-            quantity = descriptor.quantities[dimension] if descriptor else block.name
-            unit = descriptor.unit if descriptor else ""
-            conditions += [
-                f"{quantity} is {_word_range(edges[row], place, unit)}" for place in range(block.bins)
-            ]
-            row += 1
-    return tuple(conditions)
-
-
-def word_side(block: FeatureBlock, dimension: int, edge: float, *, above: bool) -> str:
-    """That a histogram's values lie on one side of an edge, as in "the thickness ... is below 0.2 ...".
-
-    Parameters
-    ----------
-    block : FeatureBlock
-        Of histograms.
-    dimension : int
-        From 0.
-    edge : float
-        Between two bins.
-    above : bool
-        The upper side.
-    """
-    descriptor = _DESCRIPTORS.get(block.name)
-    quantity = descriptor.quantities[dimension] if descriptor else block.name
-    value = _word_value(edge, descriptor.unit if descriptor else "")
-    return f"{quantity} is {value} or more" if above else f"{quantity} is below {value}"
-
-
-def word_places(block: FeatureBlock, *, above: bool) -> str | None:
-    """Where on a shape large or small values are found; None where one word does not fit all dimensions."""
-    descriptor = _DESCRIPTORS.get(block.name)
-    if descriptor is None or descriptor.dimensions > 1:
-        return None
-    return descriptor.high if above else descriptor.low
-
-
-def _word_range(edges: FloatArray, place: int, unit: str) -> str:
-    """The values that fall into a bin; the outer bins also take what lies beyond."""
-    low, high = edges[place : place + 2]
-    if place == 0:
-        return f"below {_word_value(high, unit)}"
-    if place == len(edges) - 2:
-        return f"{_word_value(low, unit)} or more"
-    return f"from {_word_number(low, unit)} to {_word_value(high, unit)}"
-
-
-def _word_value(value: float, unit: str) -> str:
-    return f"{_word_number(value, unit)} {unit}".rstrip()
-
-
-def _word_number(value: float, unit: str) -> str:
-    return f"{100 * value if unit == '%' else value:.3g}".replace("-", "−")

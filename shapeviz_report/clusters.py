@@ -14,18 +14,17 @@ from scipy.sparse import csr_matrix
 from scipy.spatial.distance import cdist, pdist, squareform
 from threadpoolctl import threadpool_limits
 
-from shapeviz_report.bins import word_places, word_side
 from shapeviz_report.features import Preset
 from shapeviz_report.projections import canonical_order
 from shapeviz_report.types import (
     Cluster,
     Clusters,
-    FeatureBlock,
     FeatureTable,
     FloatArray,
     IntArray,
     ShapeEntry,
 )
+from shapeviz_report.wording import Dimension, agreed, dimensions_of, word_whole
 
 SMALLEST = 8
 """Fewer shapes are seen at a glance, and no number of groups among them could be told from chance."""
@@ -277,10 +276,10 @@ def _word_typical(
     Of a feature it is the share of the surface above some value, or the value of an external one, whose means within
     and without the group are farthest apart in standard deviations within the two.
     """
-    whole = "the surface" if preset.by_area else "the vertices"
+    dimensions = tuple(dimensions_of(table, edges))
     found: list[list[tuple[bool, float, str]]] = [[] for _ in rows]
-    edge_row = 0
     for block in table.blocks:
+        own_dimensions = [dimension for dimension in dimensions if dimension.block == block]
         values = table.values[:, table.slice_of(block.name)]
         if block.bins > 1:
             shares = values.reshape(len(values), block.dimensions, block.bins)
@@ -300,32 +299,29 @@ def _word_typical(
             if effects[best] == 0:
                 continue
             if block.bins > 1:
-                dimension, step = divmod(best, block.bins - 1)
-                edge = edges[edge_row + dimension, step + 1]
-                sentence = _word_shares(block, dimension, edge, here[best], there[best], whole)
+                number, step = divmod(best, block.bins - 1)
+                sentence = _word_shares(own_dimensions[number], step, here[best], there[best], preset)
             else:
                 sentence = _word_values(block.columns[best], here[best], there[best])
             hard = block.dimensions > 1 or effects[best] < CLEAR
             candidates.append((hard, -effects[best], sentence))
-        edge_row += block.dimensions if block.bins > 1 else 0
     return [tuple(sentence for _, _, sentence in sorted(candidates)[:TYPICAL]) for candidates in found]
 
 
-def _word_shares(
-    block: FeatureBlock, dimension: int, edge: float, here: float, there: float, whole: str
-) -> str:
-    """That more of a group's surface than of the rest's lies on one side of an edge."""
-    above = here > there
-    if not above:
+def _word_shares(dimension: Dimension, step: int, here: float, there: float, preset: Preset) -> str:
+    """That more of a group's surface than of the rest's lies on one side of an inner edge."""
+    edge = float(dimension.edges[step + 1])
+    if here > there:
+        said = dimension.say(edge, None)
+    else:
         here, there = 1 - here, 1 - there
-    condition = word_side(block, dimension, edge, above=above)
-    places = word_places(block, above=above)
-    words = (
-        condition[0].upper() + condition[1:]
-        if places is None
-        else f"{places[0].upper()}{places[1:]}: {condition}"
+        said = dimension.say(None, edge)
+    said = agreed(said, preset.by_area)
+    trend = f"{said.trend[0].upper()}{said.trend[1:]}: " if said.trend else ""
+    return (
+        f"{trend}{_number(100 * here)} % of {word_whole(preset.by_area)} {said.clause}, "
+        f"in other shapes {_number(100 * there)} %."
     )
-    return f"{words} on {_number(100 * here)} % of {whole}, in other shapes on {_number(100 * there)} %."
 
 
 def _word_values(column: str, here: float, there: float) -> str:

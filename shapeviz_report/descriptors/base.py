@@ -22,12 +22,8 @@ class Descriptor:
         Its full name.
     measures : str
         What it measures, in a sentence that needs no mathematics.
-    quantities : tuple of str
-        What the value in each dimension is, as it stands in "where ... is from 1.4 to 1.6".
-    unit : str
-        Of the values, as it follows a number: a word, ``%`` where they are fractions of 1, or empty.
-    low, high : str
-        Where on a shape, or in what surroundings, small and large values are found.
+    dimensions : int
+        Number of values a vertex.
     edges : tuple of float
         The 11 rising edges of the 10 histogram bins of the default preset, the same for every dimension.
         Values beyond the first or last edge belong to the first or last bin. Histograms take them as
@@ -42,15 +38,7 @@ class Descriptor:
     name: str
     title: str
     measures: str
-    quantities: tuple[str, ...]
-    unit: str
-    low: str
-    high: str
+    dimensions: int
     edges: tuple[float, ...]
     compute: Callable[[Surface], np.ndarray]
     totals: tuple[int, ...] = ()
-
-    @property
-    def dimensions(self) -> int:
-        """Number of values a vertex."""
-        return len(self.quantities)

@@ -37,42 +37,11 @@ def compute(surface: Surface) -> np.ndarray:
     return (groups / groups.sum(axis=2, keepdims=True)).reshape(-1, 33)
 
 
-def _word_bin(dimension: int) -> str:
-    """The neighbours that a dimension counts."""
-    angle, place = divmod(dimension, 11)
-    ends = np.arange(place, place + 2) / 11 * 2 - 1
-    degrees = np.sort(np.abs(180 * ends if angle == 2 else np.degrees(np.arcsin(ends)))).round().astype(int)
-    near, far = degrees
-    middle = place == 5
-    if angle == 0:
-        side = "right" if place > 5 else "left"
-        which = (
-            f"whose normal leans sideways by less than {far}°"
-            if middle
-            else f"whose normal leans to the {side} by {near} to {far}°"
-        )
-    elif angle == 1:
-        side = "above" if place > 5 else "below"
-        which = f"that lie within {far}° of" if middle else f"that lie {near} to {far}° {side}"
-        which += " the tangent plane"
-    else:
-        side = "outwards" if place > 5 else "inwards"
-        which = (
-            f"whose normal turns by less than {far}°"
-            if middle
-            else f"whose normal turns {side} by {near} to {far}°"
-        )
-    return f"the share of neighbouring points {which}"
-
-
 FAST_POINT_FEATURE_HISTOGRAM = Descriptor(
     name="FPFH",
     title="Fast point feature histogram",
     measures="How the surface curves around a point, from how its direction differs from that of its neighbours.",
-    quantities=tuple(_word_bin(dimension) for dimension in range(33)),
-    unit="%",
-    low="places with few such neighbours",
-    high="places with many such neighbours",
+    dimensions=33,
     edges=tuple(float(x) for x in np.linspace(0.0, 1.0, 11) ** 2),
     compute=compute,
 )

@@ -32,10 +32,7 @@ GAUSSIAN_CURVATURE = Descriptor(
     name="Gc",
     title="Gaussian curvature",
     measures="How the surface bends at a point: like a bump or tip, flat or rolled, or like a saddle.",
-    quantities=("the angle by which the triangles around a point fall short of a full turn",),
-    unit="radians",
-    low="saddles, as where a limb leaves the body",
-    high="bumps and tips",
+    dimensions=1,
     # Zero in the middle of a bin: rounding must not deal out what is flat to two.
     edges=tuple(float(x) for x in np.linspace(-0.09, 0.11, 11)),
     compute=compute,

@@ -43,10 +43,7 @@ GEODESIC_DISTANCE = Descriptor(
     title="Average geodesic distance",
     measures="How far a point is, walking on the surface, from all the others: small at the middle, large at the "
     "ends of limbs.",
-    quantities=("the mean distance to all other points, walking on the surface,",),
-    unit="times the shape's radius",
-    low="the middle of the shape",
-    high="the ends of its limbs",
+    dimensions=1,
     edges=tuple(float(x) for x in np.linspace(0.4, 2.4, 11)),
     compute=compute,
 )

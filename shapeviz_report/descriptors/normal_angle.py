@@ -30,10 +30,7 @@ NORMAL_ANGLE = Descriptor(
     name="Na",
     title="Normal angle",
     measures="Whether the surface runs along the shape's longest direction or faces its ends.",
-    quantities=("the cosine of the angle between the surface's normal and the shape's longest direction",),
-    unit="",
-    low="surface that runs along the longest direction",
-    high="surface that faces the ends",
+    dimensions=1,
     edges=tuple(float(x) for x in np.linspace(0.0, 1.0, 11)),
     compute=compute,
 )

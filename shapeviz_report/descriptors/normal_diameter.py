@@ -42,10 +42,7 @@ NORMAL_DIAMETER = Descriptor(
     name="Nd",
     title="Normal diameter",
     measures="How thick the shape is below a point: thin sheets and limbs against full bodies.",
-    quantities=("the thickness of the shape, straight through,",),
-    unit="times the shape's radius",
-    low="thin sheets and limbs",
-    high="full bodies",
+    dimensions=1,
     edges=tuple(float(x) for x in np.linspace(0.0, 1.0, 11)),
     compute=compute,
 )

@@ -32,10 +32,7 @@ POINT_ANGLE = Descriptor(
     name="Pa",
     title="Point angle",
     measures="Whether a point lies towards the ends of the shape's longest direction or around its waist.",
-    quantities=("the cosine of the angle between the way to the shape's middle and its longest direction",),
-    unit="",
-    low="the waist",
-    high="the ends of the longest direction",
+    dimensions=1,
     edges=tuple(float(x) for x in np.linspace(0.0, 1.0, 11)),
     compute=compute,
 )

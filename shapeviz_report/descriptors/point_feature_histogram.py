@@ -32,47 +32,11 @@ def compute(surface: Surface) -> np.ndarray:
     return count_pfh(surface.vertices, surface.normals, surface.neighbours)
 
 
-LEANS = (
-    "leans more than 37° to the left",
-    "leans 12 to 37° to the left",
-    "leans sideways by less than 12°",
-    "leans 12 to 37° to the right",
-    "leans more than 37° to the right",
-)
-HEIGHTS = (
-    "more than 37° below",
-    "12 to 37° below",
-    "within 12° of",
-    "12 to 37° above",
-    "more than 37° above",
-)
-TURNS = (
-    "folds inwards by more than 108°",
-    "bends inwards by 36 to 108°",
-    "turns by less than 36°",
-    "bends outwards by 36 to 108°",
-    "folds outwards by more than 108°",
-)
-"""What the fifths of alpha, phi and theta say of the second point of a pair, as seen from the first."""
-
-
-def _word_cell(dimension: int) -> str:
-    """The pairs that a dimension counts."""
-    alpha, phi, theta = dimension // 25, dimension // 5 % 5, dimension % 5
-    return (
-        f"the share of point pairs in a patch of which one lies {HEIGHTS[phi]} the other's tangent plane, while the "
-        f"normal {TURNS[theta]} on the way and {LEANS[alpha]}"
-    )
-
-
 POINT_FEATURE_HISTOGRAM = Descriptor(
     name="PFH",
     title="Point feature histogram",
     measures="How the surface curves in a small patch, from how the directions of every two points in it differ.",
-    quantities=tuple(_word_cell(dimension) for dimension in range(125)),
-    unit="%",
-    low="patches with few such pairs",
-    high="patches with many such pairs",
+    dimensions=125,
     edges=tuple(float(x) for x in np.linspace(0.0, 0.8, 11) ** 2),
     compute=compute,
     totals=tuple(size * (size - 1) for size in range(2, NEIGHBOURS + 1)),

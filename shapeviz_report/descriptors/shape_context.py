@@ -41,29 +41,11 @@ def compute(surface: Surface) -> np.ndarray:
     return count_contexts(vertices.astype(np.float32), *frames, seen, limits)
 
 
-def _word_part(dimension: int) -> str:
-    """The part of the space around a point that a dimension counts."""
-    shell, octant = divmod(dimension, 8)
-    inner, outer = (f"{2 * share:g} times the shape's radius" for share in SHELLS)
-    distance = (f"within {inner}", f"{2 * SHELLS[0]:g} to {outer} away", f"more than {outer} away")[shell]
-    side = "outside" if octant & 4 else "inside"
-    lengthways, crossways = ("towards" if octant & bit else "away from" for bit in (1, 2))
-    tangents = (
-        f"{lengthways} its middle both lengthways and crossways"
-        if lengthways == crossways
-        else f"{lengthways} its middle lengthways and {crossways} it crossways"
-    )
-    return f"the share of the shape that is {distance}, {side} the tangent plane, and {tangents}"
-
-
 SHAPE_CONTEXT = Descriptor(
     name="Sc",
     title="Shape context",
     measures="How the rest of the shape lies around a point: how much of it is near or far, in front or behind.",
-    quantities=tuple(_word_part(dimension) for dimension in range(24)),
-    unit="%",
-    low="points with little of the shape in that part of their surroundings",
-    high="points with much of the shape in that part of their surroundings",
+    dimensions=24,
     edges=tuple(float(x) for x in np.linspace(0.0, 0.8, 11) ** 2),
     compute=compute,
     totals=tuple(range(1, SEEN + 1)),

@@ -8,7 +8,6 @@ from hashlib import sha256
 
 import numpy as np
 
-from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.exemplars import find_rivals
 from shapeviz_report.features import BINS
 from shapeviz_report.pages.base import (
@@ -25,6 +24,7 @@ from shapeviz_report.quality import hit_range
 from shapeviz_report.render import CLAY, MARKED, ramp_codes
 from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.types import BinSearch, BinStep, FloatArray, HeldOutBins, MinimalSet, Report
+from shapeviz_report.wording import dimensions_of
 
 #: Decimals of NH.
 SCORE_DECIMALS = 6
@@ -88,22 +88,15 @@ def _selection(report: Report) -> Selection:
 
 
 def _dimensions(report: Report) -> list[Dimension]:
-    """What each dimension of the descriptors measures, and between which values its bins lie; percentages as such."""
-    descriptors = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
-    dimensions: list[Dimension] = []
-    for block in report.features.blocks:
-        descriptor = descriptors.get(block.name)
-        for dimension in range(block.dimensions if block.bins > 1 else 0):
-            unit = descriptor.unit if descriptor else ""
-            edges = report.edges[len(dimensions)] * (100 if unit == "%" else 1)
-            dimensions.append(
-                {
-                    "quantity": descriptor.quantities[dimension] if descriptor else block.name,
-                    "unit": unit,
-                    "edges": [float(f"{edge:.4g}") for edge in edges],
-                }
-            )
-    return dimensions
+    """What each dimension of the descriptors measures, and between which values its bins lie, as they are shown."""
+    return [
+        {
+            "quantity": dimension.topic,
+            "unit": dimension.unit,
+            "edges": [float(f"{edge:.4g}") for edge in dimension.edges],
+        }
+        for dimension in dimensions_of(report.features, report.edges)
+    ]
 
 
 def _found(report: Report, found: BinSearch, place: dict[str, int]) -> FoundBins:

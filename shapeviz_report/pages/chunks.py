@@ -214,11 +214,19 @@ class Hierarchy(TypedDict):
     trees: list[Tree]
 
 
-class Sides(TypedDict):
-    """What lies below and above each inner edge of a feature's bins, in words."""
+class Side(TypedDict):
+    """One side of an edge in plain words, as in :class:`~shapeviz_report.wording.base.Said`."""
 
-    below: list[str]
-    above: list[str]
+    clause: str
+    trend: str
+
+
+class Sides(TypedDict):
+    """What lies below and above each inner edge of a histogram, whose first column is ``start``."""
+
+    start: int
+    below: list[Side]
+    above: list[Side]
 
 
 class Comparison(TypedDict):
@@ -238,10 +246,10 @@ class Comparison(TypedDict):
         What a squared difference in a feature's compared values counts.
     whole : str
         What shares are of, in words.
-    where : list of str
-        The condition that a bin stands for, in words; None for a value that is no share.
-    sides : list of Sides, or None
-        Of each feature; None for one without one histogram.
+    clauses : list of str
+        What the surface does that a bin counts, in plain words; None for a value that is no share.
+    sides : list of Sides
+        Of each histogram that a stranger can picture.
     """
 
     k: int
@@ -251,8 +259,8 @@ class Comparison(TypedDict):
     rival: list[int]
     weights: list[float]
     whole: str
-    where: list[str | None]
-    sides: list[Sides | None]
+    clauses: list[str | None]
+    sides: list[Sides]
 
 
 class FeatureMarks(TypedDict):
@@ -409,9 +417,11 @@ class FeatureWords(TypedDict):
     """What a feature is."""
 
     title: str
+    aspect: str
     measures: str
     lowMeans: str
     highMeans: str
+    pictured: bool
 
 
 class Feature(FeatureWords):
@@ -456,6 +466,7 @@ class Workbench(TypedDict):
     """The bins but for their values; ``bins`` are the columns that the maps of the site are made from, or all."""
 
     features: list[Feature]
+    called: list[str]
     sentences: list[str]
     scaling: Literal["balanced", "plain"]
     neighbours: int

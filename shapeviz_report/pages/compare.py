@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.bins import scale_bins, word_conditions, word_side, word_whole
+from shapeviz_report.bins import scale_bins
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
 from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
-from shapeviz_report.pages.chunks import Comparison, Sides
+from shapeviz_report.pages.chunks import Comparison, Side, Sides
 from shapeviz_report.similarity import feature_weight
 from shapeviz_report.types import FloatArray, Report
+from shapeviz_report.wording import Said, agreed, dimensions_of, say_bins, word_whole
 
 #: Decimals of a shape's fit, in [-1, 1].
 FIT_DECIMALS = 4
@@ -91,25 +92,32 @@ def _compare(
             for block in report.features.blocks
         ],
         "whole": word_whole(preset.by_area),
-        "where": list(word_conditions(report.features, report.edges)),
-        "sides": _sides(report),
+        # What the surface does that a bin counts; None for external features.
+        "clauses": [
+            None if said is None else said.clause
+            for said in say_bins(report.features, report.edges, by_area=preset.by_area)
+        ],
+        "sides": _sides(report, by_area=preset.by_area),
     }
 
 
-def _sides(report: Report) -> list[Sides | None]:
-    """For each feature with one histogram, what lies below and above each inner edge; None for the others."""
-    sides: list[Sides | None] = []
-    row = 0
-    for block in report.features.blocks:
-        if block.bins == 1 or block.dimensions > 1:
-            sides.append(None)
-        else:
-            inner = report.edges[row, 1:-1]
-            sides.append(
-                {
-                    "below": [word_side(block, 0, edge, above=False) for edge in inner],
-                    "above": [word_side(block, 0, edge, above=True) for edge in inner],
-                }
-            )
-        row += block.dimensions if block.bins > 1 else 0
+def _sides(report: Report, *, by_area: bool) -> list[Sides]:
+    """Of each histogram that a stranger can picture, what lies below and above each inner edge."""
+    sides: list[Sides] = []
+    for dimension in dimensions_of(report.features, report.edges):
+        if dimension.wording is None or not dimension.wording.pictured:
+            continue
+        start = report.features.slice_of(dimension.block.name).start
+        inner = [float(edge) for edge in dimension.edges[1:-1]]
+        sides.append(
+            {
+                "start": start + dimension.number * dimension.block.bins,
+                "below": [_side(agreed(dimension.say(None, edge), by_area)) for edge in inner],
+                "above": [_side(agreed(dimension.say(edge, None), by_area)) for edge in inner],
+            }
+        )
     return sides
+
+
+def _side(said: Said) -> Side:
+    return {"clause": said.clause, "trend": said.trend}

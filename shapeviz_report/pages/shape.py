@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from shapeviz_report.bins import word_whole
 from shapeviz_report.features import PRESETS
 from shapeviz_report.pages.base import PageContent
 from shapeviz_report.types import Report
+from shapeviz_report.wording import word_whole
 
 
 class ShapePage:

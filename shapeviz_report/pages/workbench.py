@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from shapeviz_report import charts, quality
-from shapeviz_report.bins import explain_bins
 from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.features import PRESETS, Preset, compared_values
 from shapeviz_report.pages.base import PageContent, class_names, feature_marks
@@ -21,6 +20,7 @@ from shapeviz_report.pages.chunks import (
 )
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
+from shapeviz_report.wording import WORDINGS, explain_bins, say_bins
 
 #: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
 STEPS = 65535
@@ -61,6 +61,11 @@ def _workbench(report: Report, preset: Preset, compared: FloatArray, classes: tu
     projection, hits = next(iter(report.projections.values()))
     return {
         "features": _features(report, compared),
+        # In few plain words; empty for features that were brought along.
+        "called": [
+            "" if said is None else said.name
+            for said in say_bins(report.features, report.edges, by_area=preset.by_area)
+        ],
         "sentences": list(explain_bins(report.features, report.edges, by_area=preset.by_area)),
         "scaling": "balanced" if preset.balanced else "plain",
         "neighbours": hits.k,
@@ -104,15 +109,20 @@ def _words(block: FeatureBlock) -> FeatureWords:
     if descriptor is None:
         return {
             "title": block.name,
+            "aspect": block.name,
             "measures": "A feature that was brought along.",
             "lowMeans": "",
             "highMeans": "",
+            "pictured": False,
         }
+    wording = WORDINGS[block.name]
     return {
         "title": descriptor.title,
+        "aspect": wording.aspect,
         "measures": descriptor.measures,
-        "lowMeans": descriptor.low,
-        "highMeans": descriptor.high,
+        "lowMeans": wording.low,
+        "highMeans": wording.high,
+        "pictured": wording.pictured,
     }
 
 

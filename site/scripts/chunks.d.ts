@@ -141,10 +141,16 @@ declare namespace Chunk {
   interface Hierarchy {
     trees: Tree[];
   }
-  /** What lies below and above each inner edge of a feature's bins, in words. */
+  /** One side of an edge in plain words, as in :class:`~shapeviz_report.wording.base.Said`. */
+  interface Side {
+    clause: string;
+    trend: string;
+  }
+  /** What lies below and above each inner edge of a histogram, whose first column is `start`. */
   interface Sides {
-    below: string[];
-    above: string[];
+    start: number;
+    below: Side[];
+    above: Side[];
   }
   /** How well shapes fit their classes, and what a comparison needs beside the bins. */
   interface Comparison {
@@ -155,8 +161,8 @@ declare namespace Chunk {
     rival: number[];
     weights: number[];
     whole: string;
-    where: (string | null)[];
-    sides: (Sides | null)[];
+    clauses: (string | null)[];
+    sides: Sides[];
   }
   /** The colours of features, and of bars that stand for none. */
   interface FeatureMarks {
@@ -265,16 +271,20 @@ declare namespace Chunk {
   /** What a feature is. */
   interface FeatureWords {
     title: string;
+    aspect: string;
     measures: string;
     lowMeans: string;
     highMeans: string;
+    pictured: boolean;
   }
   /** A feature: its columns, its words, and between which values the chunk "bins" is cut into steps. */
   interface Feature {
     title: string;
+    aspect: string;
     measures: string;
     lowMeans: string;
     highMeans: string;
+    pictured: boolean;
     name: string;
     start: number;
     dimensions: number;
@@ -305,6 +315,7 @@ declare namespace Chunk {
   /** The bins but for their values; `bins` are the columns that the maps of the site are made from, or all. */
   interface Workbench {
     features: Feature[];
+    called: string[];
     sentences: string[];
     scaling: "balanced" | "plain";
     neighbours: number;

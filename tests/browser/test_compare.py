@@ -11,6 +11,7 @@ from waiting import drawn_again, eventually
 
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.neighbours import find_fits, find_nearest
+from shapeviz_report.wording import say_bins
 
 ROWS = 12
 
@@ -42,6 +43,12 @@ def title(page) -> str:
 
 def address(page) -> str:
     return page.evaluate("decodeURIComponent(location.hash.replaceAll('+', ' '))")
+
+
+def called(report) -> dict[str, str]:
+    """Plain words of every bin."""
+    said = say_bins(report.features, report.edges, by_area=True)
+    return {column: words.name for column, words in zip(report.features.columns, said) if words is not None}
 
 
 def rows_of(report, label) -> np.ndarray:
@@ -146,9 +153,14 @@ class TestTwoGroups:
         values = compared_values(report.features, PRESETS["default"])
         effects = shares_between(values, rows_of(report, "kind a"), rows_of(report, "kind b"))
         assert re.search(r"kind a and .*kind b (are clearly different|differ)", title(page))
-        best = report.features.columns[int(effects.argmax())]
+        # What can be pictured, all but PFH here, counts double; beyond three standard deviations nothing says more.
+        distances = np.sqrt(effects / (1 - effects) * 30 * 32) / 16
+        pictured = np.array([not column.startswith("PFH") for column in report.features.columns])
+        worth = np.minimum(distances, 3) * np.where(pictured, 2, 1)
+        best = report.features.columns[int(np.lexsort((distances, worth))[-1])]
         first = page.locator("#apart-bins .bin-of-two").first
-        assert first.locator(".bin-chip").inner_text() == best
+        assert first.locator(".bin-chip bdi").inner_text() == best
+        assert first.locator(".bin-chip .in-words").inner_text() == called(report)[best]
         shares = report.features.values[:, report.features.columns.index(best)]
         means = [100 * shares[rows_of(report, label)].mean() for label in ("kind a", "kind b")]
         shown = [float(text.removesuffix(" %")) for text in first.locator(".mean").all_inner_texts()[:2]]
@@ -159,6 +171,19 @@ class TestTwoGroups:
         within = page.locator("#feature-rows li.within bdi:first-child").all_inner_texts()
         assert "Gc" in within
         assert "PFH" not in within
+
+    @pytest.mark.parametrize("pair", ["ab", "ce"])
+    def test_sentences_are_those_of_people(self, compare, pair):
+        page = compare(a=f"class:kind {pair[0]}", b=f"class:kind {pair[1]}")
+        leads = page.locator("#answer .told-list li, #answer h2").all_inner_texts()
+        said = page.locator(".bin-of-two .says").all_inner_texts()
+        assert len(leads) > 1
+        for text in (*leads, *said):
+            assert not re.search("cosine|normal|tangent|radian|geodesic|histogram", text)
+            # Both sides read differently, and are parts of a whole.
+            figures = re.findall(r"(<?[\d.]+) %(?=[.,; ]| on average)", re.sub(r"(has|have) [^;:]*", "", text))
+            assert len(figures) == len(set(figures)), text
+            assert all(float(figure.removeprefix("<")) <= 100 for figure in figures), text
 
     def test_a_random_split_of_one_class_is_told_as_one(self, compare, reports):
         report = reports("workbench")
@@ -235,7 +260,7 @@ class TestTwoGroups:
 
     def test_bins_open_in_the_workbench(self, compare):
         page = compare(a="class:kind a", b="class:kind b")
-        names = page.locator("#apart-bins .bin-chip").all_inner_texts()
+        names = page.locator("#apart-bins .bin-chip bdi").all_inner_texts()
         page.click("#to-workbench")
         page.wait_for_selector("html[data-ready]", state="attached")
         eventually(page, lambda: page.locator("main[aria-busy=true]").count() == 0)
@@ -249,15 +274,21 @@ class TestOnShapes:
         assert page.locator(".seen-on canvas").count() == 0
         chips = page.locator("#apart-bins .bin-chip")
         share = next(chip for chip in chips.all() if not chip.inner_text().startswith("own"))
+        name = share.locator("bdi").inner_text()
         share.click()
         drawn_again(page)
-        assert f"bin={share.inner_text()}" in address(page)
-        assert page.locator("#seen-bin b").inner_text() == share.inner_text()
+        assert f"bin={name}" in address(page)
+        assert page.locator("#seen-bin b").inner_text() == name
+        # The exact definition is there for who asks.
+        definition = page.locator("#seen-bin .exactly p")
+        assert definition.is_hidden()
+        page.click("#seen-bin summary")
+        assert definition.inner_text().startswith("What share of the surface lies where ")
         page.click("#turn-both")
         eventually(page, lambda: page.locator(".seen-on canvas").count() == 2)
         eventually(page, lambda: page.locator(".stage[aria-busy]").count() == 0)
         labels = [canvas.get_attribute("aria-label") for canvas in page.locator(".seen-on canvas").all()]
-        assert all(f"values of {share.inner_text()}" in label for label in labels)
+        assert all(f"values of {name}" in label for label in labels)
         page.locator("#readings input[value=inside]").check(force=True)
         eventually(
             page,
@@ -265,10 +296,10 @@ class TestOnShapes:
         )
         # Another example of a group takes the place of the first.
         other = page.locator("#examples-b .example").nth(2)
-        name = other.get_attribute("title")
+        example = other.get_attribute("title")
         other.click()
-        eventually(page, lambda: name in page.locator("#stage-b canvas").get_attribute("aria-label"))
-        assert page.locator("#examples-b [aria-pressed=true]").get_attribute("title") == name
+        eventually(page, lambda: example in page.locator("#stage-b canvas").get_attribute("aria-label"))
+        assert page.locator("#examples-b [aria-pressed=true]").get_attribute("title") == example
 
     def test_where_two_examples_differ_is_seen_on_both(self, compare):
         page = compare("bins", a="class:ant", b="class:bird")

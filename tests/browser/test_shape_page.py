@@ -222,8 +222,11 @@ def test_reasons_and_ways_to_go_on(shape, reports):
         assert f"distance {other.distance:.3f}" in card.inner_text()
         order = np.argsort(-other.closer, kind="stable")
         words = card.locator(".why").inner_text()
-        assert words.startswith(f"Alike in {table.blocks[order[0]].name} ")
-        assert f"least in {table.blocks[order[-1]].name} " in words
+        aspects = [WORDINGS[block.name].aspect for block in table.blocks if block.bins > 1] + ["own"]
+        assert words.startswith(f"Alike in {aspects[order[0]]} and {aspects[order[1]]} (nearer than ")
+        # What they are least alike in is told only where they are not alike in it.
+        least = other.closer[order[-1]]
+        assert (f"least in {aspects[order[-1]]} " in words) == (least < 0.9)
         heights = [
             bar.evaluate("node => parseFloat(node.style.height)") for bar in card.locator(".alike i").all()
         ]

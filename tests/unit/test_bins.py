@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from shapeviz_report.bins import explain_bins, features_of, read_bins, scale_bins
+from shapeviz_report.bins import features_of, read_bins, scale_bins
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import BLOCKS, PRESETS, fixed_edges
 from shapeviz_report.types import FeatureBlock, FeatureTable
@@ -101,35 +101,3 @@ class TestScaling:
 
     def test_features_of_a_choice(self) -> None:
         assert features_of(table(), ("deep one[0]", "Agd:6", "Agd:7")) == ("Agd", "deep one")
-
-
-SENTENCES = dict(zip(table().columns, explain_bins(table(), fixed_edges(), by_area=True), strict=True))
-
-
-class TestWords:
-    def test_a_bin_in_the_middle(self) -> None:
-        assert SENTENCES["Agd:6"] == (
-            "What share of the surface lies where the mean distance to all other points, walking on the surface, is "
-            "from 1.4 to 1.6 times the shape's radius."
-        )
-
-    def test_the_outer_bins_take_what_lies_beyond(self) -> None:
-        assert SENTENCES["Gc:1"].endswith(" is below −0.07 radians.")
-        assert SENTENCES["Gc:10"].endswith(" is 0.09 radians or more.")
-        assert SENTENCES["Na:10"].endswith(" is 0.9 or more.")
-
-    def test_fractions_are_told_in_per_cent(self) -> None:
-        assert SENTENCES["PFH[0]:2"].endswith(" is from 0.64 to 2.56 %.")
-
-    def test_every_bin_of_a_histogram_has_a_sentence_of_its_own(self) -> None:
-        histograms = [text for name, text in SENTENCES.items() if not name.startswith("deep")]
-        assert len(set(histograms)) == sum(block.width for block in BLOCKS)
-        assert max(map(len, histograms)) < 260
-
-    def test_a_feature_that_was_brought_along(self) -> None:
-        assert SENTENCES["deep one[2]"] == "The value of deep one[2], a feature that was brought along."
-
-    def test_vertices_are_called_so_where_they_are_counted(self) -> None:
-        assert explain_bins(table(), fixed_edges(), by_area=False)[0].startswith(
-            "What share of the vertices lies"
-        )

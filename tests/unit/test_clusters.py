@@ -150,15 +150,11 @@ def test_what_is_typical_is_said_with_the_right_figures() -> None:
     found = describe_clusters(part(values), entries(["x"] * 31), table, values, edges, PRESET, stand_in=False)
     thick = found.clusters[0].typical
     assert thick[0] == (
-        "Full bodies: the thickness of the shape, straight through, is 0.8 times the shape's radius or more on "
-        "90 % of the surface, in other shapes on 20 %."
+        "Bodies are thicker: 90 % of the surface is thicker than 0.8 radii, in other shapes 20 %."
     )
-    assert all("Shape context" not in sentence and "share of the shape" not in sentence for sentence in thick)
+    assert all("of the shape" not in sentence for sentence in thick)
     assert "own is smaller than in other shapes: −3 against 5." in found.clusters[1].typical
-    assert any(
-        sentence.startswith("Thin sheets and limbs: the thickness of the shape, straight through, is below")
-        for sentence in found.clusters[2].typical
-    )
+    assert any(sentence.startswith("Bodies are thinner: ") for sentence in found.clusters[2].typical)
 
 
 def test_clusters_stand_in_only_where_no_shape_has_a_label() -> None:

@@ -35,3 +35,30 @@ export function shortened(text, length) {
   const letters = Array.from(text);
   return letters.length <= length ? text : `${letters.slice(0, length - 1).join("")}…`;
 }
+
+/**
+ * A share in percent, short; with more digits where asked.
+ * @param {number} share
+ * @param {number} [more]
+ */
+export function percent(share, more = 0) {
+  const value = 100 * share;
+  const least = 10 ** -(more + 1);
+  if (value > 0 && value < least / 2) return `<${least} %`;
+  return `${value.toFixed(value === 0 || value >= 9.95 ? more : more + 1)} %`;
+}
+
+/** Digits beyond those of `percent` at which two shares are told as the same. */
+const MOST_DIGITS = 2;
+
+/**
+ * Shares in percent, with as many digits as tell those apart that differ.
+ * @param {...number} shares
+ */
+export function percents(...shares) {
+  let more = 0;
+  /** @param {number} digits */
+  const told = (digits) => new Set(shares.map((share) => percent(share, digits))).size;
+  while (more < MOST_DIGITS && told(more) < new Set(shares).size) more += 1;
+  return shares.map((share) => percent(share, told(more) < new Set(shares).size ? 0 : more));
+}

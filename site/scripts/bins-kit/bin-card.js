@@ -3,8 +3,9 @@
 import { element, penOf, swatch } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 import { styleColor } from "../base/theme.js";
-import { figure, grouped } from "../base/words.js";
+import { figure, grouped, percent } from "../base/words.js";
 import { axisEnd } from "./bin-bars.js";
+import { binName } from "./bin-name.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
@@ -95,21 +96,13 @@ export class BinCard {
   #words(column) {
     const { bins } = this;
     const feature = bins.features[bins.featureOf(column)];
-    const mark = element("i", { class: "hued" });
-    mark.style.background = bins.color(column);
     const means =
       bins.binOf(column) < feature.bins / 2 ? ["Low values: ", feature.lowMeans] : ["High values: ", feature.highMeans];
     const score = Number.isNaN(this.scores[column])
       ? null
       : [figure(this.scores[column]), ` by ${this.scorer}, rank ${grouped(this.#rank(column))}`];
     return [
-      element(
-        "p",
-        { class: "name" },
-        mark,
-        element("b", {}, element("bdi", {}, bins.names[column])),
-        feature.title !== feature.name && feature.title,
-      ),
+      element("p", { class: "name" }, binName(bins, column)),
       element("p", {}, bins.sentence(column)),
       bins.isShare(column) && means[1] && element("p", { class: "quiet" }, means, "."),
       score && element("p", { class: "quiet" }, "Score ", element("b", {}, score[0]), score[1]),
@@ -300,14 +293,4 @@ export function quantile(values, share) {
   const below = Math.floor(place);
   const above = Math.min(below + 1, values.length - 1);
   return values[below] + (place - below) * (values[above] - values[below]);
-}
-
-/**
- * A share in percent, short.
- * @param {number} share
- */
-export function percent(share) {
-  const value = 100 * share;
-  if (value > 0 && value < 0.05) return "<0.1 %";
-  return `${value === 0 || value >= 9.95 ? value.toFixed(0) : value.toFixed(1)} %`;
 }

@@ -35,10 +35,11 @@ export function binTables(bins, scores, chosen) {
       String(place + 1),
       figure(scores[column]),
       chosen.has(column) ? "yes" : "no",
+      bins.called[column],
       bins.sentence(column),
     ];
   };
-  const columns = ["Bin", "Rank", "Score", "Chosen", "Meaning"];
+  const columns = ["Bin", "Rank", "Score", "Chosen", "In words", "Exactly"];
   const taken = places.filter((place) => chosen.has(ranking[place]));
   const best = places.slice(0, MOST_ROWS);
   const title =

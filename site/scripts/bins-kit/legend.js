@@ -45,13 +45,12 @@ export class Legend {
 }
 
 /**
- * What a descriptor measures, with its unit. Sentences go on from it, so that it may end with a comma.
+ * What a descriptor measures, with its unit.
  * @param {string} quantity
  * @param {string} unit
  */
 export function quantityInWords(quantity, unit) {
-  const named = quantity.replace(/,$/, "");
-  return unit === "" ? named : `${named}, in ${unit}`;
+  return unit === "" ? quantity : `${quantity}, in ${unit === "°" ? "degrees" : unit}`;
 }
 
 /** @param {number} value */

@@ -3,7 +3,8 @@
 import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
-import { percent } from "./bin-card.js";
+import { percent } from "../base/words.js";
+import { binName, exactly, inWords } from "./bin-name.js";
 import { Legend } from "./legend.js";
 
 /** @import { State } from "../base/state.js" */
@@ -38,12 +39,7 @@ export class Look {
     });
     new Finder("bin", {
       find: (text) => bins.find(text),
-      label: (column) => [
-        hue(bins, column),
-        element("bdi", {}, bins.names[column]),
-        " ",
-        element("span", { class: "quiet" }, bins.features[bins.featureOf(column)].title),
-      ],
+      label: (column) => [hue(bins, column), element("bdi", {}, bins.names[column]), ...inWords(bins, column)],
       choose: (column) => state.set({ bin: column, group: null }),
     });
     state.listen((changed) => {
@@ -80,7 +76,12 @@ export class Look {
      * @param {number} value
      * @param {number} own
      */
-    const option = (value, own) => element("option", { value: `${value} ${own}` }, bins.shortName(value, LONGEST));
+    const option = (value, own) =>
+      element(
+        "option",
+        { value: `${value} ${own}` },
+        [bins.shortName(value, LONGEST), bins.called[value]].filter(Boolean).join("  "),
+      );
     this.choice.replaceChildren(
       ...(known ? [] : [option(column, group)]),
       ...lists.map(([own, name, columns]) =>
@@ -99,10 +100,6 @@ export class Look {
   #tell(column) {
     const { bins, card, database } = this;
     const feature = bins.features[bins.featureOf(column)];
-    const end =
-      bins.binOf(column) < feature.bins / 2
-        ? ["Low values mean ", feature.lowMeans]
-        : ["High values mean ", feature.highMeans];
     const measured = bins.isShare(column) && feature.measures !== "";
     const group = this.state.get("group");
     const groups = database.labelled ? [...database.sizes.keys()].sort((a, b) => a - b) : [];
@@ -113,19 +110,11 @@ export class Look {
       others: groups.filter((other) => other !== group),
     });
     return [
-      element("h3", {}, hue(bins, column), element("bdi", {}, bins.names[column])),
-      element("p", { class: "sentence" }, bins.sentence(column)),
-      measured &&
-        element(
-          "p",
-          { class: "quiet" },
-          element("b", {}, feature.title),
-          ": ",
-          lowered(feature.measures),
-          end[1] !== "" && ` ${end[0]}${end[1]}.`,
-        ),
+      element("h3", {}, binName(bins, column)),
+      measured && element("p", { class: "quiet" }, element("b", {}, feature.title), ": ", lowered(feature.measures)),
       element("p", { class: "who" }, this.#who(column)),
       element("div", { class: "bin-card" }, card.classes(column)),
+      exactly(bins, column),
     ].filter(Boolean);
   }
 

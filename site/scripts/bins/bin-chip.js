@@ -1,6 +1,7 @@
 // The name of a bin, to point at and to click: what it means shows beside it, and what it looks like below.
 
 import { element } from "../base/dom.js";
+import { inWords } from "../bins-kit/bin-name.js";
 
 /** @import { BinsState } from "../addresses/bins.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */
@@ -51,6 +52,7 @@ export class BinChips {
       },
       hue,
       element("bdi", {}, bins.shortName(column, LONGEST)),
+      inWords(bins, column),
     );
     mark(chip, this.state.get("bin"));
     return chip;

@@ -237,7 +237,7 @@ export class PathPlayer {
   }
 
   /**
-   * What a step did, in words: of every bin that came or went, what it counts.
+   * What a step did: every bin that came or went.
    * @param {Chunk.PathStep} pathStep
    */
   #changes({ added, removed }) {
@@ -251,8 +251,6 @@ export class PathPlayer {
         {},
         element("b", { class: word === "added" ? "better" : "worse" }, word === "added" ? "+ " : "− "),
         this.chips.chip(column),
-        " ",
-        element("span", { class: "quiet" }, this.bins.sentence(column)),
       );
     return [...added.map((column) => line(column, "added")), ...removed.map((column) => line(column, "removed"))];
   }

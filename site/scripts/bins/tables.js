@@ -1,8 +1,7 @@
 // What the Bins page shows, as tables.
 
 import { table } from "../base/tables.js";
-import { figure } from "../base/words.js";
-import { percent } from "../bins-kit/bin-card.js";
+import { figure, percent } from "../base/words.js";
 
 /** @import { BinsState } from "../addresses/bins.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */

@@ -1,11 +1,10 @@
 // The answer to "what makes these two groups alike or different?", before all figures: a few sentences.
 
 import { element } from "../base/dom.js";
-import { count } from "../base/words.js";
-import { percent } from "../bins-kit/bin-card.js";
-import { varied } from "./contrasts.js";
+import { count, percent, percents } from "../base/words.js";
+import { worth } from "./contrasts.js";
 import { mean } from "./distribution.js";
-import { binCount, called, meaning, share, statement } from "./words.js";
+import { binCount, called, share, statement } from "./words.js";
 
 /** @import { Contrast } from "./contrasts.js" */
 /** @import { Group } from "./groups.js" */
@@ -16,15 +15,17 @@ import { binCount, called, meaning, share, statement } from "./words.js";
  * @typedef {object} SideOfEdge
  * @property {number} size in standard deviations
  * @property {{ a: number, b: number }} means
- * @property {string} where
- * @property {string} place
- * @property {boolean} outer
+ * @property {Chunk.Side} side
+ * @property {number} feature
  */
 
 const MOST_TOLD = 3;
 
 /** Standard deviations by which means must differ to be told. */
 const TELLING = 0.8;
+
+/** Of the surface, a part by which the groups must differ for anybody to see it. */
+const SEEN = 0.03;
 
 /** Single bins tell the groups apart: nearly every shape of one has more of it than nearly every shape of the other. */
 const CLEARLY = 0.95;
@@ -69,19 +70,24 @@ export function answer(contrast, a, b, data, kin) {
         told.map((words) => element("li", {}, words)),
         alike && element("li", {}, alike),
       ),
-    element(
-      "p",
-      {},
-      spread,
-      " ",
-      beyond.length > 0
-        ? [
-            element("b", {}, binCount(beyond.length, bins.count)),
-            ` ${beyond.length === 1 ? "differs" : "differ"} more than chance lets any bin differ.`,
-          ]
-        : "No single bin differs beyond chance: the difference lies in many small ones together.",
-    ),
     kin && element("p", {}, kin),
+    element(
+      "details",
+      { class: "exactly" },
+      element("summary", {}, "How sure is this?"),
+      element(
+        "p",
+        {},
+        spread,
+        " ",
+        beyond.length > 0
+          ? [
+              element("b", {}, binCount(beyond.length, bins.count)),
+              ` ${beyond.length === 1 ? "differs" : "differ"} more than chance lets any bin differ.`,
+            ]
+          : "No single bin differs beyond chance: the difference lies in many small ones together.",
+      ),
+    ),
   ].filter(Boolean);
 }
 
@@ -105,62 +111,79 @@ function headline(contrast, a, b) {
 }
 
 /**
- * What is easiest to picture: of features with one value a point, how much of the surface lies on one side of an edge;
- * the edge at which the groups differ most. Without such a feature, the best bin.
+ * What is easiest to picture: of each feature that can be, how much of the surface lies on one side of an edge; the edge
+ * at which the groups differ most. Before it the best bin, where that one says much more.
  * @param {Contrast} contrast
  * @param {Group} a
  * @param {Group} b
  * @param {Chunk.Comparison} data
  */
 function plainest(contrast, a, b, data) {
-  const { apart, bins } = contrast;
-  const found = data.sides
-    .map((words, feature) =>
-      words === null || apart.features[feature].share <= apart.features[feature].limit
-        ? null
-        : bestSide(contrast, bins.features[feature], words),
-    )
-    .filter((side) => side !== null)
-    .filter((side) => side.size >= TELLING)
-    .sort((one, other) => other.size - one.size)
-    .slice(0, MOST_TOLD);
-  if (found.length === 0)
-    return varied(contrast.beyond, bins, 1).map((column) => [
-      statement(column, contrast, a, b, data),
-      said(meaning(column, bins)),
-    ]);
-  return found.map((side) => sentence(side, a, b, data));
+  const { apart, beyond, bins, told } = contrast;
+  /** @type {Map<number, SideOfEdge>} */
+  const best = new Map();
+  for (const words of data.sides) {
+    const feature = bins.featureOf(words.start);
+    if (apart.features[feature].share <= apart.features[feature].limit) continue;
+    const side = bestSide(contrast, feature, words);
+    const known = best.get(feature);
+    if (side !== null && (known === undefined || rank(known, side) > 0)) best.set(feature, side);
+  }
+  const sides = [...best.values()].sort(rank).slice(0, MOST_TOLD);
+  const [first] = beyond.length > 0 ? told : [];
+  const much =
+    first !== undefined &&
+    !bins.isPictured(first) &&
+    worth(contrast.difference[first], false) > worth(sides[0]?.size ?? 0, true);
+  return [
+    ...(much ? [statement(first, contrast, a, b, data)] : []),
+    ...sides.slice(0, MOST_TOLD - Number(much)).map((side) => sentence(side, a, b, data)),
+  ];
 }
 
 /**
- * Where the shares of the surface below an edge differ most, in standard deviations within the groups.
+ * Which of two sides is told first: the one whose groups are farther apart, and of those that are far enough the one with
+ * more to see.
+ * @param {SideOfEdge} one
+ * @param {SideOfEdge} other
+ */
+function rank(one, other) {
+  return worth(other.size, true) - worth(one.size, true) || gap(other) - gap(one);
+}
+
+/** @param {SideOfEdge} side */
+function gap({ means }) {
+  return Math.abs(means.a - means.b);
+}
+
+/**
+ * Where the shares of the surface on both sides of an edge differ most; null where nobody would see it.
  * @param {Contrast} contrast
- * @param {Chunk.Feature} feature
+ * @param {number} feature
  * @param {Chunk.Sides} words
  * @returns {SideOfEdge | null}
  */
-function bestSide({ bins, sample }, { start, bins: width, lowMeans, highMeans }, words) {
-  const below = { a: new Float64Array(sample.a.length), b: new Float64Array(sample.b.length) };
+function bestSide({ bins, sample }, feature, { start, below, above }) {
+  const sums = { a: new Float64Array(sample.a.length), b: new Float64Array(sample.b.length) };
   /** @type {SideOfEdge | null} */
   let best = null;
-  for (let edge = 0; edge < width - 1; edge += 1) {
+  for (const edge of below.keys()) {
     for (const side of /** @type {const} */ (["a", "b"]))
-      sample[side].forEach((row, place) => (below[side][place] += bins.share(start + edge, row)));
-    const means = { a: mean(below.a), b: mean(below.b) };
+      sample[side].forEach((row, place) => (sums[side][place] += bins.share(start + edge, row)));
+    const means = { a: mean(sums.a), b: mean(sums.b) };
     const spread = Math.sqrt(
-      (squares(below.a, means.a) + squares(below.b, means.b)) / Math.max(sample.a.length + sample.b.length - 2, 1),
+      (squares(sums.a, means.a) + squares(sums.b, means.b)) / Math.max(sample.a.length + sample.b.length - 2, 1),
     );
-    const size = Math.abs(means.a - means.b) / Math.max(spread, 0.01);
-    if (best !== null && size <= best.size) continue;
     // The smaller side of the two says more.
-    const above = means.a + means.b > 1;
-    best = {
-      size,
-      means: above ? { a: 1 - means.a, b: 1 - means.b } : means,
-      where: (above ? words.above : words.below)[edge],
-      place: above ? highMeans : lowMeans,
-      outer: above ? edge >= width / 2 : edge < width / 2 - 1,
+    const upper = means.a + means.b > 1;
+    const side = {
+      size: Math.abs(means.a - means.b) / Math.max(spread, 0.01),
+      means: upper ? { a: 1 - means.a, b: 1 - means.b } : means,
+      side: (upper ? above : below)[edge],
+      feature,
     };
+    if (side.size < TELLING || gap(side) < SEEN) continue;
+    if (best === null || rank(best, side) > 0) best = side;
   }
   return best;
 }
@@ -171,20 +194,19 @@ function bestSide({ bins, sample }, { start, bins: width, lowMeans, highMeans },
  * @param {Group} b
  * @param {Chunk.Comparison} data
  */
-function sentence({ means, where, place, outer }, a, b, data) {
+function sentence({ means, side: { clause, trend } }, a, b, data) {
   const [more, less] = means.a > means.b ? [a, b] : [b, a];
-  const meant = outer && place !== "" ? [" (", place, ")"] : [];
+  const [most, least] = percents(means[more.side], means[less.side]);
   return [
     "In ",
     called(more),
     ", ",
-    element("b", {}, percent(means[more.side])),
-    ` of ${data.whole} lies where ${where}`,
-    ...meant,
-    "; in ",
+    trend === "" ? "" : `${trend}: `,
+    element("b", {}, most),
+    ` of ${data.whole} ${clause}; in `,
     called(less),
     ", ",
-    element("b", {}, percent(means[less.side])),
+    element("b", {}, least),
     ".",
   ];
 }
@@ -206,27 +228,25 @@ function squares(values, middle) {
  */
 function inCommon(contrast, a, b, data) {
   const { bins, sample, shared } = contrast;
-  const shares = shared.filter((column) => bins.isShare(column));
-  const column = shares.find((own) => bins.features[bins.featureOf(own)].dimensions === 1) ?? shares[0];
+  /** @param {number} column */
+  const means = (column) =>
+    [sample.a, sample.b, sample.rest].map((rows) => mean(rows.map((row) => bins.share(column, row))));
+  const column = shared.find((own) => {
+    const [first, second, others] = bins.isShare(own) && bins.isPictured(own) ? means(own) : [0, 0, 0];
+    return Math.min(Math.abs(first - others), Math.abs(second - others)) >= SEEN;
+  });
   if (column === undefined) return null;
-  const [first, second, others] = [sample.a, sample.b, sample.rest].map((rows) =>
-    mean(rows.map((row) => bins.share(column, row))),
-  );
-  const more = first + second > 2 * others;
+  const [first, second, others] = means(column);
+  const told = percents(first, second, others);
   return [
-    "Of both, ",
-    element("b", {}, more ? "more" : "less"),
-    ` of ${data.whole} than of other shapes lies where ${data.where[column]}: `,
+    "Compared with other shapes, ",
+    element("b", {}, first > others ? "more" : "less"),
+    ` of ${data.whole} ${data.clauses[column]} in both: `,
     called(a),
-    ` ${percent(first)}, `,
+    ` ${told[0]}, `,
     called(b),
-    ` ${percent(second)}, the others ${percent(others)}.`,
+    ` ${told[1]}, the others ${told[2]}.`,
   ];
-}
-
-/** @param {string | null} text */
-function said(text) {
-  return text && element("span", { class: "quiet" }, ` ${text}`);
 }
 
 /** @param {Contrast} contrast */
@@ -243,18 +263,16 @@ function tooFew({ sample }) {
  */
 export function kinship(a, b, neighbours) {
   const [there, back] = [neighbours.between(a.shapes, b.shapes), neighbours.between(b.shapes, a.shapes)];
-  /** @param {number} value */
-  const told = (value) => `${Math.round(100 * value)} %`;
   if (there === null || back === null) return null;
   if (there === 0 && back === 0)
-    return ["No shape of the one is among the ", count(neighbours.k, "nearest neighbour"), " of a shape of the other."];
+    return ["No shape of the one is among the ", count(neighbours.k, "shape"), " most like a shape of the other."];
   return [
     "Of the ",
-    count(neighbours.k, "nearest neighbour"),
-    " of a shape of ",
+    count(neighbours.k, "shape"),
+    " most like one of ",
     called(a),
-    `, ${told(there)} on average are of `,
+    `, ${percent(there)} on average are of `,
     called(b),
-    `; the other way round it is ${told(back)}.`,
+    `; the other way round it is ${percent(back)}.`,
   ];
 }

@@ -1,8 +1,10 @@
 // Bins as cards: what it says in a sentence, and how much of it both groups have.
 
 import { element } from "../base/dom.js";
-import { distribution, mean, toldAs } from "./distribution.js";
-import { called, meaning, pairs, statement } from "./words.js";
+import { percents } from "../base/words.js";
+import { exactly, inWords } from "../bins-kit/bin-name.js";
+import { distribution, mean } from "./distribution.js";
+import { called, meaning, numbers, pairs, statement } from "./words.js";
 
 /** @import { Contrast } from "./contrasts.js" */
 /** @import { View } from "./groups-view.js" */
@@ -18,7 +20,6 @@ export function binCard(column, view, { shared = false } = {}) {
   const { contrast, a, b, bins, data, rest } = view;
   const hue = element("i", { class: "hued" });
   hue.style.background = bins.color(column);
-  const { title, name } = bins.features[bins.featureOf(column)];
   const share = bins.isShare(column);
   /**
    * @param {Group | View["rest"]} group
@@ -51,12 +52,13 @@ export function binCard(column, view, { shared = false } = {}) {
         },
         hue,
         element("bdi", {}, bins.shortName(column, 18)),
+        inWords(bins, column),
       ),
-      title !== name && element("span", { class: "quiet" }, title),
     ),
     element("p", { class: "says" }, shared ? common(column, view, means) : statement(column, contrast, a, b, data)),
     distribution(rows, share),
-    element("p", { class: "quiet" }, shared ? null : ahead(column, contrast, a, b), " ", meaning(column, bins)),
+    !shared && element("p", { class: "quiet" }, ahead(column, contrast, a, b)),
+    exactly(bins, column, meaning(column, bins)),
   );
 }
 
@@ -68,9 +70,9 @@ export function binCard(column, view, { shared = false } = {}) {
  */
 function common(column, { a, b, bins, data, rest }, means) {
   const [first, second, others] = means;
-  const told = toldAs(bins.isShare(column));
+  const told = (bins.isShare(column) ? percents : numbers)(first, second, others);
   const more = (first + second) / 2 > others;
-  const figures = [told(first), " and ", told(second), " on average, in ", called(rest), " ", told(others)];
+  const figures = [told[0], " and ", told[1], " on average; in ", called(rest), ", ", told[2]];
   if (!bins.isShare(column))
     return [
       "In ",
@@ -84,11 +86,12 @@ function common(column, { a, b, bins, data, rest }, means) {
       ".",
     ];
   return [
-    "In both ",
+    "Compared with other shapes, ",
+    `${more ? "more" : "less"} of ${data.whole} ${data.clauses[column]} in `,
     called(a),
     " and ",
     called(b),
-    `, ${more ? "more" : "less"} of ${data.whole} than in other shapes lies where ${data.where[column]}: `,
+    ": ",
     ...figures,
     ".",
   ];

@@ -22,6 +22,9 @@ const SEED = 0;
 /** A standardised difference of this size is told apart by the eye; larger ones are no clearer. */
 const NO_SPREAD = 50;
 
+/** Means so many standard deviations apart tell 98 of 100 pairs of shapes apart: larger differences say no more. */
+export const ENOUGH = 3;
+
 export class Contrasts {
   /** @type {Engine | null} */
   #engine = null;
@@ -129,6 +132,12 @@ export class Contrast {
     this.ranked = [...this.difference.keys()].filter((column) => apart.effect[column] !== 0);
     this.ranked.sort((one, other) => Math.abs(apart.effect[other]) - Math.abs(apart.effect[one]) || one - other);
     this.beyond = this.ranked.filter((column) => this.isBeyond(column));
+    this.told = [...this.ranked].sort(
+      (one, other) =>
+        Number(this.isBeyond(other)) - Number(this.isBeyond(one)) ||
+        worth(this.difference[other], bins.isPictured(other)) - worth(this.difference[one], bins.isPictured(one)) ||
+        Math.abs(this.difference[other]) - Math.abs(this.difference[one]),
+    );
     this.shared = both === undefined ? [] : this.#findShared(contests, ownRest, othersRest);
     this.central = {
       a: nearest(sample.a, apart.away),
@@ -157,7 +166,7 @@ export class Contrast {
    * @param {Found} othersRest
    */
   #findShared(contests, ownRest, othersRest) {
-    const { both, difference } = this;
+    const { bins, both, difference } = this;
     const [own, others] = [2, 3].map((number) => {
       const { first, second } = contests[number];
       const { effect } = number === 2 ? ownRest : othersRest;
@@ -174,7 +183,12 @@ export class Contrast {
           !this.isBeyond(column) &&
           clear(column) > 0,
       )
-      .sort((one, other) => clear(other) - clear(one) || one - other);
+      .sort(
+        (one, other) =>
+          worth(clear(other), bins.isPictured(other)) - worth(clear(one), bins.isPictured(one)) ||
+          clear(other) - clear(one) ||
+          one - other,
+      );
   }
 
   /**
@@ -192,6 +206,15 @@ export class Contrast {
     }
     return total / (sample.a.length * sample.b.length);
   }
+}
+
+/**
+ * What a difference is worth being told: what can be pictured counts double, and beyond ENOUGH nothing says more.
+ * @param {number} difference in standard deviations
+ * @param {boolean} pictured
+ */
+export function worth(difference, pictured) {
+  return Math.min(Math.abs(difference), ENOUGH) * (pictured ? 2 : 1);
 }
 
 /**

@@ -1,8 +1,8 @@
 // How much of a bin each of some groups has: a row a group, all on one axis.
 
 import { element, svg } from "../base/dom.js";
+import { percent } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
-import { percent } from "../bins-kit/bin-card.js";
 
 /**
  * A group's values; `at` is one that stands out.

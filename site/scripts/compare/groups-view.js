@@ -210,7 +210,7 @@ export class GroupsView {
     const { database } = this;
     const { bins } = contrast;
     const named = bins.names.indexOf(this.state.get("bin") ?? "");
-    const best = contrast.ranked[0] ?? 0;
+    const best = contrast.told[0] ?? 0;
     /** @type {View["rest"]} */
     const rest = { side: "rest", name: "the rest", color: () => "var(--quiet)", mark: () => null };
     /** @param {number} column */
@@ -271,16 +271,16 @@ export class GroupsView {
     const view = /** @type {View} */ (this.view);
     const { contrast, bins } = view;
     const columns =
-      this.shown === FIRST ? varied(contrast.ranked, bins, FIRST) : oneOfDimension(contrast.ranked, bins, this.shown);
+      this.shown === FIRST ? varied(contrast.told, bins, FIRST) : oneOfDimension(contrast.told, bins, this.shown);
     const within = contrast.beyond.length === 0;
     document.getElementById("apart-words").textContent = within
       ? "These bins differ most between the two groups, but no more than bins do when the shapes are dealt out at random."
-      : `Ranked by the difference of the means in relation to the spread within the groups. Each mark is a shape${contrast.sample.a.length > 60 || contrast.sample.b.length > 60 ? ", or each bar how many shapes of a large group lie there" : ""}; the line is the mean.`;
+      : `Ranked by the difference of the means in relation to the spread within the groups; those that can be pictured count double. Each mark is a shape${contrast.sample.a.length > 60 || contrast.sample.b.length > 60 ? ", or each bar how many shapes of a large group lie there" : ""}; the line is the mean.`;
     const list = document.getElementById("apart-bins");
     list.classList.toggle("within", within);
     list.replaceChildren(...columns.map((column) => binCard(column, view)));
     document.getElementById("more-bins").hidden =
-      oneOfDimension(contrast.ranked, bins, columns.length + 1).length <= columns.length;
+      oneOfDimension(contrast.told, bins, columns.length + 1).length <= columns.length;
   }
 
   #shared() {

@@ -5,13 +5,15 @@ import { chunk } from "../base/chunks.js";
 import { besideAddress } from "../addresses/shape.js";
 import { element, picture } from "../base/dom.js";
 import { pageAddress, resource } from "../base/place.js";
-import { percent } from "../bins-kit/bin-card.js";
+import { percent } from "../base/words.js";
+import { binName, exactly } from "../bins-kit/bin-name.js";
 import { Legend } from "../bins-kit/legend.js";
 import { sumOf } from "../bins-kit/difference.js";
 import { Stage } from "../bins-kit/stage.js";
 import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
 import { Similarity } from "../database/similarity.js";
 import { Paint } from "../viewer/paint.js";
+import { meaning } from "./words.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
@@ -90,11 +92,9 @@ export class OnShapes {
     this.surfaces?.leave();
     const share = bins.isShare(bin);
     document.getElementById("turn-both").hidden = this.asked || !share || selection.models === null;
-    const hue = element("i", { class: "hued" });
-    hue.style.background = bins.color(bin);
     document
       .getElementById("seen-bin")
-      .replaceChildren(hue, element("b", {}, element("bdi", {}, bins.names[bin])), " ", bins.sentence(bin));
+      .replaceChildren(element("p", {}, binName(bins, bin)), exactly(bins, bin, meaning(bin, bins)));
     const dimension = bins.dimensionOf(bin);
     if (dimension !== null) this.legend.show(selection.dimensions[dimension], bins.binOf(bin));
     else this.legend.clear();

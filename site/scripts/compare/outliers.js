@@ -3,9 +3,11 @@
 import { compareAddress } from "../addresses/compare.js";
 import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, percents } from "../base/words.js";
+import { inWords } from "../bins-kit/bin-name.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { distribution, mean, toldAs } from "./distribution.js";
+import { numbers } from "./words.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -258,10 +260,8 @@ export class Outliers {
     }
     scored.sort((a, b) => b[0] - a[0] || a[1] - b[1]);
     const features = new Set();
-    // Features with one value a point are easier to picture: they go first where they say nearly as much.
-    const simple = scored.filter(
-      ([gain, column]) => bins.features[bins.featureOf(column)].dimensions === 1 && gain >= scored[0][0] / 3,
-    );
+    // What can be pictured goes first where it says nearly as much.
+    const simple = scored.filter(([gain, column]) => bins.isPictured(column) && gain >= scored[0][0] / 3);
     const chosen = [...simple, ...scored]
       .filter(([, column]) => !features.has(bins.featureOf(column)) && features.add(bins.featureOf(column)))
       .slice(0, REASONS);
@@ -286,7 +286,6 @@ export class Outliers {
   #reason(index, column, group, other, bins) {
     const { database, data } = this;
     const share = bins.isShare(column);
-    const told = toldAs(share);
     /** @param {number} of */
     const row = (of) => {
       const rows = this.#usualOf(of, bins).rows.filter((shape) => shape !== index);
@@ -300,9 +299,10 @@ export class Outliers {
     const own = bins.share(column, index);
     const rows = [{ ...row(group), at: own }, row(other)];
     const means = rows.map(({ values }) => mean(values));
+    const [itself, usual] = (share ? percents : numbers)(own, means[0]);
     const words = share
-      ? [told(own), ` of its ${data.whole.replace("the ", "")} lies where ${data.where[column]}`]
-      : ["Its ", element("bdi", {}, bins.names[column]), ` is ${told(own)}`];
+      ? [element("b", {}, itself), ` of its ${data.whole.replace("the ", "")} ${data.clauses[column]}`]
+      : ["Its ", element("bdi", {}, bins.names[column]), " is ", element("b", {}, itself)];
     const hue = element("i", { class: "hued" });
     hue.style.background = bins.color(column);
     return element(
@@ -311,17 +311,15 @@ export class Outliers {
       element(
         "p",
         {},
-        hue,
-        element("b", {}, element("bdi", {}, bins.shortName(column, 18))),
-        " ",
         words,
         "; in ",
         element("bdi", {}, database.className(group)),
-        ` on average ${told(means[0])}, in `,
+        `, ${usual} on average; in `,
         element("bdi", {}, database.className(other)),
-        ` ${told(means[1])}.`,
+        `, ${toldAs(share)(means[1])}.`,
       ),
       distribution(rows, share),
+      element("p", { class: "quiet" }, hue, element("bdi", {}, bins.shortName(column, 18)), inWords(bins, column)),
     );
   }
 

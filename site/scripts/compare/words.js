@@ -1,7 +1,7 @@
 // What a comparison says, in sentences a stranger understands. Names of groups come in elements of their own.
 
 import { element } from "../base/dom.js";
-import { grouped } from "../base/words.js";
+import { grouped, percents } from "../base/words.js";
 import { mean, toldAs } from "./distribution.js";
 
 /** @import { Bins } from "../database/bins.js" */
@@ -32,11 +32,19 @@ export function statement(column, contrast, a, b, data) {
   };
   const means = { a: mean(values.a), b: mean(values.b) };
   const [more, less] = contrast.difference[column] > 0 ? [a, b] : [b, a];
-  const told = toldAs(bins.isShare(column));
-  const figures = [told(means[more.side]), " on average, in ", called(less), " ", told(means[less.side])];
+  const told = (bins.isShare(column) ? percents : numbers)(means[more.side], means[less.side]);
+  const figures = [element("b", {}, told[0]), " on average; in ", called(less), ", ", element("b", {}, told[1]), "."];
   if (!bins.isShare(column))
-    return ["In ", called(more), ", ", element("bdi", {}, bins.names[column]), " is higher: ", ...figures, "."];
-  return ["In ", called(more), `, more of ${data.whole} lies where ${data.where[column]}: `, ...figures, "."];
+    return ["In ", called(more), ", ", element("bdi", {}, bins.names[column]), " is higher: ", ...figures];
+  return ["In ", called(more), `, more of ${data.whole} ${data.clauses[column]}: `, ...figures];
+}
+
+/**
+ * Values that are no shares, short.
+ * @param {...number} values
+ */
+export function numbers(...values) {
+  return values.map(toldAs(false));
 }
 
 /**

@@ -12,6 +12,7 @@ export class Bins {
    */
   constructor(data, bytes) {
     this.features = data.features;
+    this.called = data.called;
     this.sentences = data.sentences;
     this.marks = data.marks;
     this.balanced = data.scaling === "balanced";
@@ -157,7 +158,15 @@ export class Bins {
   }
 
   /**
-   * What a bin means, in plain words.
+   * Whether a stranger can picture the surface that a bin counts from its plain words.
+   * @param {number} column
+   */
+  isPictured(column) {
+    return this.features[this.#featureOf[column]].pictured;
+  }
+
+  /**
+   * What a bin means, exactly.
    * @param {number} column
    */
   sentence(column) {

@@ -2,9 +2,8 @@
 
 import { joinNames } from "../addresses/names.js";
 import { element, focused } from "../base/dom.js";
-import { shortened } from "../base/words.js";
+import { percent, shortened } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
-import { percent } from "../bins-kit/bin-card.js";
 import { quantityInWords } from "../bins-kit/legend.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";

@@ -3,10 +3,10 @@
 import { chunk, modelBytes } from "../base/chunks.js";
 import { calm, element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
+import { binName, exactly } from "../bins-kit/bin-name.js";
 import { Legend } from "../bins-kit/legend.js";
 import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
-import { hue } from "./hue.js";
 
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -93,14 +93,8 @@ export class Portrait {
      */
     const action = (text, onclick) => element("button", { type: "button", class: "plain", onclick }, text);
     words.append(
-      element(
-        "p",
-        {},
-        hue(bins.color(column)),
-        element("b", {}, element("bdi", {}, bins.names[column])),
-        " ",
-        bins.sentence(column),
-      ),
+      element("p", {}, binName(bins, column)),
+      exactly(bins, column),
       element(
         "p",
         { class: "actions" },

@@ -25,6 +25,9 @@ const FIRST = 12;
 const MOST = 48;
 const MOST_NAMED = 4;
 
+/** Nearer than so many of all shapes, two are alike in a feature, even in the one in which they are so least. */
+const ALIKE = 0.9;
+
 export class SimilarShapes {
   /**
    * @param {Bins} bins
@@ -147,7 +150,7 @@ export class SimilarShapes {
     }
     return [
       ...words,
-      `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. Bars and percentages say how many of all shapes are farther away in one feature alone: 100 % means that no shape is more alike in it.`,
+      `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. The bars, one a feature, say how many of all shapes are farther away in it alone.`,
     ];
   }
 
@@ -208,7 +211,9 @@ export class SimilarShapes {
         bar.style.background = bins.colorOf(feature);
         return element(
           "span",
-          { title: `${bins.features[feature].name}: nearer than ${whole(share)} of all shapes` },
+          {
+            title: `${bins.features[feature].aspect} (${bins.features[feature].name}): nearer than ${whole(share)} of all shapes`,
+          },
           bar,
         );
       }),
@@ -216,19 +221,24 @@ export class SimilarShapes {
   }
 
   /**
-   * The features in which two are most and least alike, in words.
+   * In what two are most alike, and in what they are not, in words.
    * @param {number[]} closer
    */
   #reasons(closer) {
     const { features } = this.bins;
     /** @param {number} feature */
-    const name = (feature) => element("bdi", {}, shortened(features[feature].name, 24));
+    const name = (feature) => element("bdi", {}, shortened(features[feature].aspect, 24));
     const order = [...closer.keys()].sort((a, b) => closer[b] - closer[a] || a - b);
     const [first, second] = order;
-    const words = ["Alike in ", name(first), ` ${whole(closer[first])}`];
-    if (order.length > 2) words.push(", ", name(second), ` ${whole(closer[second])}`);
-    if (order.length > 1) words.push("; least in ", name(order.at(-1)), ` ${whole(closer[order.at(-1)])}`);
-    return words;
+    const last = order.at(-1) ?? first;
+    /** @param {number} feature */
+    const nearer = (feature) =>
+      closer[feature] === 1 ? "nearer than all others" : `nearer than ${whole(closer[feature])} of all shapes`;
+    const words = ["Alike in ", name(first)];
+    if (order.length > 2) words.push(" and ", name(second));
+    words.push(` (${nearer(first)})`);
+    if (order.length > 1 && closer[last] < ALIKE) words.push("; least in ", name(last), ` (${whole(closer[last])})`);
+    return [...words, "."];
   }
 
   /**

@@ -1,7 +1,7 @@
 // What a bin says of one shape, beside the bar that is pointed at.
 
 import { element } from "../base/dom.js";
-import { hue } from "./hue.js";
+import { binName } from "../bins-kit/bin-name.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Told } from "./histograms.js" */
@@ -35,7 +35,7 @@ export class ValueCard {
      */
     const row = (name, value) => value !== null && [element("dt", {}, name), element("dd", {}, value)];
     node.replaceChildren(
-      element("p", { class: "name" }, hue(bins.color(column)), element("bdi", {}, bins.names[column])),
+      element("p", { class: "name" }, binName(bins, column)),
       element("p", {}, bins.sentence(column)),
       element(
         "dl",

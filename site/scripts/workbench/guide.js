@@ -6,6 +6,7 @@ import { difference } from "../base/figures.js";
 import { readHash } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
+import { inWords } from "../bins-kit/bin-name.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Children } from "../base/dom.js" */
@@ -217,8 +218,8 @@ export class Guide {
     return [
       "The best bin is ",
       element("b", {}, element("bdi", {}, this.bins.names[column])),
-      ". ",
-      this.bins.sentence(column),
+      inWords(this.bins, column),
+      ".",
     ];
   }
 

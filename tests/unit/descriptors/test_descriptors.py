@@ -20,6 +20,7 @@ from shapeviz_report.descriptors.surface import CENTRES
 from shapeviz_report.features import BINS, compute_histograms, fixed_edges
 from shapeviz_report.mesh import normalise
 from shapeviz_report.types import Mesh
+from shapeviz_report.wording import WORDINGS
 
 BY_NAME = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
 
@@ -453,8 +454,8 @@ def seen_from(direction, normal) -> set[str]:
     three = count_spfh(vertices, normals, neighbours)[0]
     # PFH counts both directions of the pair; the first point as seen from the second is a cell of its own.
     both = count_pfh(vertices, normals, np.array([[0, 1]] * 2))[0]
-    return {BY_NAME["FPFH"].quantities[i] for i in np.flatnonzero(three)} | {
-        BY_NAME["PFH"].quantities[i] for i in np.flatnonzero(both)
+    return {WORDINGS["FPFH"].quantities[i] for i in np.flatnonzero(three)} | {
+        WORDINGS["PFH"].quantities[i] for i in np.flatnonzero(both)
     }
 
 
@@ -491,7 +492,7 @@ def test_point_pairs_in_words(direction, normal, words) -> None:
 
 def test_shape_contexts_in_words() -> None:
     surface = Surface(ball(3))
-    shares = dict(zip(BY_NAME["Sc"].quantities, compute("Sc", ball(3)).mean(axis=0), strict=True))
+    shares = dict(zip(WORDINGS["Sc"].quantities, compute("Sc", ball(3)).mean(axis=0), strict=True))
     # All of a ball lies inside its tangent planes.
     assert sum(
         share for text, share in shares.items() if "inside the tangent plane" in text

@@ -66,8 +66,8 @@ def test_all_features_are_judged_by_their_own_map_where_the_site_shows_another(r
 def test_every_dimension_has_its_words_and_the_values_between_its_bins(report) -> None:
     dimensions = selection(report)["dimensions"]
     assert len(dimensions) == len(report.edges)
-    assert dimensions[0]["unit"] == "radians"
-    np.testing.assert_allclose(dimensions[0]["edges"], report.edges[0])
+    assert dimensions[0]["unit"] == "°"
+    np.testing.assert_allclose(dimensions[0]["edges"], np.degrees(report.edges[0]), rtol=1e-3)
     # Shares are told in percent.
     assert dimensions[1]["unit"] == "%"
     np.testing.assert_allclose(dimensions[1]["edges"], 100 * report.edges[1])

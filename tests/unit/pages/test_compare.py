@@ -52,16 +52,24 @@ def test_fits_are_there_for_shapes_with_a_label():
 def test_words_match_the_columns():
     report = with_external(REPORT)
     data, _ = parts(report)
-    assert len(data["where"]) == len(report.features.columns)
-    assert data["where"][-1] is None
+    assert len(data["clauses"]) == len(report.features.columns)
+    assert data["clauses"][-1] is None
+    assert (
+        data["clauses"][31] == "is on average 0.1 to 0.2 radii from the other points, walking on the surface"
+    )
     assert data["whole"] == "the surface"
     assert len(data["weights"]) == len(report.features.blocks)
-    # One histogram a feature has sides; several, and values of one's own, have not.
-    assert [side is not None for side in data["sides"]] == [True, False, True, False]
-    below, above = data["sides"][2]["below"], data["sides"][2]["above"]
+    # Every histogram that can be pictured has sides: one of Gc, two of Sc, one of Agd.
+    assert [sides["start"] for sides in data["sides"]] == [0, 10, 20, 30]
+    below, above = data["sides"][3]["below"], data["sides"][3]["above"]
     assert len(below) == len(above) == 9
-    assert below[0].endswith("is below 0.1 times the shape's radius")
-    assert above[8].endswith("is 0.9 times the shape's radius or more")
+    assert below[0]["clause"].startswith("is on average less than 0.1 radii from the other points")
+    assert above[8]["trend"] == "there is more far out, as on long limbs"
+
+
+def test_sentences_on_patches_that_nobody_can_picture_have_no_sides():
+    data, _ = parts(make_report(["ant", "bird"], 6, features=("PFH", "FPFH")))
+    assert data["sides"] == []
 
 
 def test_the_order_of_the_shapes_has_no_say():

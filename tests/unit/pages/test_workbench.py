@@ -9,11 +9,11 @@ import pytest
 from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_scores, with_search
 
 from shapeviz_report import quality
-from shapeviz_report.bins import explain_bins
 from shapeviz_report.features import PRESETS, compared_values
 from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import FeatureBlock, FeatureTable, Projection
+from shapeviz_report.wording import explain_bins
 from shapeviz_report.writing import write_site
 from shapeviz_report.writing.data import json_text
 
@@ -79,6 +79,10 @@ class TestBins:
         report = with_external(make_report(features=FEATURES))
         expected = explain_bins(report.features, report.edges, by_area=True)
         assert chunks(report)["workbench"]["sentences"] == list(expected)
+        called = chunks(report)["workbench"]["called"]
+        assert [name == "" for name in called] == [
+            name.startswith("deep") for name in report.features.columns
+        ]
 
 
 class TestScores:

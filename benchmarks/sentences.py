@@ -1,0 +1,112 @@
+"""What a built site says in words, to read aloud: ten pairs of classes, outliers, bins, shapes, clusters.
+
+    python -m benchmarks.sentences SITE
+
+Needs playwright and Chromium, as the tests do. The pairs are the five whose classes are most alike, and five more from
+all over the database.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from urllib.parse import urlencode
+
+from playwright.sync_api import Page, sync_playwright
+
+PAIRS = 10
+BINS = 12
+"""Bins of the Bins page, and shapes, of which each is looked at."""
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("site", type=Path)
+    site = parser.parse_args().site.resolve()
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox"])
+        page = browser.new_page(viewport={"width": 1440, "height": 1000})
+        for text in read_out(page, site):
+            print(text)
+
+
+def read_out(page: Page, site: Path) -> Iterator[str]:
+    """The words of each view in turn."""
+    yield from _compared(page, site)
+    _open(page, site, "compare.html", view="outliers")
+    page.wait_for_selector(".outlier .reason")
+    yield from _texts(page, "Outliers", "#outlier-words, .outlier .whereabouts > p, .outlier .reasons p")
+    yield from _bins(page, site)
+    yield from _shapes(page, site)
+    _open(page, site, "index.html")
+    yield from _texts(page, "Clusters", "#clusters .typical, .typical li, .typical")
+
+
+def _compared(page: Page, site: Path) -> Iterator[str]:
+    with (site / "data" / "shapes.csv").open(encoding="utf-8-sig", newline="") as file:
+        classes = sorted({row["class"] for row in csv.DictReader(file)} - {""})
+    _open(page, site, "compare.html", view="classes")
+    alike = page.locator("#likest li").evaluate_all(
+        "(items) => items.map((item) => [...item.querySelectorAll('bdi')].map((name) => name.textContent))"
+    )
+    pairs = [(pair[0], pair[1]) for pair in alike[: PAIRS // 2]]
+    count = len(classes)
+    step = 0
+    while len(pairs) < min(PAIRS, count * (count - 1) // 2):
+        first, second = classes[step % count], classes[(3 * step + 1 + step // count) % count]
+        step += 1
+        if first != second and (first, second) not in pairs and (second, first) not in pairs:
+            pairs.append((first, second))
+    for first, second in pairs:
+        _open(page, site, "compare.html", a=f"class:{first}", b=f"class:{second}")
+        page.wait_for_selector("#result:not([hidden])")
+        yield from _texts(
+            page,
+            f"{first} and {second}",
+            "#answer h2, #answer li, #answer p, #apart-words, .bin-of-two .bin-name, .bin-of-two .says, "
+            ".bin-of-two > p:last-of-type, #seen-bin, #shared-words",
+        )
+
+
+def _bins(page: Page, site: Path) -> Iterator[str]:
+    _open(page, site, "bins.html")
+    options = page.locator("#bin-choice option")
+    values = options.evaluate_all("(options) => options.map((option) => option.value)")
+    for value in values[:: max(len(values) // BINS, 1)]:
+        page.select_option("#bin-choice", value)
+        yield from _texts(page, f"Bin {value}", "#bin-words h3, #bin-words p, #legend > p")
+
+
+def _shapes(page: Page, site: Path) -> Iterator[str]:
+    _open(page, site, "shapes.html")
+    count = page.evaluate("() => Number(document.body.dataset.count) || 168")
+    for _ in range(2):
+        _open(page, site, "shape.html")
+        page.evaluate("() => document.getElementById('by-features')?.scrollIntoView()")
+        page.wait_for_timeout(2500)
+        yield from _texts(
+            page, f"A shape of {count}", "#by-features > p, #similar-words, .similar .why, .similar p"
+        )
+
+
+def _open(page: Page, site: Path, file: str, **query: str) -> None:
+    # A new address of an open page is no new page.
+    page.goto("about:blank")
+    page.goto(f"{(site / file).as_uri()}#{urlencode(query)}")
+    page.wait_for_selector("html[data-ready]")
+
+
+def _texts(page: Page, title: str, selector: str) -> Iterator[str]:
+    yield f"\n== {title}"
+    for text in page.locator(selector).all_inner_texts():
+        if text.strip():
+            yield " ".join(text.split())
+
+
+if __name__ == "__main__":
+    main()

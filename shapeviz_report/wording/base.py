@@ -1,0 +1,126 @@
+"""What is said of the values of a descriptor, and how numbers stand in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from shapeviz_report.types import FloatArray
+
+
+class Said(NamedTuple):
+    """A range of values in plain words.
+
+    Attributes
+    ----------
+    name : str
+        In few words, as it stands beside the name of a bin: "thickness 0.2 to 0.3".
+    clause : str
+        What a part of the surface does or is, as it stands after "28 % of the surface": "is thicker than 0.4 radii".
+    trend : str
+        What a stranger sees of a shape that has more of it, as it stands after "In bird,": "bodies are thicker". Empty
+        where the clause says it all.
+    """
+
+    name: str
+    clause: str
+    trend: str = ""
+
+
+@dataclass(frozen=True)
+class Wording:
+    """The words for a descriptor's values.
+
+    Attributes
+    ----------
+    aspect : str
+        What the descriptor looks at, as it stands in "alike in ... and ...".
+    topics : tuple of str
+        What the value in each dimension is, in few words.
+    quantities : tuple of str
+        What it is exactly, as it stands in "where ... is from 1.4 to 1.6".
+    unit : str
+        Of the values as they are shown, as it follows a number: a word, ``°``, ``%``, or empty.
+    shown : callable
+        Values as a reader reads them, from values as they are computed; rising.
+    low, high : str
+        Where on a shape, or in what surroundings, small and large values are found.
+    pictured : bool
+        Whether a stranger can picture the surface that a bin counts from its plain words.
+    say : callable
+        ``(dimension, low, high) -> Said`` of the values from ``low`` to ``high`` as they are shown; None for no limit.
+    """
+
+    aspect: str
+    topics: tuple[str, ...]
+    quantities: tuple[str, ...]
+    unit: str
+    shown: Callable[[FloatArray], FloatArray]
+    low: str
+    high: str
+    pictured: bool
+    say: Callable[[int, float | None, float | None], Said]
+
+
+def as_degrees(radians: FloatArray) -> FloatArray:
+    """Radians in degrees."""
+    return np.degrees(radians)
+
+
+def as_percent(shares: FloatArray) -> FloatArray:
+    """Fractions of 1 in per cent."""
+    return 100 * shares
+
+
+def as_slope(sines: FloatArray) -> FloatArray:
+    """The angles of some sines, in degrees."""
+    return np.degrees(np.arcsin(np.clip(sines, -1, 1)))
+
+
+def span(low: float | None, high: float | None, unit: str = "") -> str:
+    """A range in short: "under 0.1", "0.1 to 0.2", "over 0.9"."""
+    if low is None:
+        return f"under {measure(high or 0, unit)}"
+    if high is None:
+        return f"over {measure(low, unit)}"
+    first, last = _both(low, high)
+    return f"{first} to {last}{_attached(unit)}"
+
+
+def measure(value: float, unit: str = "") -> str:
+    """A number with two digits and its unit; whole from 10 on."""
+    return f"{_digits(value, 2)}{_attached(unit)}"
+
+
+def radii(value: float) -> str:
+    """A length of a shape that reaches as far as one radius from its middle."""
+    text = measure(value)
+    return f"{text} radius" if text == "1" else f"{text} radii"
+
+
+def amount(low: float | None, high: float | None) -> str:
+    """How much a share is, in per cent: "hardly any of", "more than 64 % of"."""
+    if low is None:
+        return "hardly any of" if (high or 0) <= 1.1 else f"less than {measure(high or 0, '%')} of"
+    return f"more than {measure(low, '%')} of" if high is None else f"{span(low, high, '%')} of"
+
+
+def _both(low: float, high: float) -> tuple[str, str]:
+    """Both ends of a range, with as many digits as tell them apart."""
+    for digits in (2, 3, 4, 6):
+        ends = _digits(low, digits), _digits(high, digits)
+        if ends[0] != ends[1]:
+            break
+    return ends
+
+
+def _digits(value: float, digits: int) -> str:
+    text = f"{value:.0f}" if abs(value) >= 10 ** (digits - 1) else f"{float(f'{value:.{digits}g}'):g}"
+    return text.replace("-", "−")
+
+
+def _attached(unit: str) -> str:
+    return f" {unit}" if unit and unit != "°" else unit

@@ -1,0 +1,35 @@
+"""Whether the surface runs along the shape or faces its ends."""
+
+from __future__ import annotations
+
+from shapeviz_report.wording.base import Said, Wording, as_slope, measure, span
+
+FROM = "from the longest direction"
+
+
+def _say(_: int, low: float | None, high: float | None) -> Said:
+    name = f"{span(low, high, '°')} off lengthways"
+    if low is None:
+        return Said(
+            name,
+            f"keeps within {measure(high or 0, '°')} of the longest direction",
+            "there is more that runs lengthways",
+        )
+    if high is None:
+        return Said(
+            name, f"turns more than {measure(low, '°')} {FROM}", "there is more that faces the two ends"
+        )
+    return Said(name, f"turns {span(low, high, '°')} {FROM}")
+
+
+NORMAL_ANGLE = Wording(
+    aspect="direction of the surface",
+    topics=("angle between the surface and the longest direction",),
+    quantities=("the angle between the surface and the shape's longest direction",),
+    unit="°",
+    shown=as_slope,
+    low="surface that runs along the longest direction",
+    high="surface that faces the ends",
+    pictured=True,
+    say=_say,
+)

@@ -1,0 +1,33 @@
+"""Whether the surface lies around the waist or towards the ends."""
+
+from __future__ import annotations
+
+from shapeviz_report.wording.base import Said, Wording, as_slope, measure, span
+
+SEEN = "from the waist, seen from the middle"
+
+
+def _say(_: int, low: float | None, high: float | None) -> Said:
+    name = f"{span(low, high, '°')} from the waist"
+    if low is None:
+        return Said(
+            name,
+            f"lies within {measure(high or 0, '°')} of the waist, seen from the middle",
+            "there is more around the waist",
+        )
+    if high is None:
+        return Said(name, f"lies more than {measure(low, '°')} {SEEN}", "there is more towards the two ends")
+    return Said(name, f"lies {span(low, high, '°')} {SEEN}")
+
+
+POINT_ANGLE = Wording(
+    aspect="waist and ends",
+    topics=("angle from the waist, seen from the middle",),
+    quantities=("the angle, seen from the shape's middle, from the plane across its longest direction",),
+    unit="°",
+    shown=as_slope,
+    low="the waist",
+    high="the ends of the longest direction",
+    pictured=True,
+    say=_say,
+)

@@ -1,0 +1,69 @@
+"""How the points of a small patch lie to each other, two by two."""
+
+from __future__ import annotations
+
+from shapeviz_report.wording.base import Said, Wording, amount, as_percent, span
+
+COUNT = 125
+
+LEANS = (
+    ("leaning far to the left", "leans more than 37° to the left"),
+    ("leaning to the left", "leans 12 to 37° to the left"),
+    ("upright", "leans sideways by less than 12°"),
+    ("leaning to the right", "leans 12 to 37° to the right"),
+    ("leaning far to the right", "leans more than 37° to the right"),
+)
+HEIGHTS = (
+    ("far lower", "more than 37° below"),
+    ("lower", "12 to 37° below"),
+    ("level", "within 12° of"),
+    ("higher", "12 to 37° above"),
+    ("far higher", "more than 37° above"),
+)
+TURNS = (
+    ("folded inwards", "folds inwards by more than 108°"),
+    ("bent inwards", "bends inwards by 36 to 108°"),
+    ("straight", "turns by less than 36°"),
+    ("bent outwards", "bends outwards by 36 to 108°"),
+    ("folded outwards", "folds outwards by more than 108°"),
+)
+"""What the fifths of alpha, phi and theta say of the second point of a pair, as seen from the first: in few words, and
+exactly."""
+
+
+def _fifths(dimension: int) -> tuple[int, int, int]:
+    return dimension // 25, dimension // 5 % 5, dimension % 5
+
+
+def _name_pairs(dimension: int) -> str:
+    alpha, phi, theta = _fifths(dimension)
+    return f"{HEIGHTS[phi][0]}, {TURNS[theta][0]}, {LEANS[alpha][0]}"
+
+
+def _say(dimension: int, low: float | None, high: float | None) -> Said:
+    pairs = _name_pairs(dimension)
+    return Said(
+        f"{pairs}: {span(low, high, '%')}", f"has {amount(low, high)} its nearby pairs of points {pairs}"
+    )
+
+
+def _word_cell(dimension: int) -> str:
+    """The pairs that a dimension counts."""
+    alpha, phi, theta = _fifths(dimension)
+    return (
+        f"the share of point pairs in a patch of which one lies {HEIGHTS[phi][1]} the other's tangent plane, while the "
+        f"normal {TURNS[theta][1]} on the way and {LEANS[alpha][1]}"
+    )
+
+
+POINT_FEATURE_HISTOGRAM = Wording(
+    aspect="fine bends",
+    topics=tuple(f"share of nearby pairs of points {_name_pairs(dimension)}" for dimension in range(COUNT)),
+    quantities=tuple(_word_cell(dimension) for dimension in range(COUNT)),
+    unit="%",
+    shown=as_percent,
+    low="patches with few such pairs",
+    high="patches with many such pairs",
+    pictured=False,
+    say=_say,
+)

@@ -1,0 +1,25 @@
+// Numbers as a reader reads them, and what a comparison tells first.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { percent, percents } from "../../site/scripts/base/words.js";
+import { ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
+
+test("shares that differ read differently, with no more digits than that takes", () => {
+  assert.deepEqual(percents(0.28, 0.019), ["28 %", "1.9 %"]);
+  assert.deepEqual(percents(0.281, 0.279), ["28.1 %", "27.9 %"]);
+  assert.deepEqual(percents(0.0001, 0.0003), ["0.01 %", "0.03 %"]);
+  assert.deepEqual(percents(0, 0.0004), ["0 %", "<0.1 %"]);
+  assert.equal(new Set(percents(1, 0.9996)).size, 2);
+  assert.deepEqual(percents(0.5, 0.5), ["50 %", "50 %"]);
+  assert.deepEqual(percents(0.5, 0.5 + 1e-9), ["50 %", "50 %"]);
+  for (const share of [0, 1e-6, 0.001, 0.0995, 0.5, 1])
+    assert.ok(Number.parseFloat(percent(share).replace("<", "")) <= 100);
+});
+
+test("what can be pictured goes first unless something else says much more", () => {
+  assert.ok(worth(1.6, true) > worth(ENOUGH, false));
+  assert.ok(worth(1.6, true) > worth(50, false));
+  assert.ok(worth(1.2, true) < worth(-2.9, false));
+  assert.equal(worth(4, true), worth(40, true));
+});
