@@ -421,7 +421,7 @@ class FeatureWords(TypedDict):
     measures: str
     lowMeans: str
     highMeans: str
-    pictured: bool
+    ease: float
 
 
 class Feature(FeatureWords):

@@ -105,7 +105,7 @@ def _sides(report: Report, *, by_area: bool) -> list[Sides]:
     """Of each histogram that a stranger can picture, what lies below and above each inner edge."""
     sides: list[Sides] = []
     for dimension in dimensions_of(report.features, report.edges):
-        if dimension.wording is None or not dimension.wording.pictured:
+        if dimension.wording is None or dimension.wording.ease == 1:
             continue
         start = report.features.slice_of(dimension.block.name).start
         inner = [float(edge) for edge in dimension.edges[1:-1]]

@@ -113,7 +113,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
             "measures": "A feature that was brought along.",
             "lowMeans": "",
             "highMeans": "",
-            "pictured": False,
+            "ease": 1,
         }
     wording = WORDINGS[block.name]
     return {
@@ -122,7 +122,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
         "measures": descriptor.measures,
         "lowMeans": wording.low,
         "highMeans": wording.high,
-        "pictured": wording.pictured,
+        "ease": wording.ease,
     }
 
 

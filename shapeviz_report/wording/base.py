@@ -48,8 +48,9 @@ class Wording:
         Values as a reader reads them, from values as they are computed; rising.
     low, high : str
         Where on a shape, or in what surroundings, small and large values are found.
-    pictured : bool
-        Whether a stranger can picture the surface that a bin counts from its plain words.
+    ease : float
+        How easily a stranger pictures the surface that a bin counts from its plain words: as often counts a difference
+        in it where it is chosen what is told first. From 1, which is not at all.
     say : callable
         ``(dimension, low, high) -> Said`` of the values from ``low`` to ``high`` as they are shown; None for no limit.
     """
@@ -61,7 +62,7 @@ class Wording:
     shown: Callable[[FloatArray], FloatArray]
     low: str
     high: str
-    pictured: bool
+    ease: float
     say: Callable[[int, float | None, float | None], Said]
 
 

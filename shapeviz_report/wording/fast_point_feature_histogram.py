@@ -75,6 +75,6 @@ FAST_POINT_FEATURE_HISTOGRAM = Wording(
     shown=as_percent,
     low="places with few such neighbours",
     high="places with many such neighbours",
-    pictured=False,
+    ease=1,
     say=_say,
 )

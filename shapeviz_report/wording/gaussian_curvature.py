@@ -14,7 +14,10 @@ def _say(_: int, low: float | None, high: float | None) -> Said:
     if high is None:
         return _say_from(low)
     if low < 0 < high:
-        return Said(f"flat, {span(low, high, '°')}", f"is nearly flat, {span(low, high, '°')} at a point")
+        return Said(
+            f"flat, {span(low, high, '°')}",
+            f"is nearly flat, by {measure(max(-low, high), '°')} at a point or less",
+        )
     if low >= 0:
         return Said(
             f"bump {span(low, high, '°')}", f"bulges {_how(low)}, by {span(low, high, '°')} at a point"
@@ -34,7 +37,7 @@ def _say_up_to(high: float) -> Said:
         )
     return Said(
         f"saddle over {measure(-high, '°')}",
-        f"bends {_how(-high)} like a saddle, by more than {measure(-high, '°')} at a point",
+        f"bends like a saddle by more than {measure(-high, '°')} at a point",
         "there are more saddles, as where a limb leaves the body",
     )
 
@@ -48,7 +51,7 @@ def _say_from(low: float) -> Said:
         )
     return Said(
         f"bump over {measure(low, '°')}",
-        f"bulges {_how(low)}, by more than {measure(low, '°')} at a point",
+        f"bulges by more than {measure(low, '°')} at a point",
         "there are more bumps and tips",
     )
 
@@ -65,6 +68,6 @@ GAUSSIAN_CURVATURE = Wording(
     shown=as_degrees,
     low="saddles, as where a limb leaves the body",
     high="bumps and tips",
-    pictured=True,
+    ease=2,
     say=_say,
 )

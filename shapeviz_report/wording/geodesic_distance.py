@@ -32,6 +32,6 @@ GEODESIC_DISTANCE = Wording(
     shown=np.asarray,
     low="the middle of the shape",
     high="the ends of its limbs",
-    pictured=True,
+    ease=2,
     say=_say,
 )

@@ -30,6 +30,6 @@ NORMAL_ANGLE = Wording(
     shown=as_slope,
     low="surface that runs along the longest direction",
     high="surface that faces the ends",
-    pictured=True,
+    ease=2,
     say=_say,
 )

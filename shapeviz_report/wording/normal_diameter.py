@@ -24,6 +24,6 @@ NORMAL_DIAMETER = Wording(
     shown=np.asarray,
     low="thin sheets and limbs",
     high="full bodies",
-    pictured=True,
+    ease=2,
     say=_say,
 )

@@ -28,6 +28,6 @@ POINT_ANGLE = Wording(
     shown=as_slope,
     low="the waist",
     high="the ends of the longest direction",
-    pictured=True,
+    ease=2,
     say=_say,
 )

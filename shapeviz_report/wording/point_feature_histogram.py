@@ -64,6 +64,6 @@ POINT_FEATURE_HISTOGRAM = Wording(
     shown=as_percent,
     low="patches with few such pairs",
     high="patches with many such pairs",
-    pictured=False,
+    ease=1,
     say=_say,
 )

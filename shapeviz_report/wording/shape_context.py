@@ -48,6 +48,6 @@ SHAPE_CONTEXT = Wording(
     shown=as_percent,
     low="points with little of the shape in that part of their surroundings",
     high="points with much of the shape in that part of their surroundings",
-    pictured=True,
+    ease=1.5,
     say=_say,
 )

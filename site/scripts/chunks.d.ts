@@ -275,7 +275,7 @@ declare namespace Chunk {
     measures: string;
     lowMeans: string;
     highMeans: string;
-    pictured: boolean;
+    ease: number;
   }
   /** A feature: its columns, its words, and between which values the chunk "bins" is cut into steps. */
   interface Feature {
@@ -284,7 +284,7 @@ declare namespace Chunk {
     measures: string;
     lowMeans: string;
     highMeans: string;
-    pictured: boolean;
+    ease: number;
     name: string;
     start: number;
     dimensions: number;

@@ -11,7 +11,7 @@ from waiting import drawn_again, eventually
 
 from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.neighbours import find_fits, find_nearest
-from shapeviz_report.wording import say_bins
+from shapeviz_report.wording import WORDINGS, say_bins
 
 ROWS = 12
 
@@ -153,10 +153,10 @@ class TestTwoGroups:
         values = compared_values(report.features, PRESETS["default"])
         effects = shares_between(values, rows_of(report, "kind a"), rows_of(report, "kind b"))
         assert re.search(r"kind a and .*kind b (are clearly different|differ)", title(page))
-        # What can be pictured, all but PFH here, counts double; beyond three standard deviations nothing says more.
+        # A difference counts as often as it is easily pictured; beyond three standard deviations nothing says more.
         distances = np.sqrt(effects / (1 - effects) * 30 * 32) / 16
-        pictured = np.array([not column.startswith("PFH") for column in report.features.columns])
-        worth = np.minimum(distances, 3) * np.where(pictured, 2, 1)
+        ease = np.repeat([WORDINGS[block.name].ease for block in report.features.blocks], [10, 20, 10])
+        worth = np.minimum(distances, 3) * ease
         best = report.features.columns[int(np.lexsort((distances, worth))[-1])]
         first = page.locator("#apart-bins .bin-of-two").first
         assert first.locator(".bin-chip bdi").inner_text() == best
@@ -181,7 +181,9 @@ class TestTwoGroups:
         for text in (*leads, *said):
             assert not re.search("cosine|normal|tangent|radian|geodesic|histogram", text)
             # Both sides read differently, and are parts of a whole.
-            figures = re.findall(r"(<?[\d.]+) %(?=[.,; ]| on average)", re.sub(r"(has|have) [^;:]*", "", text))
+            figures = re.findall(
+                r"(<?[\d.]+) %(?=[.,; ]| on average)", re.sub(r"(has|have) [^;:]*", "", text)
+            )
             assert len(figures) == len(set(figures)), text
             assert all(float(figure.removeprefix("<")) <= 100 for figure in figures), text
 

@@ -14,6 +14,7 @@ from waiting import drawn_again, eventually
 
 from shapeviz_report.features import PRESETS
 from shapeviz_report.similarity import rank_similar, typical_distance
+from shapeviz_report.wording import WORDINGS
 from shapeviz_report.writing import write_site
 from shapeviz_report.writing.joiner import join
 

@@ -12,14 +12,16 @@ test("shares that differ read differently, with no more digits than that takes",
   assert.deepEqual(percents(0, 0.0004), ["0 %", "<0.1 %"]);
   assert.equal(new Set(percents(1, 0.9996)).size, 2);
   assert.deepEqual(percents(0.5, 0.5), ["50 %", "50 %"]);
+  // Of three, the first two are told apart from the last one only.
+  assert.deepEqual(percents(0.134, 0.134, 0.08), ["13 %", "13 %", "8.0 %"]);
   assert.deepEqual(percents(0.5, 0.5 + 1e-9), ["50 %", "50 %"]);
   for (const share of [0, 1e-6, 0.001, 0.0995, 0.5, 1])
     assert.ok(Number.parseFloat(percent(share).replace("<", "")) <= 100);
 });
 
 test("what can be pictured goes first unless something else says much more", () => {
-  assert.ok(worth(1.6, true) > worth(ENOUGH, false));
-  assert.ok(worth(1.6, true) > worth(50, false));
-  assert.ok(worth(1.2, true) < worth(-2.9, false));
-  assert.equal(worth(4, true), worth(40, true));
+  assert.ok(worth(1.6, 2) > worth(ENOUGH, 1));
+  assert.ok(worth(1.6, 2) > worth(50, 1));
+  assert.ok(worth(1.2, 2) < worth(-2.9, 1));
+  assert.equal(worth(4, 2), worth(40, 2));
 });

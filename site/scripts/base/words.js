@@ -52,13 +52,13 @@ export function percent(share, more = 0) {
 const MOST_DIGITS = 2;
 
 /**
- * Shares in percent, with as many digits as tell those apart that differ.
+ * Shares in percent, with as many digits as tell each apart from the last one.
  * @param {...number} shares
  */
 export function percents(...shares) {
-  let more = 0;
+  const last = shares[shares.length - 1];
   /** @param {number} digits */
-  const told = (digits) => new Set(shares.map((share) => percent(share, digits))).size;
-  while (more < MOST_DIGITS && told(more) < new Set(shares).size) more += 1;
-  return shares.map((share) => percent(share, told(more) < new Set(shares).size ? 0 : more));
+  const apart = (digits) => shares.every((share) => share === last || percent(share, digits) !== percent(last, digits));
+  const more = Array.from({ length: MOST_DIGITS + 1 }, (_, digits) => digits).find(apart) ?? 0;
+  return shares.map((share) => percent(share, more));
 }

@@ -3,7 +3,7 @@
 import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
-import { percent } from "../base/words.js";
+import { percent, percents } from "../base/words.js";
 import { binName, exactly, inWords } from "./bin-name.js";
 import { Legend } from "./legend.js";
 
@@ -136,12 +136,12 @@ export class Look {
     const contrast = this.#contrast(rows, told, name);
     if (contrast !== null) return contrast;
     if (told(most.median) === told(least.median))
-      return [`All classes have the same of it: half of their shapes have ${told(most.median)} or more.`];
+      return [`Of each class, the middle shape has the same of it: ${told(most.median)}.`];
     const next = rest.slice(0, -1).slice(0, 2);
     return [
-      "The class ",
+      "Most of it has ",
       name(most),
-      ` has most of it: half of its shapes have ${told(most.median)} or more. `,
+      `: its middle shape has ${told(most.median)}. `,
       ...(next.length > 0
         ? [
             "Next ",
@@ -170,19 +170,15 @@ export class Look {
     const [row, rival] = [named(own.group), named(own.other)];
     if (row === undefined || rival === undefined) return null;
     const rank = rows.indexOf(row);
-    const place =
-      rank === 0
-        ? " has most of it of all classes: "
-        : rank === rows.length - 1
-          ? " has least of it of all classes: "
-          : ": ";
+    const place = rank === 0 ? ", most of all classes" : rank === rows.length - 1 ? ", least of all classes" : "";
+    const [share, other] =
+      told === percent ? percents(row.median, rival.median) : [told(row.median), told(rival.median)];
     return [
-      "The class ",
+      "The middle shape of ",
       name(row),
-      place,
-      `half of its shapes have ${told(row.median)} or more. Of `,
+      ` has ${share}${place}; that of `,
       name(rival),
-      `, its nearest class on the Overview, half have ${told(rival.median)} or more.`,
+      `, its nearest class on the Overview, has ${share === other ? "as much" : other}.`,
       ...(rank > 0 ? [" Most of it has ", name(rows[0]), `, with ${told(rows[0].median)}.`] : []),
     ];
   }

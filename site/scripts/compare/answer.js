@@ -16,7 +16,7 @@ import { binCount, called, share, statement } from "./words.js";
  * @property {number} size in standard deviations
  * @property {{ a: number, b: number }} means
  * @property {Chunk.Side} side
- * @property {number} feature
+ * @property {number} ease
  */
 
 const MOST_TOLD = 3;
@@ -125,7 +125,7 @@ function plainest(contrast, a, b, data) {
   for (const words of data.sides) {
     const feature = bins.featureOf(words.start);
     if (apart.features[feature].share <= apart.features[feature].limit) continue;
-    const side = bestSide(contrast, feature, words);
+    const side = bestSide(contrast, words);
     const known = best.get(feature);
     if (side !== null && (known === undefined || rank(known, side) > 0)) best.set(feature, side);
   }
@@ -133,8 +133,8 @@ function plainest(contrast, a, b, data) {
   const [first] = beyond.length > 0 ? told : [];
   const much =
     first !== undefined &&
-    !bins.isPictured(first) &&
-    worth(contrast.difference[first], false) > worth(sides[0]?.size ?? 0, true);
+    bins.ease(first) === 1 &&
+    worth(contrast.difference[first], 1) > (sides.length > 0 ? telling(sides[0]) : 0);
   return [
     ...(much ? [statement(first, contrast, a, b, data)] : []),
     ...sides.slice(0, MOST_TOLD - Number(much)).map((side) => sentence(side, a, b, data)),
@@ -142,13 +142,22 @@ function plainest(contrast, a, b, data) {
 }
 
 /**
- * Which of two sides is told first: the one whose groups are farther apart, and of those that are far enough the one with
- * more to see.
+ * Which of two sides is told first: what leads with what one sees; then the one whose groups are farther apart, and of
+ * those that are far enough the one with more to see.
  * @param {SideOfEdge} one
  * @param {SideOfEdge} other
  */
 function rank(one, other) {
-  return worth(other.size, true) - worth(one.size, true) || gap(other) - gap(one);
+  return (
+    Number(one.side.trend === "") - Number(other.side.trend === "") ||
+    telling(other) - telling(one) ||
+    gap(other) - gap(one)
+  );
+}
+
+/** @param {SideOfEdge} side */
+function telling({ size, ease }) {
+  return worth(size, ease);
 }
 
 /** @param {SideOfEdge} side */
@@ -159,11 +168,10 @@ function gap({ means }) {
 /**
  * Where the shares of the surface on both sides of an edge differ most; null where nobody would see it.
  * @param {Contrast} contrast
- * @param {number} feature
  * @param {Chunk.Sides} words
  * @returns {SideOfEdge | null}
  */
-function bestSide({ bins, sample }, feature, { start, below, above }) {
+function bestSide({ bins, sample }, { start, below, above }) {
   const sums = { a: new Float64Array(sample.a.length), b: new Float64Array(sample.b.length) };
   /** @type {SideOfEdge | null} */
   let best = null;
@@ -180,7 +188,7 @@ function bestSide({ bins, sample }, feature, { start, below, above }) {
       size: Math.abs(means.a - means.b) / Math.max(spread, 0.01),
       means: upper ? { a: 1 - means.a, b: 1 - means.b } : means,
       side: (upper ? above : below)[edge],
-      feature,
+      ease: bins.ease(start),
     };
     if (side.size < TELLING || gap(side) < SEEN) continue;
     if (best === null || rank(best, side) > 0) best = side;
@@ -232,16 +240,16 @@ function inCommon(contrast, a, b, data) {
   const means = (column) =>
     [sample.a, sample.b, sample.rest].map((rows) => mean(rows.map((row) => bins.share(column, row))));
   const column = shared.find((own) => {
-    const [first, second, others] = bins.isShare(own) && bins.isPictured(own) ? means(own) : [0, 0, 0];
+    const [first, second, others] = bins.isShare(own) && bins.ease(own) > 1 ? means(own) : [0, 0, 0];
     return Math.min(Math.abs(first - others), Math.abs(second - others)) >= SEEN;
   });
   if (column === undefined) return null;
   const [first, second, others] = means(column);
   const told = percents(first, second, others);
   return [
-    "Compared with other shapes, ",
+    "In both, compared with other shapes, ",
     element("b", {}, first > others ? "more" : "less"),
-    ` of ${data.whole} ${data.clauses[column]} in both: `,
+    ` of ${data.whole} ${data.clauses[column]}: `,
     called(a),
     ` ${told[0]}, `,
     called(b),

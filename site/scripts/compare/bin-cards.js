@@ -72,7 +72,7 @@ function common(column, { a, b, bins, data, rest }, means) {
   const [first, second, others] = means;
   const told = (bins.isShare(column) ? percents : numbers)(first, second, others);
   const more = (first + second) / 2 > others;
-  const figures = [told[0], " and ", told[1], " on average; in ", called(rest), ", ", told[2]];
+  const figures = [called(a), ` ${told[0]}, `, called(b), ` ${told[1]}, `, called(rest), ` ${told[2]}`];
   if (!bins.isShare(column))
     return [
       "In ",
@@ -86,12 +86,7 @@ function common(column, { a, b, bins, data, rest }, means) {
       ".",
     ];
   return [
-    "Compared with other shapes, ",
-    `${more ? "more" : "less"} of ${data.whole} ${data.clauses[column]} in `,
-    called(a),
-    " and ",
-    called(b),
-    ": ",
+    `In both, compared with other shapes, ${more ? "more" : "less"} of ${data.whole} ${data.clauses[column]}: `,
     ...figures,
     ".",
   ];

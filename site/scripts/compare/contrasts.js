@@ -135,7 +135,7 @@ export class Contrast {
     this.told = [...this.ranked].sort(
       (one, other) =>
         Number(this.isBeyond(other)) - Number(this.isBeyond(one)) ||
-        worth(this.difference[other], bins.isPictured(other)) - worth(this.difference[one], bins.isPictured(one)) ||
+        worth(this.difference[other], bins.ease(other)) - worth(this.difference[one], bins.ease(one)) ||
         Math.abs(this.difference[other]) - Math.abs(this.difference[one]),
     );
     this.shared = both === undefined ? [] : this.#findShared(contests, ownRest, othersRest);
@@ -185,7 +185,7 @@ export class Contrast {
       )
       .sort(
         (one, other) =>
-          worth(clear(other), bins.isPictured(other)) - worth(clear(one), bins.isPictured(one)) ||
+          worth(clear(other), bins.ease(other)) - worth(clear(one), bins.ease(one)) ||
           clear(other) - clear(one) ||
           one - other,
       );
@@ -209,12 +209,12 @@ export class Contrast {
 }
 
 /**
- * What a difference is worth being told: what can be pictured counts double, and beyond ENOUGH nothing says more.
+ * What a difference is worth being told: as often as it is easily pictured, and beyond ENOUGH nothing says more.
  * @param {number} difference in standard deviations
- * @param {boolean} pictured
+ * @param {number} ease
  */
-export function worth(difference, pictured) {
-  return Math.min(Math.abs(difference), ENOUGH) * (pictured ? 2 : 1);
+export function worth(difference, ease) {
+  return Math.min(Math.abs(difference), ENOUGH) * ease;
 }
 
 /**

@@ -275,7 +275,7 @@ export class GroupsView {
     const within = contrast.beyond.length === 0;
     document.getElementById("apart-words").textContent = within
       ? "These bins differ most between the two groups, but no more than bins do when the shapes are dealt out at random."
-      : `Ranked by the difference of the means in relation to the spread within the groups; those that can be pictured count double. Each mark is a shape${contrast.sample.a.length > 60 || contrast.sample.b.length > 60 ? ", or each bar how many shapes of a large group lie there" : ""}; the line is the mean.`;
+      : `Ranked by the difference of the means in relation to the spread within the groups; those that are easily pictured first. Each mark is a shape${contrast.sample.a.length > 60 || contrast.sample.b.length > 60 ? ", or each bar how many shapes of a large group lie there" : ""}; the line is the mean.`;
     const list = document.getElementById("apart-bins");
     list.classList.toggle("within", within);
     list.replaceChildren(...columns.map((column) => binCard(column, view)));

@@ -261,7 +261,7 @@ export class Outliers {
     scored.sort((a, b) => b[0] - a[0] || a[1] - b[1]);
     const features = new Set();
     // What can be pictured goes first where it says nearly as much.
-    const simple = scored.filter(([gain, column]) => bins.isPictured(column) && gain >= scored[0][0] / 3);
+    const simple = scored.filter(([gain, column]) => bins.ease(column) > 1 && gain >= scored[0][0] / 3);
     const chosen = [...simple, ...scored]
       .filter(([, column]) => !features.has(bins.featureOf(column)) && features.add(bins.featureOf(column)))
       .slice(0, REASONS);

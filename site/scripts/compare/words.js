@@ -33,7 +33,7 @@ export function statement(column, contrast, a, b, data) {
   const means = { a: mean(values.a), b: mean(values.b) };
   const [more, less] = contrast.difference[column] > 0 ? [a, b] : [b, a];
   const told = (bins.isShare(column) ? percents : numbers)(means[more.side], means[less.side]);
-  const figures = [element("b", {}, told[0]), " on average; in ", called(less), ", ", element("b", {}, told[1]), "."];
+  const figures = [element("b", {}, told[0]), "; in ", called(less), ", ", element("b", {}, told[1]), "."];
   if (!bins.isShare(column))
     return ["In ", called(more), ", ", element("bdi", {}, bins.names[column]), " is higher: ", ...figures];
   return ["In ", called(more), `, more of ${data.whole} ${data.clauses[column]}: `, ...figures];

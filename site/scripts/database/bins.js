@@ -158,11 +158,11 @@ export class Bins {
   }
 
   /**
-   * Whether a stranger can picture the surface that a bin counts from its plain words.
+   * How easily a stranger pictures the surface that a bin counts from its plain words; 1 is not at all.
    * @param {number} column
    */
-  isPictured(column) {
-    return this.features[this.#featureOf[column]].pictured;
+  ease(column) {
+    return this.features[this.#featureOf[column]].ease;
   }
 
   /**
