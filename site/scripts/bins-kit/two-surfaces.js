@@ -2,9 +2,9 @@
 
 import { modelBytes } from "../base/chunks.js";
 import { element } from "../base/dom.js";
+import { percent } from "../base/words.js";
 import { unpackModel } from "../viewer/model.js";
 import { Paint } from "../viewer/paint.js";
-import { percent } from "./bin-card.js";
 import { densities } from "./difference.js";
 
 /** @import { Bins } from "../database/bins.js" */
