@@ -70,7 +70,7 @@ export class BinSection {
 
   /** Follow the room that there is. */
   start() {
-    watchSize([this.chart.node], () => this.chart.resize());
+    watchSize([this.chart.plot.surface], () => this.chart.resize());
   }
 
   /** Draw with the colours of the theme in use. */
