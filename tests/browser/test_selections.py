@@ -3,7 +3,7 @@
 import csv
 import json
 import re
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs, unquote_plus, urlsplit
 
 import pytest
 from waiting import drawn_again, eventually
@@ -470,3 +470,37 @@ def test_fingers_draw_a_lasso_and_say_what_it_does(open_page):
     choose("Take away")
     finger(LEFT_HALF)
     assert counted(page) == everyone - at_left
+
+
+class TestTheView:
+    def test_the_menu_takes_it_along_past_pages_that_do_not_know_it(self, open_page):
+        page = open_page("workbench", "index.html#map=umap&hide=kind b&select=class000/0001")
+
+        def held(*parts) -> None:
+            eventually(page, lambda: all(part in unquote_plus(page.url) for part in parts))
+
+        go(page, "Shapes")
+        held("map=umap", "hide=kind b", "select=class000/0001")
+        page.locator("input[type=search]").first.fill("0003")
+        go(page, "Compare")
+        go(page, "Workbench")
+        assert page.locator("#projections input:checked").get_attribute("value") == "umap"
+        assert page.locator("#class-table .use[aria-pressed=false]").inner_text().startswith("kind b")
+        eventually(page, lambda: page.locator("#bin-add").is_enabled())
+        page.click("#bin-add")
+        held("bins=", "find=0003")
+        bins = parse_qs(urlsplit(page.url).fragment)["bins"]
+        go(page, "About")
+        go(page, "Overview")
+        assert page.locator("input[type=search]").first.input_value() == "0003"
+        held("map=umap", "hide=kind b", "select=class000/0001")
+        go(page, "Workbench")
+        assert parse_qs(urlsplit(page.url).fragment)["bins"] == bins
+
+    def test_the_copied_link_says_what_it_holds(self, open_page):
+        page = open_page("workbench", "index.html#map=umap&hide=kind b")
+        page.evaluate("() => void (navigator.clipboard.writeText = async (text) => (window.copied = text))")
+        page.click("#copy-link")
+        eventually(page, lambda: page.locator("#copied").is_visible())
+        assert page.inner_text("#copied") == "Link copied. It holds the map and which classes are hidden."
+        assert page.evaluate("copied") == page.url

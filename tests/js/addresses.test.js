@@ -11,6 +11,7 @@ import { overviewAddress } from "../../site/scripts/addresses/overview.js";
 import { shapePageAddress } from "../../site/scripts/addresses/shape.js";
 import { galleryAddress } from "../../site/scripts/addresses/shapes.js";
 import { workAddress } from "../../site/scripts/addresses/workbench.js";
+import { commonTo } from "../../site/scripts/base/address.js";
 
 const FEATURES = [
   { name: "Gc", start: 0, dimensions: 1, bins: 10 },
@@ -139,10 +140,7 @@ const PAGES = {
       "select=ant%2F1&select=lost&open=bee%2F1&find=two+words&at=0.5%2C-12.25%2C3",
     ],
   ],
-  features: [
-    featuresAddress(subsets, database),
-    ["features=Gc+FPFH", "features=Gc&s=3&color=hit&select=lost", "features=FPFH&s=none"],
-  ],
+  features: [featuresAddress(subsets, database), ["", "features=Gc&s=3&color=hit&select=lost", "features=FPFH&s=none"]],
   bins: [
     binsAddress(database, bins, selection, { bin: 5, group: 1 }),
     ["", "size=2&step=1&bin=bin+7&of=bee&shape=least&reading=inside", "bin=bin+5&id=cup+%26+plate%2F1&select=ant%2F2"],
@@ -201,6 +199,16 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
     for (const query of queries) assert.equal(writtenAgain(query), query);
   });
 
+  test(`what is common to pages is known to ${page}, or passes through it`, () => {
+    for (const query of queries) {
+      const common = commonTo(new URLSearchParams(query));
+      assert.deepEqual(address.passing(new URLSearchParams(query)), [], query);
+      const all = new URLSearchParams([...common, ["is.stranger", "x"], ["range.year", "1..2"], ["view", "y"]]);
+      const passing = address.passing(all).map(([name]) => name);
+      assert.deepEqual(passing, page === "shapes" ? [] : ["is.stranger", "range.year"]);
+    }
+  });
+
   test(`${page} passes over what it cannot read`, () => {
     const usual = writtenAgain("");
     const prefixed = ["range.faces", "is.kind", "is.folders", "hide", "a", "select", "selected"];
@@ -222,6 +230,13 @@ test("the selection of another page is compared with the rest", () => {
 test("bins of features that are not in use are none", () => {
   const [address] = PAGES.workbench;
   assert.deepEqual(address.read(new URLSearchParams("features=FPFH&bins=Gc:1 FPFH[0]:2")).bins, new Set([11]));
+});
+
+test("a link says in words what it holds", () => {
+  const [address] = PAGES.overview;
+  const held = (query) => address.holds(new Map(Object.entries(address.read(new URLSearchParams(query)))));
+  assert.deepEqual(held(""), []);
+  assert.deepEqual(held("map=pca&hide=ant&select=lost"), ["the map", "which classes are hidden", "the selection"]);
 });
 
 test("a row says which values of the state it has", () => {

@@ -39,8 +39,8 @@ export function binsAddress(database, bins, selection, first) {
   const last = Math.max(selection.path.length - 1, 0);
   return new Address([
     { name: "size", key: "size", kind: choice(SIZES), standard: SIZES[0], place: true },
-    { name: "step", key: "step", kind: step(last), standard: last, place: true, often: true },
-    { names: ["bin", "group"], ...binOfClass(database, bins), standard: first, place: true },
+    { name: "step", key: "step", kind: step(last), standard: last, place: true, often: true, words: "the step" },
+    { names: ["bin", "group"], ...binOfClass(database, bins), standard: first, place: true, words: "the bin" },
     { name: "shape", ...shapeOrEnd(database), standard: null },
     { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
     brushed(database),

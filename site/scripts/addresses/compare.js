@@ -46,9 +46,9 @@ const READINGS = ["value", "inside", "apart"];
 export function comparePageAddress(database, data, neighbours) {
   const ofClass = named(database.classes);
   return new Address([
-    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true },
-    { names: ["a", "b"], ...twoGroups(database, neighbours), place: true },
-    { name: "bin", key: "bin", kind: text, standard: null, place: true },
+    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true, words: "the view" },
+    { names: ["a", "b"], ...twoGroups(database, neighbours), place: true, words: "the two groups" },
+    { name: "bin", key: "bin", kind: text, standard: null, place: true, words: "the bin" },
     { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
     { name: "of", key: "of", kind: ofClass, standard: null, place: true },
     { name: "row", key: "row", kind: ofClass, standard: null, place: true, often: true },

@@ -37,7 +37,10 @@ export function featuresAddress(subsets, database) {
   return new Address([
     {
       name: "chosen",
-      read: (query) => subsets.find(splitNames(query.get("features"), subsets.features)) ?? everyone,
+      words: "the features",
+      keys: /^features$/,
+      standard: everyone,
+      read: (query) => subsets.find(splitNames(query.get("features"), subsets.features)),
       write: (query, chosen) => query.set("features", joinNames(subsets.names(chosen))),
       place: true,
       often: true,

@@ -27,14 +27,14 @@ export const VIEWS = ["thumbnail", "class", "hit", "three"];
 /** @param {Database} database */
 export function overviewAddress(database) {
   return new Address([
-    { names: ["method", "features"], ...mapOfFeatures(database), place: true },
-    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true },
+    { names: ["method", "features"], ...mapOfFeatures(database), place: true, words: "the map" },
+    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true, words: "what the marks show" },
     { name: "exact", key: "exact", kind: flag, standard: false, place: true },
-    { name: "hidden", ...hiddenClasses(database), place: true },
+    { name: "hidden", ...hiddenClasses(database), place: true, words: "which classes are hidden" },
     brushed(database),
-    { name: "opened", key: "open", kind: named(database.ids), standard: null },
-    { name: "query", key: "find", kind: text, standard: "", often: true },
-    { name: "camera", key: "at", kind: camera, standard: null, often: true },
+    { name: "opened", key: "open", kind: named(database.ids), standard: null, words: "the open shape" },
+    { name: "query", key: "find", kind: text, standard: "", often: true, words: "the search" },
+    { name: "camera", key: "at", kind: camera, standard: null, often: true, words: "the zoom" },
   ]);
 }
 
@@ -54,6 +54,7 @@ export function subsetAddress(names) {
 function mapOfFeatures(database) {
   const { subsets } = database.data;
   return {
+    keys: /^(map|features)$/,
     read: (query) => ({
       method: Math.max(
         database.methods.findIndex(({ key }) => key === query.get("map")),
@@ -75,6 +76,7 @@ function mapOfFeatures(database) {
  */
 function hiddenClasses({ classes }) {
   return {
+    keys: /^hide(-unlabelled)?$/,
     read: (query) => {
       const hidden = query
         .getAll("hide")

@@ -8,11 +8,13 @@ import { readSelection, writeSelection } from "../database/selection.js";
 /**
  * A row of every such address.
  * @param {Database} database
- * @returns {Ways & { name: "selection" }}
+ * @returns {Ways & { name: "selection", words: string }}
  */
 export function selected(database) {
   return {
     name: "selection",
+    words: "the selection",
+    keys: /^select(ed)?$/,
     read: (query) => readSelection(query, database),
     write: (query, selection) => writeSelection(query, database, selection),
   };

@@ -33,13 +33,13 @@ import { selected } from "./selected.js";
  */
 export function shapePageAddress(database) {
   return new Address([
-    { names: ["shape", "unknown"], ...shapeOrUnknown(database), place: true },
+    { names: ["shape", "unknown"], ...shapeOrUnknown(database), place: true, words: "the shape" },
     { name: "method", key: "map", kind: named(database.methods.map(({ key }) => key)), standard: 0 },
-    { name: "features", key: "features", kind: text, standard: "" },
+    { name: "features", key: "features", kind: text, standard: "", words: "what similar means" },
     { name: "bins", key: "bins", kind: text, standard: "" },
     { name: "bin", key: "bin", kind: text, standard: null },
     { name: "parts", key: "parts", kind: text, standard: "" },
-    { name: "beside", key: "beside", kind: shapeId(database), standard: null },
+    { name: "beside", key: "beside", kind: shapeId(database), standard: null, words: "the shape beside it" },
     { name: "within", key: "within", kind: text, standard: "" },
     selected(database),
   ]);

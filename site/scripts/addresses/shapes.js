@@ -48,11 +48,24 @@ export function galleryAddress(database, fields) {
   const keys = (some) => some.map(({ key }) => key);
   const usualGroup = database.separable ? (fields.active?.key ?? "") : "";
   return new Address([
-    { name: "query", key: "find", kind: text, standard: "", often: true },
-    { name: "only", ...onlySelected(database), standard: false, place: true },
-    { name: "filters", ...filters(fields), place: true, often: true },
-    { name: "group", key: "group", kind: choice(["", ...keys(fields.groupable)]), standard: usualGroup, place: true },
-    { name: "sort", key: "sort", kind: choice(keys(fields.sortable)), standard: "", place: true },
+    { name: "query", key: "find", kind: text, standard: "", often: true, words: "the search" },
+    {
+      name: "only",
+      ...onlySelected(database),
+      standard: false,
+      place: true,
+      words: "that only selected shapes are shown",
+    },
+    { name: "filters", ...filters(fields), place: true, often: true, words: "the filters" },
+    {
+      name: "group",
+      key: "group",
+      kind: choice(["", ...keys(fields.groupable)]),
+      standard: usualGroup,
+      place: true,
+      words: "the groups",
+    },
+    { name: "sort", key: "sort", kind: choice(keys(fields.sortable)), standard: "", place: true, words: "the order" },
     { name: "down", key: "down", kind: flag, standard: false, place: true },
     { name: "size", key: "size", kind: within(SIZES.least, SIZES.most), standard: SIZES.usual, often: true },
     { name: "closed", key: "closed", kind: texts },
@@ -91,6 +104,7 @@ function onlySelected(database) {
  */
 function filters(fields) {
   return {
+    keys: /^(is|lacks|range)\./,
     /** @param {URLSearchParams} query */
     read(query) {
       /** @type {Map<string, Filter>} */

@@ -53,17 +53,18 @@ export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true
 export function workAddress(database, data) {
   const method = PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0];
   return new Address([
-    { name: "hidden", ...classesInUse(database), place: true },
-    { names: ["features", "bins"], ...binsInUse(data), place: true },
-    { name: "projection", key: "map", kind: choice(PROJECTIONS), standard: method, place: true },
+    { name: "hidden", ...classesInUse(database), place: true, words: "the classes" },
+    { names: ["features", "bins"], ...binsInUse(data), place: true, words: "features and bins" },
+    { name: "projection", key: "map", kind: choice(PROJECTIONS), standard: method, place: true, words: "the map" },
     {
       name: "scorer",
       key: "scorer",
       kind: choice(data.scorers.map(({ key }) => key)),
       standard: DEFAULT_SCORER,
       place: true,
+      words: "the scorer",
     },
-    { name: "separation", ...separation(database), place: true },
+    { name: "separation", ...separation(database), place: true, words: "the question" },
     { name: "sample", key: "sample", kind: flag, standard: false, place: true },
     { name: "color", key: "color", kind: choice(database.labelled ? COLORS : COLORS.slice(0, 1)), standard: COLORS[0] },
     brushed(database),
@@ -87,6 +88,7 @@ export function isSame(bins, ofSite) {
 function classesInUse(database) {
   const everyone = [...database.sizes.keys()].sort((a, b) => a - b);
   return {
+    keys: /^(hide|hide-unlabelled|class|unlabelled)$/,
     read(query) {
       if (query.has("class") || query.has("unlabelled")) {
         const used = new Set([...classesNamed(query, "class", database), ...(query.has("unlabelled") ? [-1] : [])]);
@@ -118,6 +120,7 @@ function binsInUse({ features, bins: ofSite }) {
   /** @param {number} column */
   const featureOf = (column) => features.findLastIndex(({ start }) => start <= column);
   return {
+    keys: /^(features|bins)$/,
     read(query) {
       const known = splitNames(query.get("features"), names);
       const used = [...features.keys()].filter((index) => known.length === 0 || known.includes(names[index]));
@@ -156,6 +159,7 @@ function separation(database) {
     if (groups?.size === 0) query.set(key, "");
   };
   return {
+    keys: /^(separate|from|together)$/,
     read: (query) => ({
       from: read(query, "separate"),
       against: read(query, "from"),

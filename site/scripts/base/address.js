@@ -10,16 +10,29 @@
 
 /**
  * What is said of every row: `standard` holds where nothing is read, and is not written. A change of a `place` is one
- * that the browser's way back leads to; what changes `often` is written when it has come to rest.
- * @typedef {{ standard?: any, place?: boolean, often?: boolean }} Usage
+ * that the browser's way back leads to; what changes `often` is written when it has come to rest. What readers call it,
+ * `words`, says what a link holds.
+ * @typedef {{ standard?: any, place?: boolean, often?: boolean, words?: string }} Usage
  */
 
 /**
  * A value of the state, `name`: of the `kind` of its parameter `key`, or, where one parameter is not enough, with what
- * reads it from all of them and adds it to them. Several `names` are one value that is an object of them.
- * @typedef {{ read(query: URLSearchParams): any, write(query: URLSearchParams, value: any): void }} Ways
+ * reads it from all of them and adds it to them, and `keys` that are its own. Several `names` are one value that is an object of them.
+ * @typedef {{ keys?: RegExp, read(query: URLSearchParams): any, write(query: URLSearchParams, value: any): void }} Ways
  * @typedef {Usage & ({ name: string, key: string, kind: Kind } | Ways & ({ name: string } | { names: string[] }))} Row
  */
+
+/** Parameters that mean the same on every page that has them: they go along from page to page, past those that do not. */
+const COMMON =
+  /^(map|features|bins|find|color|hide|hide-unlabelled|class|unlabelled|scorer|separate|from|together|sample|select|selected|(is|lacks|range)\..+)$/;
+
+/**
+ * What of an address goes along to other pages.
+ * @param {URLSearchParams} query
+ */
+export function commonTo(query) {
+  return [...query].filter(([name]) => COMMON.test(name));
+}
 
 export class Address {
   /** @param {Row[]} rows in the order in which they are written */
@@ -34,6 +47,27 @@ export class Address {
    */
   has(changed, marked = (_row) => true) {
     return this.rows.some((row) => marked(row) && namesOf(row).some((name) => changed.has(name)));
+  }
+
+  /**
+   * What of an address goes along but is not for this page.
+   * @param {URLSearchParams} query
+   */
+  passing(query) {
+    const own = (/** @type {string} */ key) =>
+      this.rows.some((row) => ("kind" in row ? row.key === key : row.keys?.test(key)));
+    return commonTo(query).filter(([key]) => !own(key));
+  }
+
+  /**
+   * What of a state is not as it is where nothing is said, in words.
+   * @param {{ get(name: string): any }} state
+   */
+  holds(state) {
+    return this.rows
+      .filter((row) => new Address([row]).write(state).size > 0)
+      .map(({ words }) => words)
+      .filter(Boolean);
   }
 
   /**

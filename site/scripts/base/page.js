@@ -2,6 +2,7 @@
 
 import { Address } from "./address.js";
 import { arriveHere, pushHash, readHash, replaceHash } from "./place.js";
+import { watchLink } from "./link.js";
 import { State } from "./state.js";
 import { currentTheme, watchTheme } from "./theme.js";
 
@@ -23,21 +24,29 @@ export async function openPage({ address = new Address([]), settle = (found) => 
   let arriving = false;
   arriveHere();
   const acted = watchActs();
-  const step = () => {
+  let passing = address.passing(readHash());
+  /** The address of the view as it is now, and what passes through it to other pages. */
+  const written = () => {
     const query = address.write(state);
+    for (const [name, value] of passing) query.append(name, value);
+    return query;
+  };
+  const step = () => {
+    const query = written();
     if (query.toString() !== readHash().toString()) (acted() ? pushHash : replaceHash)(query);
   };
-  const later = { step: delayed(step), replace: delayed(() => replaceHash(address.write(state))) };
+  const later = { step: delayed(step), replace: delayed(() => replaceHash(written())) };
   state.listen((changed) => {
     const changes = (/** @type {boolean} */ place, /** @type {boolean} */ often) =>
       address.has(changed, (row) => (row.place ?? false) === place && (row.often ?? false) === often);
     if (changes(true, false) && !arriving) step();
     else if (changes(true, true) && !arriving) later.step();
-    else if (changes(false, false) || arriving) replaceHash(address.write(state));
+    else if (changes(false, false) || arriving) replaceHash(written());
     else if (changes(false, true)) later.replace();
   });
   return {
     state,
+    written,
     /**
      * Say something to readers who do not see it.
      * @param {string} text
@@ -48,16 +57,19 @@ export async function openPage({ address = new Address([]), settle = (found) => 
     /**
      * The page is drawn: from here on it follows the address, whose new values `arrive` takes, and the theme, for which
      * `redraw` does what listening to the state does not.
-     * @param {{ arrive?: (found: Record<string, any>) => void, redraw?: () => void }} [how]
+     * @param {{ arrive?: (found: Record<string, any>, first: boolean) => void, redraw?: () => void }} [how]
      */
     ready({ arrive = (found) => state.set(found), redraw = () => {} } = {}) {
       window.addEventListener("popstate", async () => {
-        arriveHere();
+        const first = arriveHere();
+        passing = address.passing(readHash());
         const found = await read();
         arriving = true;
-        arrive(found);
+        arrive(found, first);
         arriving = false;
       });
+      showPageInMenu();
+      watchLink(() => address.holds(state));
       watchTheme(() => {
         redraw();
         state.set({ theme: currentTheme() });
@@ -65,6 +77,12 @@ export async function openPage({ address = new Address([]), settle = (found) => 
       document.documentElement.dataset.ready = "";
     },
   };
+}
+
+/** On a phone the menu is one row that scrolls: to the page that is open. */
+function showPageInMenu() {
+  const open = document.querySelector(".masthead nav [aria-current]");
+  if (open) open.parentElement.scrollLeft = open.offsetLeft - (open.parentElement.clientWidth - open.offsetWidth) / 2;
 }
 
 /**

@@ -48,10 +48,16 @@ export function stepsTaken() {
   return steps;
 }
 
-/** The reader came here on the browser's ways; by a link, or an address written by hand, it is a further step. */
+/**
+ * The reader came here: on the browser's ways, or by a link or an address written by hand, and so for the first time.
+ *
+ * Whether it is the first time; then it is a further step.
+ */
 export function arriveHere() {
-  if (window.history.state?.steps === undefined) window.history.replaceState({ steps: steps + 1 }, "");
+  const first = window.history.state?.steps === undefined;
+  if (first) window.history.replaceState({ steps: steps + 1 }, "");
   ({ steps } = window.history.state);
+  return first;
 }
 
 /**

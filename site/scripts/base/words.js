@@ -62,3 +62,11 @@ export function percents(...shares) {
   const more = Array.from({ length: MOST_DIGITS + 1 }, (_, digits) => digits).find(apart) ?? 0;
   return shares.map((share) => percent(share, more));
 }
+
+/**
+ * "one", "one and two", "one, two and three".
+ * @param {string[]} words
+ */
+export function listed(words) {
+  return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
+}

@@ -3,13 +3,13 @@
 import { watchCopying } from "../about/copying.js";
 import { watchMeshes } from "../about/meshes.js";
 import { openPage } from "../base/page.js";
-import { carryAddress } from "../tray/carry.js";
+import { carryView } from "../tray/carry.js";
 
 async function main() {
-  const { ready } = await openPage();
+  const { written, ready } = await openPage();
   watchCopying();
   watchMeshes();
-  carryAddress();
+  carryView(written);
   ready();
 }
 

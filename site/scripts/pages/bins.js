@@ -16,14 +16,14 @@ import { Turntable } from "../bins/turntable.js";
 import { Bins } from "../database/bins.js";
 import { Database } from "../database/database.js";
 import { Pointing } from "../map/pointing.js";
-import { carrySelection } from "../tray/carry.js";
+import { carryView } from "../tray/carry.js";
 import { clearOnEscape, Tray } from "../tray/tray.js";
 
 async function main() {
   const [overview, selection, data, bytes] = await chunks("overview", "selection", "workbench", "bins");
   const bins = new Bins(data, bytes);
   const database = new Database(overview, currentTheme);
-  const { state, announce, ready } = await openPage({
+  const { state, written, announce, ready } = await openPage({
     address: binsAddress(database, bins, selection, firstBin(selection)),
   });
   const card = new BinCard(bins, database);
@@ -48,7 +48,7 @@ async function main() {
   new Look(database, bins, selection, state, card).render();
   new Turntable(database, bins, selection, state, { pointing, announce }).start();
   new Tray(database, state, { open: choose });
-  carrySelection(database, state);
+  carryView(written);
   watchTables(() => binsTables(database, bins, selection, state, card));
   watchLookLink();
   clearOnEscape(state);

@@ -14,7 +14,7 @@ import { compareTables } from "../compare/tables.js";
 import { Tabs } from "../compare/tabs.js";
 import { Bins } from "../database/bins.js";
 import { Database } from "../database/database.js";
-import { carrySelection, follow } from "../tray/carry.js";
+import { carryView, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
@@ -26,7 +26,9 @@ async function main() {
   let loaded = null;
   const bins = () =>
     (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
-  const { state, announce, ready } = await openPage({ address: comparePageAddress(database, data, neighbours) });
+  const { state, written, announce, ready } = await openPage({
+    address: comparePageAddress(database, data, neighbours),
+  });
   const groups = new GroupsView(database, data, clusters, neighbours, state, { bins, announce });
   const outliers = new Outliers(database, data, neighbours, state, { bins, announce });
   const matrix = new Matrix(database, data, neighbours, state, { announce });
@@ -34,7 +36,7 @@ async function main() {
   /** @param {number} index */
   const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
   new Tray(database, state, { open, take: (side, group) => groups.chooser.choose(side, group) });
-  carrySelection(database, state);
+  carryView(written);
   groups.compare();
   outliers.render();
   matrix.render();

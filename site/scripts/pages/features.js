@@ -17,14 +17,14 @@ import { Panel } from "../features/panel.js";
 import { Ranking } from "../features/ranking.js";
 import { openRetrieval } from "../features/retrieval.js";
 import { subsetTables } from "../features/tables.js";
-import { carryAddress, carrySelection } from "../tray/carry.js";
+import { carryView } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
   const [overview, search] = await Promise.all([chunk("overview"), chunk("search")]);
   const subsets = new Subsets(search);
   const database = new Database(overview, currentTheme);
-  const { state, announce, ready } = await openPage({
+  const { state, written, announce, ready } = await openPage({
     address: featuresAddress(subsets, database),
     values: { ...nothingShown(), pointedPlace: null },
   });
@@ -42,7 +42,7 @@ async function main() {
   // The map comes with the largest chunk of the page, so it waits for what is above it.
   const map = new ChosenMap(database, subsets, state, announce);
   new Tray(database, state, { open: (shape) => map.toggle(shape), zoom: () => map.gestures.zoomToSelection() });
-  carrySelection(database, state);
+  carryView(written);
   await map.open();
   const charts = subsets.labelled ? [new Boxes(database, subsets, state, marks), ...dotCharts(subsets, marks)] : [];
   for (const chart of charts) await chart.start();
@@ -59,11 +59,11 @@ async function main() {
 
 /** A site without a search: nothing can be chosen. */
 async function withoutSearch() {
-  const { state, ready } = await openPage();
+  const { state, written, ready } = await openPage();
   const { classes } = await chunk("overview");
   const retrieval = await openRetrieval(classes, state);
   if (retrieval !== null) watchTables(() => ({ title: "Retrieval in figures", tables: retrieval.tables() }));
-  carryAddress();
+  carryView(written);
   ready();
 }
 

@@ -16,12 +16,12 @@ import { Detail } from "../overview/detail.js";
 import { addressedMap, FeatureChoice } from "../overview/feature-choice.js";
 import { watchIntroduction } from "../overview/introduction.js";
 import { OverviewMaps } from "../overview/maps.js";
-import { carrySelection } from "../tray/carry.js";
+import { carryView } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
   const database = new Database(await chunk("overview"), currentTheme);
-  const { state, announce, ready } = await openPage({
+  const { state, written, announce, ready } = await openPage({
     address: overviewAddress(database),
     settle: (found) => addressedMap(database, found),
     values: { ...NOTHING_POINTED, ...dragging(), matches: null },
@@ -40,7 +40,7 @@ async function main() {
     hint: trayHint(),
     zoom: () => maps.gestures.get(maps.large)?.zoomToSelection(),
   });
-  carrySelection(database, state);
+  carryView(written);
   watchTables(() => mapTables(database, state));
   if (database.data.subsets) new FeatureChoice(database, state);
   watchIntroduction();

@@ -14,14 +14,14 @@ import { ShapeLinks } from "../shape/links.js";
 import { Portrait } from "../shape/portrait.js";
 import { Surroundings } from "../shape/surroundings.js";
 import { shapeTables } from "../shape/tables.js";
-import { carrySelection } from "../tray/carry.js";
+import { carryView } from "../tray/carry.js";
 import { clearOnEscape, Tray } from "../tray/tray.js";
 
 async function main() {
   const database = new Database(await chunk("overview"), currentTheme);
   const page = document.getElementById("content");
-  const { state, announce, ready } = await openPage({ address: shapePageAddress(database) });
-  carrySelection(database, state);
+  const { state, written, announce, ready } = await openPage({ address: shapePageAddress(database) });
+  carryView(written);
   let opened = false;
   const links = new ShapeLinks(database, state, { opened: () => (opened = true) });
   /** @param {number} shape */

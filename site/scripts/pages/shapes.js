@@ -10,14 +10,14 @@ import { Database } from "../database/database.js";
 import { Fields } from "../database/fields.js";
 import { Gallery } from "../shapes/gallery.js";
 import { galleryTables } from "../shapes/tables.js";
-import { carrySelection, follow } from "../tray/carry.js";
+import { carryView, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
   const [overview, described, hierarchy] = await chunks("overview", "fields", "hierarchy");
   const database = new Database(overview, currentTheme);
   const fields = new Fields(database, described, hierarchy);
-  const { state, announce, ready } = await openPage({
+  const { state, written, announce, ready } = await openPage({
     address: galleryAddress(database, fields),
     values: { matches: null, opened: null },
   });
@@ -25,7 +25,7 @@ async function main() {
   /** @param {number} index */
   const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
   new Tray(database, state, { open });
-  carrySelection(database, state);
+  carryView(written);
   watchTables(() => galleryTables(database, fields, gallery.sieve, gallery.grid.groups));
   await gallery.start();
   ready();

@@ -9,7 +9,7 @@ import { Bins } from "../database/bins.js";
 import { Database } from "../database/database.js";
 import { Card } from "../map/card.js";
 import { dragging, NOTHING_POINTED } from "../map/scene.js";
-import { carrySelection } from "../tray/carry.js";
+import { carryView } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 import { Answers } from "../workbench/answers.js";
 import { BinSection } from "../workbench/bin-section.js";
@@ -28,7 +28,7 @@ async function main() {
   const [overview, data, bytes] = await Promise.all([chunk("overview"), chunk("workbench"), chunk("bins")]);
   const bins = new Bins(data, bytes);
   const database = new Database(overview, currentTheme);
-  const { state, announce, ready } = await openPage({
+  const { state, written, announce, ready } = await openPage({
     address: workAddress(database, data),
     values: { ...NOTHING_POINTED, ...dragging(), ...nothingMade() },
   });
@@ -38,7 +38,7 @@ async function main() {
   new Card(state);
   // A picture in the tray marks its shape on both maps.
   new Tray(database, state, { open: (shape) => maps.toggle(shape), zoom: () => maps.zoomToSelection() });
-  carrySelection(database, state);
+  carryView(written);
   const panels = mapPanels(database, state, bins, answers, desk);
   if (database.labelled)
     new ClassTable(database, state, {
@@ -61,7 +61,7 @@ async function main() {
   await maps.start();
   section.start();
   ready({
-    arrive: (found) => desk.arrive(/** @type {any} */ (found)),
+    arrive: (found, first) => desk.arrive(/** @type {any} */ (found), first),
     redraw() {
       maps.redraw();
       section.redraw();

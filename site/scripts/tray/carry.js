@@ -1,29 +1,10 @@
-// The selection goes along: whichever link to a page of the site a reader follows, the shapes stay selected there.
+// What a reader has chosen goes along: by whichever link to a page of the site, the shapes stay selected there; by the
+// menu, the view goes too, as far as the page knows it.
 
+import { commonTo } from "../base/address.js";
 import { element } from "../base/dom.js";
-import { linkedPage, pageAddress, readHash } from "../base/place.js";
-import { isSelection, writeSelection } from "../database/selection.js";
-
-/** @import { State } from "../base/state.js" */
-/** @import { Database } from "../database/database.js" */
-
-/**
- * Let all links of a page carry the selection in its state.
- * @param {Database} database
- * @param {State} state
- */
-export function carrySelection(database, state) {
-  carry(() => {
-    const query = new URLSearchParams();
-    writeSelection(query, database, state.get("selection"));
-    return query;
-  });
-}
-
-/** The same on a page that knows nothing of shapes: it hands on what its address says. */
-export function carryAddress() {
-  carry(() => new URLSearchParams([...readHash()].filter(([name]) => isSelection(name))));
-}
+import { linkedPage, pageAddress } from "../base/place.js";
+import { isSelection } from "../database/selection.js";
 
 /**
  * Go to a page of the site as if a link had been followed.
@@ -36,23 +17,32 @@ export function follow(address) {
   link.remove();
 }
 
-/** @param {() => URLSearchParams} selection */
-function carry(selection) {
+/**
+ * Let all links of a page carry what its address holds.
+ * @param {() => URLSearchParams} written the address as it is now
+ */
+export function carryView(written) {
   /** Addresses that were written here, by link: any other selection in a link is the link's own business. */
   /** @type {WeakMap<Element, string>} */
-  const written = new WeakMap();
+  const known = new WeakMap();
   /** @param {Event & Targeted} event */
   const write = ({ target }) => {
     const link = target.closest?.("a[href]:not([download])");
     const address = link?.getAttribute("href") ?? "";
     const page = linkedPage(address);
     if (!link || page === null) return;
+    const common = commonTo(written());
     const all = [...page.query];
-    const own = all.filter(([name]) => !isSelection(name));
-    if (own.length < all.length && written.get(link) !== address) return;
-    const carrying = pageAddress(page.file, [...own, ...selection()]);
-    link.setAttribute("href", carrying);
-    written.set(link, carrying);
+    let carrying;
+    if (link.closest(".masthead nav")) carrying = common;
+    else {
+      const own = all.filter(([name]) => !isSelection(name));
+      if (own.length < all.length && known.get(link) !== address) return;
+      carrying = [...own, ...common.filter(([name]) => isSelection(name))];
+    }
+    const carried = pageAddress(page.file, carrying);
+    link.setAttribute("href", carried);
+    known.set(link, carried);
   };
   // At the last moment, not with every change: a brush changes the selection many times a second.
   for (const name of /** @type {const} */ (["pointerdown", "keydown", "click"]))

@@ -193,11 +193,14 @@ export class Desk {
   }
 
   /**
-   * The reader came to another place: by undo or redo, by the browser's own ways, or by an address written by hand.
-   * @param {Work & Record<string, any>} found what the address holds; what is looked at beside the work stays
+   * The reader came to another place: by undo or redo, by the browser's own ways, or for the first time, by an address
+   * written by hand. Only then what is looked at beside the work, such as the selection, is that of the address.
+   * @param {Work & Record<string, any>} found what the address holds
+   * @param {boolean} first
    */
-  arrive({ hidden, features, bins, scorer, separation, projection, sample }) {
+  arrive({ hidden, features, bins, scorer, separation, projection, sample, ...beside }, first) {
     const { history } = this;
+    if (first) this.state.set(beside);
     history.arrive(this.#stepOf({ hidden, features, bins, scorer, separation, projection, sample }));
     const { taken: _taken, originalMap: _original, refinedMap: _refined, ...work } = history.current;
     this.state.set(work);

@@ -3,7 +3,7 @@
 // A separation is { from, against, each }: the classes to set apart (null: all in use), the classes to set them apart
 // from (null: the rest), and whether each stands for itself or all together are one group.
 
-import { shortened } from "../base/words.js";
+import { listed, shortened } from "../base/words.js";
 
 /** @import { Database } from "../database/database.js" */
 
@@ -67,7 +67,7 @@ export function separationWords(separation, groups, database) {
   const names = (chosen) => {
     if (chosen.length === groups.length && chosen.length > 2) return `all ${chosen.length} classes`;
     if (chosen.length > MOST_NAMED) return `${chosen.length} classes`;
-    return list(chosen.map((group) => shortened(database.className(group), 24)));
+    return listed(chosen.map((group) => shortened(database.className(group), 24)));
   };
   if (contests(separation, groups).length === 1 && separation.each) {
     const [
@@ -80,9 +80,4 @@ export function separationWords(separation, groups, database) {
   }
   const manner = positive.length < 2 ? "" : separation.each ? ", each" : ", together,";
   return `${names(positive)}${manner} from ${negative === null ? "the rest" : names(negative)}`;
-}
-
-/** @param {string[]} words */
-function list(words) {
-  return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
 }
