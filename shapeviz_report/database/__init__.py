@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from shapeviz_report.database.base import Layout
+from shapeviz_report.database.base import Layout, display_names
 from shapeviz_report.database.class_folders import ClassFolders
 from shapeviz_report.database.flat import FlatFolder
 from shapeviz_report.database.formats import MESH_FORMATS
@@ -72,7 +72,13 @@ def read_database(
             )
         others = tuple(other for other in database.labelings if other != labeling)
         database = replace(database, labelings=(labeling, *others))
-    return database if name is None else replace(database, name=name)
+    active = database.labelings[0] if database.labelings else None
+    called = display_names(
+        [shape.name for shape in database.shapes],
+        [None if active is None else shape.labels.get(active) for shape in database.shapes],
+    )
+    shapes = tuple(replace(shape, name=own) for shape, own in zip(database.shapes, called))
+    return replace(database, shapes=shapes, name=database.name if name is None else name)
 
 
 def _choose_layout(path: Path, name: str | None, outside: bool) -> Layout:

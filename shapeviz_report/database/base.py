@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -106,6 +107,37 @@ def shape_names(ids: Sequence[str]) -> list[str]:
         )
         for id, path in zip(ids, paths, strict=True)
     ]
+
+
+def display_names(names: Sequence[str], labels: Sequence[str | None]) -> list[str]:
+    """What people call shapes: class and name, where a name alone is a mere number or begins with the class's folder.
+
+    ``61`` and ``chair/03`` become ``airplane 61`` and ``chair 03``. A name stays as it is where that would be another's.
+
+    Parameters
+    ----------
+    names : sequence of str
+        As :func:`shape_names` returns them: no two are equal.
+    labels : sequence of str or None
+        The class of each shape.
+    """
+    called = [_with_class(name, label) for name, label in zip(names, labels, strict=True)]
+    times = Counter(called)
+    times.update(name for name, own in zip(names, called) if name != own)
+    return [own if times[own] == 1 else name for name, own in zip(names, called)]
+
+
+def _with_class(name: str, label: str | None) -> str:
+    if label is None or not label.strip():
+        return name
+    folder, slash, rest = name.partition("/")
+    if slash and folder == label:
+        return f"{label} {rest}"
+    return f"{label} {name}" if _MERE_NUMBER.fullmatch(name) else name
+
+
+_MERE_NUMBER = re.compile(r"[^\W\d_]?[\W\d_]*\d[\W\d_]*")
+"""Digits, with at most one letter before them, as in ``m1204``."""
 
 
 def _telling_parts(

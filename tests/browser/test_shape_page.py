@@ -114,7 +114,7 @@ def test_a_shape_is_told_whole(shape, tmp_path):
         "1\u2009011 faces, 502 vertices",
         "1 × 2 × 11.5",
         "0.120 % of its diagonal",
-        "watertight\nyes",
+        "surface\nwatertight",
     ):
         assert words in facts
     # Not everything that looks like an address is one.

@@ -4,6 +4,7 @@ import { chunk } from "../base/chunks.js";
 import { element, focused, picture } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
+import { meshFacts, surfaceFacts } from "../database/facts.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { classLine } from "../map/card.js";
 
@@ -76,15 +77,8 @@ export class Detail {
       database.labelled && classLine(database, database.groups[index]),
       ...this.#neighbours(index, method),
       others.length > 0 && facts("Other labels", others),
-      known.metadata.length > 0 && facts("Metadata", known.metadata),
-      facts("Mesh", [
-        ["id", database.ids[index]],
-        ["as read", `${count(known.facesRead, "face")}, ${count(known.verticesRead, "vertex", "vertices")}`],
-        ["prepared", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
-        ["parts", grouped(known.components)],
-        ["watertight", known.watertight ? "yes" : "no"],
-        ["deviation", `${((known.deviation ?? 0) * 100).toFixed(3)} % of the diagonal`],
-      ]),
+      known.metadata.length > 0 && facts("From the database", known.metadata),
+      facts("Mesh", [["id", database.ids[index]], ...surfaceFacts(known), ...meshFacts(known)]),
       known.repairs.length > 0 &&
         facts(
           "Repairs",

@@ -2,7 +2,8 @@
 
 import { chunk } from "../base/chunks.js";
 import { element } from "../base/dom.js";
-import { count, grouped } from "../base/words.js";
+import { grouped } from "../base/words.js";
+import { meshFacts, surfaceFacts } from "../database/facts.js";
 
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
@@ -109,20 +110,15 @@ function factGroups(database, shape, labelings, known, clusters) {
       rows: [
         ["id", database.ids[shape]],
         ["size", `${wide} × ${high} × ${deep}`],
-        ["surface", measured(known.area)],
+        ["area", measured(known.area)],
         ["volume", known.volume === null && !known.watertight ? "– (it is not closed)" : measured(known.volume)],
-        ["watertight", known.watertight ? "yes" : "no"],
-        ["parts", grouped(known.components)],
+        ...surfaceFacts(known),
       ],
       note: "Sizes are in the units of its file.",
     },
     {
       title: "Mesh",
-      rows: [
-        ["in the file", `${count(known.facesRead, "face")}, ${count(known.verticesRead, "vertex", "vertices")}`],
-        ["as measured", `${count(known.faces, "face")}, ${count(known.vertices, "vertex", "vertices")}`],
-        ["off by", `${((known.deviation ?? 0) * 100).toFixed(3)} % of its diagonal at most`],
-      ],
+      rows: meshFacts(known),
     },
     { title: "Repairs", rows: known.repairs.map(([repair, number]) => [repair, grouped(number)]) },
   ];

@@ -58,9 +58,11 @@ export class Cells {
 
   /** @param {number} row */
   #beside(row) {
-    if (this.showsNumber) return this.#number(row);
     const { database } = this;
-    return [swatch(database.symbol(database.groups[row]), database.color(database.groups[row])), this.#className(row)];
+    return [
+      this.showsClass && swatch(database.symbol(database.groups[row]), database.color(database.groups[row])),
+      this.showsNumber ? this.#number(row) : this.#className(row),
+    ];
   }
 
   /** @param {number} row */

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shapeviz_report.database import read_database
-from shapeviz_report.database.base import shape_names
+from shapeviz_report.database.base import display_names, shape_names
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.order import natural
 from shapeviz_report.types import Database
@@ -42,7 +42,7 @@ def test_class_folders(tmp_path):
     assert database.labelings == ("class",)
     assert labels(database, "class") == {"ant/1": "ant", "cup/1": "cup", "cup/2": "cup"}
     assert [shape.id for shape in database.shapes] == ["ant/1", "cup/1", "cup/2"]
-    assert [shape.name for shape in database.shapes] == ["ant/1", "cup/1", "2"]
+    assert [shape.name for shape in database.shapes] == ["ant 1", "cup 1", "cup 2"]
     assert database.shapes[0].path == tmp_path / "zoo" / "ant" / "1.OFF"
     assert not database.failures
     assert not database.parents
@@ -276,9 +276,9 @@ def test_names_tell_shapes_apart(tmp_path):
     ]
     database = read_database(make(tmp_path / "net", *files))
     assert {shape.id: shape.name for shape in database.shapes} == {
-        "chair/1a04/models/model": "chair/1a04",
+        "chair/1a04/models/model": "chair 1a04",
         "chair/1b21/models/model": "1b21",
-        "table/1a04/models/model": "table/1a04",
+        "table/1a04/models/model": "table 1a04",
         "table/2c77/models/model": "2c77",
     }
     database = read_database(make(tmp_path / "twice", "cup.off", "cup.ply", "ant.off"))
@@ -312,6 +312,24 @@ def test_no_two_names_are_equal(ids):
     names = shape_names(sorted(ids))
     assert len(set(names)) == len(ids)
     assert all(names)
+
+
+@pytest.mark.parametrize(
+    ("names", "labels", "called"),
+    [
+        (["61", "62"], ["airplane", None], ["airplane 61", "62"]),
+        (["chair/03", "sofa/03"], ["chair", "sofa"], ["chair 03", "sofa 03"]),
+        (["m1204", "1a04", "2024-05"], ["cup", "cup", "Krüge"], ["cup m1204", "1a04", "Krüge 2024-05"]),
+        # Folders that are no class, and names that tell something, stay.
+        (["batch/3", "Amphora, left"], ["cup", "cup"], ["batch/3", "Amphora, left"]),
+        # No two are called the same.
+        (["cup 1", "1"], ["cup", "cup"], ["cup 1", "1"]),
+        (["1", "2"], ["", " "], ["1", "2"]),
+    ],
+)
+def test_numbers_are_called_with_their_class(names, labels, called):
+    assert display_names(names, labels) == called
+    assert len(set(called)) == len(called)
 
 
 def test_companions_of_a_mesh_are_no_failures(tmp_path):

@@ -48,7 +48,7 @@ def cla(path: Path, text: str) -> Path:
 
 
 def labels(database, labeling):
-    return {shape.name: shape.labels.get(labeling) for shape in database.shapes}
+    return {shape.path.stem: shape.labels.get(labeling) for shape in database.shapes}
 
 
 def test_hierarchy(tmp_path):
@@ -82,7 +82,7 @@ def test_the_benchmarks_own_tree(tmp_path):
     database = read_database(root)
     assert database.labelings == ("base", "base, level 2", "base, level 1", "coarse1")
     assert len(database.shapes) == 10
-    by_name = {shape.name: shape for shape in database.shapes}
+    by_name = {shape.path.stem: shape for shape in database.shapes}
     assert by_name["m101"].labels == {"base": "ant", "base, level 2": "ant", "base, level 1": "animal"}
     assert by_name["m101"].metadata == {"split": "test"}
     assert by_name["m1"].metadata == {"split": "train"}
@@ -91,7 +91,7 @@ def test_the_benchmarks_own_tree(tmp_path):
 
     half = read_database(file)
     assert half.root == root
-    assert [shape.name for shape in half.shapes] == ["m101", "m102"]
+    assert [shape.name for shape in half.shapes] == ["ant m101", "aircraft m102"]
     assert half.labelings == ("base", "base, level 1")
     assert half.warnings == (f"8 mesh files below {root} are in no .cla file and are left out.",)
 
@@ -128,7 +128,7 @@ def test_models_without_the_letter_and_of_other_formats(tmp_path):
 def test_models_without_a_mesh(tmp_path):
     cla(tmp_path / "a.cla", "PSB 1\n1 2\ncup 0 2\n1\n2\n")
     database = read_database(models(tmp_path, 1))
-    assert [shape.name for shape in database.shapes] == ["m1"]
+    assert [shape.name for shape in database.shapes] == ["cup m1"]
     (failure,) = database.failures
     assert failure.path == "m2.off"
     assert "a.cla lists the model 2" in failure.reason
