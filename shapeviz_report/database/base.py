@@ -112,7 +112,7 @@ def shape_names(ids: Sequence[str]) -> list[str]:
 def display_names(names: Sequence[str], labels: Sequence[str | None]) -> list[str]:
     """What people call shapes: class and name, where a name alone is a mere number or begins with the class's folder.
 
-    ``61`` and ``chair/03`` become ``airplane 61`` and ``chair 03``. A name stays as it is where that would be another's.
+    ``61`` and ``chair/03`` become ``airplane 61`` and ``chair 03``. A name stays where that would be another's.
 
     Parameters
     ----------

@@ -240,7 +240,13 @@ class TestPointing:
         detail = page.locator("#detail")
         detail.wait_for()
         text = detail.inner_text()
-        for expected in ("10 nearest neighbours", "From the database", "N. N.", "watertight", "of its diagonal"):
+        for expected in (
+            "10 nearest neighbours",
+            "From the database",
+            "N. N.",
+            "watertight",
+            "of its diagonal",
+        ):
             assert expected in text
         first = page.locator("#detail h2").inner_text()
         assert page.locator("#detail .neighbours .shape").count() == 10
