@@ -62,7 +62,7 @@ MapCharts = TypedDict("MapCharts", {"class": Spec, "hit": Spec, "thumbnail": Spe
 
 
 class ThemeMarks(TypedDict):
-    """Colours of marks in a theme; ``config`` is that of charts."""
+    """Colours of marks in a theme; ``config`` is that of charts, ``ramp`` of numbers, in even steps from the lowest."""
 
     config: Spec
     classes: list[str]
@@ -71,13 +71,27 @@ class ThemeMarks(TypedDict):
     outline: str
     ground: str
     ink: str
+    ramp: list[str]
+    categories: list[str]
 
 
 class Marks(TypedDict):
-    """The symbol of every class, as a path, and the colours of each theme."""
+    """Symbols as paths, and the colours of each theme.
+
+    Attributes
+    ----------
+    symbols : list of str
+        Of the classes.
+    categories : list of str
+        Of values of other fields, the most that are told apart.
+    plain, missing : str
+        Of a shape whose colour says all, and of one that nothing is known of.
+    """
 
     symbols: list[str]
+    categories: list[str]
     plain: str
+    missing: str
     themes: dict[ThemeName, ThemeMarks]
 
 
@@ -148,6 +162,8 @@ class Field(TypedDict):
     title, unit : str
     active : bool
         Whether it is the active labeling.
+    date : bool
+        Whether its numbers are days from the first of 1970.
     names : list of str, or None
         The values in their order; None for a field that has no few values.
     of : list of int, or None
@@ -164,6 +180,7 @@ class Field(TypedDict):
     title: str
     unit: str
     active: bool
+    date: bool
     names: list[str] | None
     of: list[int] | None
     notes: list[str] | None

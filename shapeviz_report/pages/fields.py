@@ -6,6 +6,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
+from datetime import date
 from itertools import pairwise
 from typing import Any
 
@@ -40,6 +41,13 @@ _FACTS: tuple[tuple[str, str, str, Callable[[ShapeFacts], float | None]], ...] =
     ("parts", "Parts", "", lambda facts: facts.components),
 )
 
+#: The day that dates are counted from, as browsers do.
+_FIRST_DAY = date(1970, 1, 1).toordinal()
+
+#: Months between the edges of dates.
+_MONTHS = (1, 2, 3, 6, *(12 * step * power for power in (1, 10, 100, 1000) for step in (1, 2, 5)))
+
+_DATE = re.compile(r"(\d{4})-(\d{2})(?:-(\d{2})(?:[T ].*)?)?", re.ASCII)
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
@@ -113,13 +121,16 @@ def _column(key: str, title: str, values: Sequence[str | None]) -> Field | None:
     counts = Counter(value for value in values if value)
     differs = len(counts) > 1 or (len(counts) == 1 and counts.total() < len(values))
     few = len(counts) <= MOST_VALUES and counts.total() >= FEWEST_SHAPES_A_VALUE * len(counts)
-    numbers = None if len(counts) < 2 else _as_numbers(values)
+    days = None if len(counts) < 2 else _as_days(values)
+    numbers = days if days is not None or len(counts) < 2 else _as_numbers(values)
     if not differs or not (few or numbers is not None):
         return None
-    order = natural if numbers is None else _as_number
+    order = natural if numbers is None or days is not None else _as_number
     field = _choices(key, title, values, order) if few else _field(key, title)
     if numbers is not None:
-        edges = _edges([number for number in numbers if number is not None])
+        known = [number for number in numbers if number is not None]
+        edges = _edges(known) if days is None else _date_edges(known)
+        field["date"] = days is not None
         field["numbers"] = _rounded(numbers)
         field["edges"] = edges if len(counts) > FEW_NUMBERS else None
     return field
@@ -141,6 +152,7 @@ def _field(key: str, title: str, unit: str = "") -> Field:
         title=title,
         unit=unit,
         active=False,
+        date=False,
         names=None,
         of=None,
         notes=None,
@@ -160,6 +172,34 @@ def _as_numbers(values: Sequence[str | None]) -> list[float | None] | None:
         return None
     numbers = [float(value) if value else None for value in values]
     return None if any(number is not None and math.isinf(number) for number in numbers) else numbers
+
+
+def _as_days(values: Sequence[str | None]) -> list[float | None] | None:
+    """The days of a column of ISO dates, counted from the first of 1970; None if one of its values is no date."""
+    days: list[float | None] = []
+    for value in values:
+        found = _DATE.fullmatch(value) if value else None
+        try:
+            day = (
+                date(*(int(part or 1) for part in found.groups())).toordinal() - _FIRST_DAY if found else None
+            )
+        except ValueError:
+            return None
+        if value and day is None:
+            return None
+        days.append(day)
+    return days
+
+
+def _date_edges(days: Sequence[float]) -> list[float] | None:
+    """The beginnings of months or of years that cut a range of days into at most ``MOST_INTERVALS`` intervals."""
+    low, high = (date.fromordinal(int(day) + _FIRST_DAY) for day in (min(days), max(days)))
+    first, last = 12 * low.year + low.month - 1, 12 * high.year + high.month - 1
+    for step in _MONTHS:
+        edges = range(first - first % step, last + step + 1, step)
+        if len(edges) <= MOST_INTERVALS and edges[0] >= 12 and edges[-1] < 12 * 9999:
+            return [float(date(month // 12, month % 12 + 1, 1).toordinal() - _FIRST_DAY) for month in edges]
+    return None
 
 
 def _rounded(numbers: Sequence[float | None]) -> list[float | None]:

@@ -16,10 +16,21 @@ from shapeviz_report.pages.base import (
     rounded,
 )
 from shapeviz_report.pages.chunks import Details, Marks, Method, ShapeList, SubsetChoice
+from shapeviz_report.pages.fields import describe_fields
+from shapeviz_report.render import ramp_codes
 from shapeviz_report.types import Projection, Quality, Report, WithoutCopies, copies_of
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
+
+#: Values of a column that colours tell apart on a map; shapes of any other share one.
+MOST_CATEGORIES = 12
+
+#: Colours of the ramp of numbers, between which others are mixed.
+RAMP_STEPS = 16
+
+#: Of these, the darkest, which would not be seen on a dark ground.
+DARKEST = 4
 
 
 class OverviewPage:
@@ -46,6 +57,7 @@ class OverviewPage:
                     for highest in quality.range.highest_of_class.values()
                 ),
                 "subsets": _subsets(report),
+                "colors": _colors(report, methods, len(classes)),
             },
             chunks={
                 "overview": {
@@ -115,6 +127,23 @@ def _method(
     }
 
 
+def _colors(
+    report: Report, methods: list[Method], class_count: int
+) -> list[tuple[str, list[tuple[str, str]]]]:
+    """What else than the active labels a map can be coloured by: keys and titles, in groups with a title."""
+    fields = [field for field in describe_fields(report) if not field["active"]]
+    of_meshes = [field for field in fields if field["key"].startswith("fact:")]
+    given = [field for field in fields if field not in of_meshes]
+    hits = [(f"nh:{method['key']}", f"on the {method['title']} map") for method in methods]
+    groups = [
+        ("Known of the shapes", [(field["key"], field["title"]) for field in given]),
+        ("Measured of the meshes", [(field["key"], field["title"]) for field in of_meshes]),
+        ("Fit (NH)", hits if class_count > 1 else []),
+        ("Features", [("bin:", "A bin …")]),
+    ]
+    return [(title, choices) for title, choices in groups if choices]
+
+
 def _subsets(report: Report) -> SubsetChoice | None:
     """Whose maps the page can show beside those of all features or of chosen bins; None if there was no search, or of a
     sample only."""
@@ -139,7 +168,9 @@ def _marks(class_count: int) -> Marks:
     """Colours and symbols, for what the page draws beside the charts; and the charts' configuration by theme."""
     return {
         "symbols": [charts.SYMBOLS[index] for index in charts.class_symbol_indices(class_count)],
+        "categories": [charts.SYMBOLS[index] for index in charts.class_symbol_indices(MOST_CATEGORIES)],
         "plain": charts.SYMBOLS[0],
+        "missing": charts.SYMBOLS[-1],
         "themes": {
             theme.name: {
                 "config": charts.theme_config(theme, class_count),
@@ -149,6 +180,8 @@ def _marks(class_count: int) -> Marks:
                 "outline": theme.outline,
                 "ground": theme.ground,
                 "ink": theme.ink,
+                "ramp": ramp_codes(RAMP_STEPS + DARKEST)[DARKEST if theme is charts.DARK else 0 :],
+                "categories": [theme.classes[index] for index in charts.class_color_indices(MOST_CATEGORIES)],
             }
             for theme in charts.THEMES
         },

@@ -44,7 +44,7 @@ declare namespace Chunk {
     thumbnail: Record<string, any>;
     bars: Record<string, any>;
   }
-  /** Colours of marks in a theme; `config` is that of charts. */
+  /** Colours of marks in a theme; `config` is that of charts, `ramp` of numbers, in even steps from low to high. */
   interface ThemeMarks {
     config: Record<string, any>;
     classes: string[];
@@ -53,11 +53,15 @@ declare namespace Chunk {
     outline: string;
     ground: string;
     ink: string;
+    ramp: string[];
+    categories: string[];
   }
-  /** The symbol of every class, as a path, and the colours of each theme. */
+  /** Symbols as paths, and the colours of each theme. */
   interface Marks {
     symbols: string[];
+    categories: string[];
     plain: string;
+    missing: string;
     themes: Record<"light" | "dark", ThemeMarks>;
   }
   /** What every page knows of the database. */
@@ -113,6 +117,7 @@ declare namespace Chunk {
     title: string;
     unit: string;
     active: boolean;
+    date: boolean;
     names: string[] | null;
     of: number[] | null;
     notes: string[] | null;

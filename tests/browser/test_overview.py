@@ -211,6 +211,53 @@ class TestFirstLook:
         assert "nearest neighbours" in asked(page)
 
 
+class TestColors:
+    def test_any_column_colors_the_map_and_stands_in_legend_card_table_and_address(self, open_page):
+        page = open_page("museum")
+        page.locator("#views label", has_text="Colour by").click()
+        page.select_option("#color-by", "column:place")
+        lines = page.locator("#color-legend li")
+        eventually(page, lambda: lines.locator(".name").all_inner_texts() == ["Delft", "Kyoto", "Münster"])
+        assert "by=column%3Aplace" in page.evaluate("location.hash")
+        names = set(
+            page.eval_on_selector_all(f"{LARGE} .labels text", "nodes => nodes.map(n => n.textContent)")
+        )
+        assert names <= {"Delft", "Kyoto", "Münster"}
+        point(page, "ArrowRight")
+        assert "place: " in page.locator("#card").inner_text()
+        page.click("#open-tables")
+        table = page.locator("#tables table").last
+        assert "place" in table.locator("thead").inner_text()
+        assert "Kyoto" in table.inner_text()
+        page.keyboard.press("Escape")
+        lines.locator("button").nth(1).click()
+        assert selected(page) == 48
+        page.check("#pictures")
+        page.wait_for_selector(f"{LARGE} .pictured")
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert lines.count() == 3
+        assert page.locator(f"{LARGE} .pictured").count() > 20
+
+    def test_numbers_have_a_ramp_and_what_lacks_one_a_line(self, open_page):
+        page = open_page("museum", "index.html#view=color&by=column:year")
+        assert page.locator(".ramp-texts span").all_inner_texts() == ["1403", "1616", "1829"]
+        assert page.locator("#color-legend li").inner_text().split() == ["no", "value", "24"]
+
+    def test_a_bin_is_found_by_its_name(self, open_page):
+        page = open_page("workbench", "index.html#view=color&by=bin:gone")
+        page.fill("#color-search", "Sc[2]:4")
+        page.wait_for_selector("#color-found li[data-place]")
+        page.keyboard.press("Enter")
+        eventually(page, lambda: page.locator("#color-legend h2").all_inner_texts() == ["Sc[2]:4"])
+        assert "%" in page.locator(".ramp-texts").inner_text()
+        eventually(page, lambda: "by=bin:Sc[2]:4" in address(page))
+
+    def test_a_field_that_is_not_there_is_no_error(self, open_page):
+        page = open_page("no labels", "index.html#view=color&by=column:gone")
+        assert page.locator("#color-legend").is_visible()
+
+
 class TestPointing:
     def test_hover_shows_picture_name_class_and_neighbours(self, open_page):
         page = open_page("plain")

@@ -136,6 +136,7 @@ const PAGES = {
     [
       "",
       "view=three&exact=",
+      "view=color&by=column%3Aplace&pictures=",
       "map=pca&view=hit&hide=ant&hide=cup+%26+plate&hide-unlabelled=",
       "select=ant%2F1&select=lost&open=bee%2F1&find=two+words&at=0.5%2C-12.25%2C3",
     ],
@@ -214,7 +215,7 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
     const prefixed = ["range.faces", "is.kind", "is.folders", "hide", "a", "select", "selected"];
     const keys = new Set([...address.rows.flatMap(({ key }) => key ?? []), ...prefixed]);
     // Any text is valid there.
-    for (const key of ["find", "bin", "parts", "closed", "down", "sample", "exact"]) keys.delete(key);
+    for (const key of ["find", "bin", "parts", "closed", "down", "sample", "exact", "by", "pictures"]) keys.delete(key);
     if (page === "shape") for (const key of ["features", "bins", "within"]) keys.delete(key);
     for (const key of keys)
       for (const word of NONSENSE) assert.equal(writtenAgain([[key, word]]), usual, `${key}=${word}`);

@@ -15,6 +15,8 @@ import { brushed } from "./selected.js";
  * What the Overview has in its state, beside what maps have.
  * @typedef {object} OverviewValues
  * @property {string} view what the map shows, or `three` for the three linked maps beside each other
+ * @property {string} by key of the field, or `bin:` and the name of the bin, that `color` shows
+ * @property {boolean} pictures whether it shows pictures, on grounds of these colours
  * @property {boolean} exact whether pictures stand at their exact places, where they may cover each other
  * @property {string} query of the search
  * @property {Camera | null} camera the part in view; all where it is null
@@ -22,13 +24,15 @@ import { brushed } from "./selected.js";
  * @typedef {State<OverviewValues & MapValues & Shared>} OverviewState
  */
 
-export const VIEWS = ["thumbnail", "class", "hit", "three"];
+export const VIEWS = ["thumbnail", "class", "hit", "color", "three"];
 
 /** @param {Database} database */
 export function overviewAddress(database) {
   return new Address([
     { names: ["method", "features"], ...mapOfFeatures(database), place: true, words: "the map" },
     { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true, words: "what the marks show" },
+    { name: "by", key: "by", kind: text, standard: "", place: true, words: "what colours say" },
+    { name: "pictures", key: "pictures", kind: flag, standard: false, place: true },
     { name: "exact", key: "exact", kind: flag, standard: false, place: true },
     { name: "hidden", ...hiddenClasses(database), place: true, words: "which classes are hidden" },
     brushed(database),

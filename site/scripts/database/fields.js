@@ -26,6 +26,9 @@ import { highestOf } from "./hit-range.js";
 
 const HIT_EDGES = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1];
 
+/** Milliseconds. */
+const DAY = 86_400_000;
+
 /** What stands for "no value" among the numbers of values. */
 export const NONE = -1;
 
@@ -77,7 +80,17 @@ export class Fields {
 const first = ({ active, tree }) => active || tree !== null;
 
 /** @type {Omit<Field, "key" | "title">} */
-const NOTHING = { unit: "", active: false, names: null, of: null, notes: null, numbers: null, edges: null, tree: null };
+const NOTHING = {
+  unit: "",
+  active: false,
+  date: false,
+  names: null,
+  of: null,
+  notes: null,
+  numbers: null,
+  edges: null,
+  tree: null,
+};
 
 /**
  * @param {Database} database
@@ -130,10 +143,11 @@ export function groupOf({ active, groups }, value) {
 /**
  * A number with as many digits as tell shapes apart.
  * @param {number | null | undefined} number
- * @param {{ hit?: boolean }} [field]
+ * @param {{ hit?: boolean, date?: boolean }} [field]
  */
-export function numberText(number, { hit = false } = {}) {
+export function numberText(number, { hit = false, date = false } = {}) {
   if (number === null || number === undefined) return "–";
+  if (date) return new Date(number * DAY).toISOString().replace(/T.*/, "");
   if (hit) return number.toFixed(3);
   const size = Math.abs(number);
   if (size !== 0 && (size >= 1e7 || size < 1e-3))

@@ -7,6 +7,7 @@ import { highestOf, ofAtMost } from "../database/hit-range.js";
 /** @import { State } from "../base/state.js" */
 /** @import { Database, Method, ShapeMap } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
+/** @import { Coloring } from "./coloring.js" */
 /** @import { MapView } from "./map.js" */
 /** @import { MapValues } from "./scene.js" */
 
@@ -22,7 +23,7 @@ export class Card {
     /** @type {ShapeMap | null} */
     this.map = null;
     state.listen((changed) => {
-      if (changed.has("theme")) this.shown = null;
+      if (changed.has("theme") || changed.has("by") || changed.has("view")) this.shown = null;
       const camera = state.get("pointedFrom")?.scene.cameraName;
       if (["pointed", camera, "method", "theme"].some((name) => name !== undefined && changed.has(name))) this.#show();
     });
@@ -36,7 +37,7 @@ export class Card {
     this.node.hidden = index === null || !view?.scene.visible(index);
     if (index === null || !view || this.node.hidden) return;
     const map = view.database.methods[view.scene.target];
-    if (this.shown !== index || this.map !== map) this.#fill(index, view.database, map);
+    if (this.shown !== index || this.map !== map) this.#fill(index, view.database, map, view.chosenColoring);
     this.#place(index, view);
   }
 
@@ -44,8 +45,9 @@ export class Card {
    * @param {number} index
    * @param {Database} database
    * @param {Method} map
+   * @param {Coloring | null} coloring what else the map tells
    */
-  #fill(index, database, map) {
+  #fill(index, database, map, coloring) {
     [this.shown, this.map] = [index, map];
     const group = database.groups[index];
     const neighbours =
@@ -57,6 +59,8 @@ export class Card {
         {},
         element("p", { class: "name", dir: "auto" }, shortened(database.names[index], 48)),
         database.labelled && classLine(database, group),
+        coloring &&
+          element("p", {}, `${coloring.title}: `, element("b", { dir: "auto" }, shortened(coloring.textOf(index), 60))),
         map.hit[index] !== null &&
           element("p", {}, "NH ", element("b", {}, figure(map.hit[index])), ofAtMost(highestOf(database, map, index))),
         neighbours.length > 0 &&

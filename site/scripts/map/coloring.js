@@ -1,9 +1,12 @@
 // What the colour of a mark says: a class, how well a shape keeps to its class, or anything else that is known of shapes.
 
 import { figure } from "../base/words.js";
+import { NONE, numberText, valueName } from "../database/fields.js";
 import { highestOf, ofAtMost, reachOf } from "../database/hit-range.js";
 
+/** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Field } from "../database/fields.js" */
 
 /**
  * @typedef {{ symbol: string, color: string }} Look of a mark
@@ -14,7 +17,12 @@ import { highestOf, ofAtMost, reachOf } from "../database/hit-range.js";
  * @property {(index: number) => number | null} kindOf
  * @property {(kind: number | null) => Look} look
  * @property {(index: number) => string} textOf what is known of a shape, in words
+ * @property {Legend} [legend] what the colours are, where no other list on the page says it
  * @property {Naming} [naming] groups that stand together on a map, where these are not the classes
+ *
+ * Shapes of one look have a line of their own; numbers have their ramp, with texts at equal distances.
+ * @typedef {{ name: string, look: Look, shapes: number[] }} Line
+ * @typedef {{ lines: Line[], ramp: { colors: string[], texts: string[] } | null }} Legend
  *
  * Groups with a name, of which -1 has none.
  * @typedef {object} Naming
@@ -64,6 +72,141 @@ export function hitColoring(database, map) {
     }),
     textOf: (index) => `${figure(map.hit[index])}${ofAtMost(highestOf(database, map, index))}`,
   };
+}
+
+/**
+ * What a field of the database says: few values by a colour each, numbers and dates by a ramp.
+ * @param {Database} database
+ * @param {Field} field
+ * @returns {Coloring}
+ */
+export function fieldColoring(database, field) {
+  if (field.numbers === null) return choiceColoring(database, field);
+  const unit = field.unit === "" ? "" : ` ${field.unit}`;
+  return numberColoring(database, field.title, field.numbers, (number) => `${numberText(number, field)}${unit}`);
+}
+
+/**
+ * How much of a shape falls into a bin, or its value.
+ * @param {Database} database
+ * @param {Bins} bins
+ * @param {number} column
+ * @returns {Coloring}
+ */
+export function binColoring(database, bins, column) {
+  const values = database.ids.map((_, row) => bins.share(column, row));
+  const percent = bins.isShare(column);
+  return numberColoring(database, bins.names[column], values, (value) =>
+    percent ? `${numberText(Number((100 * value).toPrecision(3)))} %` : numberText(value),
+  );
+}
+
+/**
+ * @param {Database} database
+ * @param {Field} field with values
+ * @returns {Coloring}
+ */
+function choiceColoring({ data, marks }, field) {
+  const of = field.of ?? [];
+  const names = field.names ?? [];
+  const sizes = names.map((_, value) => of.filter((own) => own === value).length);
+  const most = data.marks.categories.length;
+  // Those with most shapes are told apart, and stand in the order of all.
+  const told = [...names.keys()]
+    .sort((a, b) => sizes[b] - sizes[a] || a - b)
+    .slice(0, names.length > most ? most - 1 : most)
+    .sort((a, b) => a - b);
+  const placeOf = new Map(told.map((value, place) => [value, place]));
+  const other = told.length;
+  /** @type {Coloring["kindOf"]} */
+  const kindOf = (index) => (of[index] === NONE ? null : (placeOf.get(of[index]) ?? other));
+  /** @type {Coloring["look"]} */
+  const look = (kind) => {
+    if (kind === null) return missing({ data, marks });
+    if (kind === other) return { symbol: data.marks.plain, color: marks.unlabelled };
+    return { symbol: data.marks.categories[kind], color: marks.categories[kind] };
+  };
+  /** @param {number | null} kind */
+  const shapesOf = (kind) => of.flatMap((_, index) => (kindOf(index) === kind ? [index] : []));
+  /** @type {[number | null, string][]} */
+  const kinds = [
+    ...told.map((value, place) => /** @type {[number, string]} */ ([place, names[value]])),
+    [other, `other (${names.length - told.length} more)`],
+    [null, valueName(field, NONE)],
+  ];
+  const lines = kinds.map(([kind, name]) => ({ name, look: look(kind), shapes: shapesOf(kind) }));
+  return {
+    title: field.title,
+    kindOf,
+    look,
+    textOf: (index) => valueName(field, of[index]),
+    legend: { lines: lines.filter(({ shapes }) => shapes.length > 0), ramp: null },
+    naming: {
+      groupOf: (index) => placeOf.get(of[index]) ?? NONE,
+      nameOf: (place) => names[told[place]],
+      lookOf: look,
+    },
+  };
+}
+
+/** Steps of a ramp: marks of each have one stamp. */
+const STEPS = 48;
+/** The highest over the lowest from which numbers are told apart by factors and no longer by differences. */
+const WIDE = 200;
+const TEXTS = 3;
+
+/**
+ * @param {Database} database
+ * @param {string} title
+ * @param {(number | null)[]} numbers
+ * @param {(number: number) => string} textOf
+ * @returns {Coloring}
+ */
+function numberColoring(database, title, numbers, textOf) {
+  const { data, marks } = database;
+  const known = numbers.filter((number) => number !== null);
+  let [low, high] = [Infinity, -Infinity];
+  for (const number of known) [low, high] = [Math.min(low, number), Math.max(high, number)];
+  const wide = low > 0 && high / low >= WIDE;
+  /** @param {number} number */
+  const lengthOf = (number) => (wide ? Math.log(number) : number);
+  const span = lengthOf(high) - lengthOf(low) || 1;
+  /** @type {Coloring["look"]} */
+  const look = (step) =>
+    step === null ? missing({ data, marks }) : { symbol: data.marks.plain, color: between(marks.ramp, step / STEPS) };
+  const lacking = numbers.flatMap((number, index) => (number === null ? [index] : []));
+  /** @param {number} share */
+  const at = (share) => (wide ? low * (high / low) ** share : low + share * (high - low));
+  return {
+    title,
+    kindOf(index) {
+      const number = numbers[index];
+      return number === null ? null : Math.round(((lengthOf(number) - lengthOf(low)) / span) * STEPS);
+    },
+    look,
+    textOf: (index) => (numbers[index] === null ? "–" : textOf(/** @type {number} */ (numbers[index]))),
+    legend: {
+      lines: lacking.length > 0 ? [{ name: "no value", look: look(null), shapes: lacking }] : [],
+      ramp: {
+        colors: marks.ramp,
+        texts: known.length === 0 ? [] : Array.from({ length: TEXTS }, (_, text) => textOf(at(text / (TEXTS - 1)))),
+      },
+    },
+    // The colours of classes would be read as numbers.
+    naming: {
+      ...classNaming(database),
+      lookOf: (group) => ({ symbol: database.symbol(group), color: marks.ink }),
+    },
+  };
+}
+
+/**
+ * The look of a shape that nothing is known of.
+ * @param {Pick<Database, "data" | "marks">} database
+ * @returns {Look}
+ */
+function missing({ data, marks }) {
+  return { symbol: data.marks.missing, color: marks.unlabelled };
 }
 
 /**

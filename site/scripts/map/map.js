@@ -44,7 +44,7 @@ export class MapView {
     this.figure = figure;
     this.charted = charted;
     this.name = /** @type {MapName} */ (figure.dataset.view);
-    /** @type {Coloring | null} what the marks of a map that its reader colours tell */
+    /** @type {Coloring | null} what its reader colours the map by, if not by classes */
     this.chosenColoring = null;
     this.surface = figure.querySelector(".surface");
     this.node = element("div", { class: "chart", "aria-hidden": "true" });
@@ -85,7 +85,7 @@ export class MapView {
    */
   get coloring() {
     if (this.name === "hit") return hitColoring(this.database, this.database.methods[this.scene.target]);
-    if (this.name === "color" && this.chosenColoring !== null) return this.chosenColoring;
+    if (this.chosenColoring !== null) return this.chosenColoring;
     return classColoring(this.database);
   }
 

@@ -26,6 +26,7 @@ import { calm, coarse } from "../base/dom.js";
  * @property {number | null} pointed
  * @property {MapView | null} pointedFrom
  * @property {number | null} pointedGroup
+ * @property {number[] | null} [pointedShapes] those of a line of a legend
  * @property {"move" | "select" | "lasso"} drag what dragging does: with "select" it draws a box
  * @property {Join} [join] what a drawn area does to the selection, where no key says it
  */
@@ -33,6 +34,9 @@ import { calm, coarse } from "../base/dom.js";
 const DURATION = 650;
 const LARGEST_ZOOM = 40;
 const CROWD = 1500;
+
+/** What says how present a shape is. */
+const WEIGHED = ["hidden", "selection", "matches", "pointedGroup", "pointedShapes"];
 
 export const HIDDEN = 0;
 export const FAINT = 1;
@@ -85,9 +89,8 @@ export class Scene {
     this.weigh();
     state.listen((changed) => {
       if (changed.has("method")) this.#travel(state.get("method"));
-      if (["hidden", "selection", "matches", "pointedGroup"].some((name) => changed.has(name))) this.weigh();
-      if ([camera, "hidden", "selection", "matches", "pointedGroup", "exact"].some((name) => changed.has(name)))
-        this.draw();
+      if (WEIGHED.some((name) => changed.has(name))) this.weigh();
+      if ([camera, ...WEIGHED, "exact"].some((name) => changed.has(name))) this.draw();
       else if (changed.has("pointed") || changed.has("opened")) for (const view of this.views) view.drawRings();
     });
   }
@@ -178,10 +181,13 @@ export class Scene {
     const hidden = this.state.get("hidden");
     const selection = this.state.get("selection");
     const matches = this.state.get("matches");
+    const line = this.state.get("pointedShapes");
+    const pointedShapes = line && new Set(line);
     const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
     this.present = this.x.reduce((number, value) => number + Number(!Number.isNaN(value)), 0);
     this.emphasis = this.database.groups.map((group, index) => {
       if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
+      if (pointedShapes) return pointedShapes.has(index) ? CHOSEN : FAINT;
       if (pointed !== null) return group === pointed ? CHOSEN : FAINT;
       if (selection.size > 0) return selection.has(index) ? CHOSEN : FAINT;
       if (matches) return matches.has(index) ? CHOSEN : FAINT;

@@ -8,6 +8,7 @@ import { highestOf, rangeOf } from "../database/hit-range.js";
 /** @import { State } from "../base/state.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
+/** @import { Coloring } from "./coloring.js" */
 /** @import { MapValues } from "./scene.js" */
 
 const MOST_ROWS = 500;
@@ -15,8 +16,9 @@ const MOST_ROWS = 500;
 /**
  * @param {Database} database
  * @param {State<MapValues & Shared>} state
+ * @param {Coloring | null} [coloring] what else the map tells
  */
-export function mapTables(database, state) {
+export function mapTables(database, state, coloring = null) {
   const method = database.methods[state.get("method")];
   const selection = state.get("selection");
   const hidden = state.get("hidden");
@@ -37,7 +39,7 @@ export function mapTables(database, state) {
           figure(rangeOf(database, method).highestOfClass.get(group)),
         ]),
       ),
-    shapesTable(selection.size > 0 ? "Selected shapes" : "Shapes", database, method, shown),
+    shapesTable(selection.size > 0 ? "Selected shapes" : "Shapes", database, method, shown, coloring),
     shown.length > MOST_ROWS &&
       element(
         "p",
@@ -56,16 +58,18 @@ export function mapTables(database, state) {
  * @param {Database} database
  * @param {ShapeMap} method
  * @param {number[]} indices
+ * @param {Coloring | null} [coloring]
  */
-export function shapesTable(title, database, method, indices) {
+export function shapesTable(title, database, method, indices, coloring = null) {
   return table(
     title,
-    ["Shape", "Class", "NH", "NH at most", "x", "y"],
+    ["Shape", "Class", ...(coloring ? [coloring.title] : []), "NH", "NH at most", "x", "y"],
     indices
       .slice(0, MOST_ROWS)
       .map((index) => [
         database.ids[index],
         database.className(database.groups[index]),
+        ...(coloring ? [coloring.textOf(index)] : []),
         figure(method.hit[index]),
         figure(highestOf(database, method, index)),
         figure(method.x[index]),

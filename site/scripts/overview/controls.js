@@ -16,6 +16,7 @@ import { watchDragging } from "../map/dragging.js";
 export function watchControls(database, state, maps) {
   const methods = document.getElementById("methods");
   const views = document.getElementById("views");
+  const pictures = document.getElementById("pictures");
   const exact = document.getElementById("exact");
   /**
    * @param {Found} group
@@ -28,12 +29,14 @@ export function watchControls(database, state, maps) {
     check(methods, database.methods[database.methods[state.get("method")].base].key);
     check(views, state.get("view"));
     exact.checked = state.get("exact");
+    pictures.checked = state.get("pictures");
     document.body.toggleAttribute("data-zoomed", state.get("camera") !== null);
   };
   methods.addEventListener("change", (event) => {
     state.set({ method: database.methods.findIndex(({ key }) => key === event.target.value) });
   });
   views.addEventListener("change", (event) => state.set({ view: event.target.value }));
+  pictures.addEventListener("change", () => state.set({ pictures: pictures.checked }));
   exact.addEventListener("change", () => state.set({ exact: exact.checked }));
   watchDragging(state);
   for (const button of document.querySelectorAll("[data-zoom]")) {
@@ -43,7 +46,7 @@ export function watchControls(database, state, maps) {
     button.addEventListener("click", () => state.set({ view: button.dataset.view }));
   }
   state.listen((changed) => {
-    if (["method", "camera", "view", "exact"].some((name) => changed.has(name))) show();
+    if (["method", "camera", "view", "exact", "pictures"].some((name) => changed.has(name))) show();
   });
   show();
 }

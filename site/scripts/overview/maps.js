@@ -9,6 +9,7 @@ import { tellReading } from "./readings.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Colors } from "./colors.js" */
 /** @import { MapName } from "../map/map.js" */
 
 /** In the order in which they stand beside another. */
@@ -24,11 +25,13 @@ export class OverviewMaps {
   /**
    * @param {Database} database
    * @param {OverviewState} state
+   * @param {Colors} colors
    * @param {(text: string) => void} announce
    */
-  constructor(database, state, announce) {
+  constructor(database, state, colors, announce) {
     this.database = database;
     this.state = state;
+    this.colors = colors;
     this.announce = announce;
     this.scene = new Scene(database, state);
     const figures = [...document.querySelectorAll("figure.linked")];
@@ -41,7 +44,7 @@ export class OverviewMaps {
     this.#watch(this.main);
     this.#arrange();
     state.listen((changed) => {
-      if (changed.has("view")) this.#show();
+      if (["view", "by", "pictures"].some((name) => changed.has(name))) this.#show();
       if (changed.has("method")) this.#tellReadings();
     });
     wide.addEventListener("change", () => this.start());
@@ -50,7 +53,8 @@ export class OverviewMaps {
   /** What the one map shows; it keeps to pictures while the three stand in its place. */
   get #name() {
     const view = this.state.get("view");
-    return /** @type {MapName} */ (view === "three" ? "thumbnail" : view);
+    const pictures = view === "three" || (view === "color" && this.state.get("pictures"));
+    return /** @type {MapName} */ (pictures ? "thumbnail" : view);
   }
 
   /** The names of those of the paper that are shown. */
@@ -68,6 +72,11 @@ export class OverviewMaps {
     return this.scene.views[0];
   }
 
+  /** Draw the map that is seen first, and then the others. */
+  async open() {
+    await this.#show();
+  }
+
   /** Draw what is not drawn yet. */
   async start() {
     this.#arrange();
@@ -81,23 +90,26 @@ export class OverviewMaps {
   /** Draw all in the colours of the theme in use. */
   redraw() {
     for (const view of this.#linked.values()) view.started = false;
-    this.main.settle();
     this.#tellReadings();
-    this.start();
+    this.#show();
   }
 
-  #show() {
+  async #show() {
+    if (!(await this.colors.choose())) return;
     this.main.name = this.#name;
+    this.main.chosenColoring = this.colors.coloring;
     this.figure.dataset.view = this.#name;
-    this.start();
+    await this.start();
   }
 
   /** Which figures are there, and how the page is laid out for them. */
   #arrange() {
     const beside = this.#beside;
-    const three = this.state.get("view") === "three";
+    const view = this.state.get("view");
+    const three = view === "three";
     const page = document.getElementById("content");
     page.toggleAttribute("data-three", three);
+    page.toggleAttribute("data-colored", view === "color");
     page.toggleAttribute("data-beside", !three && beside.length > 0);
     this.figure.hidden = three;
     for (const [name, figure] of this.figures) figure.hidden = !beside.includes(name);

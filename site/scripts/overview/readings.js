@@ -24,13 +24,11 @@ export function tellReading(figure, database, state) {
 function reading(name, database, state) {
   const method = database.methods[state.get("method")];
   if (name === "class") return [method.note];
+  if (name === "color") return [method.note];
   if (name === "thumbnail") return [method.note, " Zoom in to see pictures of the dots."];
   if (!database.labelled) return ["Without labels there is no neighbourhood hit."];
+  const meaning = `Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${database.data.standIn ? "cluster" : "class"}`;
   const scale = element("span", { class: "ramp", role: "img", "aria-label": "from red to yellow" });
   scale.style.background = `linear-gradient(to right, ${database.marks.hit.join(", ")})`;
-  return [
-    `Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${database.data.standIn ? "cluster" : "class"}: 0 `,
-    scale,
-    " 1",
-  ];
+  return [element("span", { class: "meaning" }, `${meaning}: `), "0 ", scale, " 1"];
 }

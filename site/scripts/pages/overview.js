@@ -11,6 +11,7 @@ import { Card } from "../map/card.js";
 import { dragging, NOTHING_POINTED } from "../map/scene.js";
 import { mapTables } from "../map/tables.js";
 import { ClassList } from "../overview/classes.js";
+import { Colors } from "../overview/colors.js";
 import { trayHint, watchControls, watchKeys } from "../overview/controls.js";
 import { Detail } from "../overview/detail.js";
 import { addressedMap, FeatureChoice } from "../overview/feature-choice.js";
@@ -24,9 +25,10 @@ async function main() {
   const { state, written, announce, ready } = await openPage({
     address: overviewAddress(database),
     settle: (found) => addressedMap(database, found),
-    values: { ...NOTHING_POINTED, ...dragging(), matches: null },
+    values: { ...NOTHING_POINTED, ...dragging(), matches: null, pointedShapes: null },
   });
-  const maps = new OverviewMaps(database, state, announce);
+  const colors = new Colors(database, state);
+  const maps = new OverviewMaps(database, state, colors, announce);
   // Pictures beside the map point at their shape on it.
   /** @param {number | null} pointed */
   const point = (pointed) => state.set({ pointed, pointedFrom: maps.large });
@@ -41,7 +43,7 @@ async function main() {
     zoom: () => maps.gestures.get(maps.large)?.zoomToSelection(),
   });
   carryView(written);
-  watchTables(() => mapTables(database, state));
+  watchTables(() => mapTables(database, state, colors.coloring));
   if (database.data.subsets) new FeatureChoice(database, state);
   watchIntroduction();
   watchControls(database, state, maps);
@@ -49,7 +51,7 @@ async function main() {
 
   // What is seen first is drawn first.
   classes.render();
-  await maps.start();
+  await maps.open();
   await classes.start();
   if (state.get("query") !== "") await search.run();
   if (state.get("opened") !== null) await detail.show();

@@ -99,7 +99,10 @@ function grouping(field) {
     },
     describe: (value) => ({
       key: value < 0 ? "" : `=${edges[value]}`,
-      title: value < 0 ? `no ${field.title}` : `${numberText(edges[value])} to ${numberText(edges[value + 1])}`,
+      title:
+        value < 0
+          ? `no ${field.title}`
+          : `${numberText(edges[value], field)} to ${numberText(edges[value + 1], field)}`,
       group: null,
       note: "",
     }),

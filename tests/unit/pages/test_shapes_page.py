@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from datetime import date, timedelta
 from functools import cache
 from itertools import pairwise
 
@@ -133,6 +134,23 @@ class TestFields:
         found = field(with_columns(make_report(["a"], 4), {"size": ["1", "1", value, value]}), "column:size")
         assert found["numbers"] is None
         assert value in found["names"]
+
+    def test_a_column_of_dates_is_a_range_of_days(self) -> None:
+        dates = ["1969-12-31", "1970-01", "", *(f"{1900 + row}-03-01T12:00" for row in range(9))]
+        found = field(with_columns(make_report(["a"], 12), {"found": dates}), "column:found")
+        assert found["date"]
+        assert found["numbers"][:3] == [-1, 0, None]
+        first_days = {date(1970, 1, 1) + timedelta(days=edge) for edge in found["edges"]}
+        assert {(day.month, day.day) for day in first_days} == {(1, 1)}
+        assert len(first_days) <= MOST_INTERVALS + 1
+        assert found["edges"][0] <= min(found["numbers"][3:])
+        assert found["edges"][-1] > 0
+
+    @pytest.mark.parametrize("value", ["1970-13-01", "1970-02-30", "1970-1-1", "0000-01-01", "today"])
+    def test_what_is_no_date_makes_a_column_of_text(self, value) -> None:
+        column = {"found": ["1970-01-01", "1970-01-01", value, value]}
+        found = field(with_columns(make_report(["a"], 4), column), "column:found")
+        assert (found["numbers"], found["date"]) == (None, False)
 
     def test_a_labeling_that_repeats_a_column_stands_once(self) -> None:
         places = ["x", "y", "x", "y"]

@@ -1,0 +1,104 @@
+// What colours say on a map: few values, many, numbers, dates, and what is not known.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { between, fieldColoring } from "../../site/scripts/map/coloring.js";
+
+const marks = {
+  unlabelled: "#888888",
+  ink: "#000000",
+  classes: ["#111111"],
+  ramp: ["#000000", "#ffffff"],
+  categories: ["#a00000", "#00a000", "#0000a0"],
+};
+const database = {
+  marks,
+  data: { marks: { plain: "o", missing: "x", categories: ["1", "2", "3"] } },
+  groups: [0, 0, 0, 0, 0, 0],
+  className: () => "ant",
+  symbol: () => "o",
+};
+const field = (more) => ({
+  key: "column:a",
+  title: "a",
+  unit: "",
+  date: false,
+  names: null,
+  of: null,
+  numbers: null,
+  ...more,
+});
+const looks = (coloring, count) => Array.from({ length: count }, (_, index) => coloring.look(coloring.kindOf(index)));
+
+test("each of a few values has a look and a line", () => {
+  const coloring = fieldColoring(database, field({ names: ["p", "q"], of: [0, 1, 1, -1] }));
+  assert.deepEqual(
+    looks(coloring, 4).map(({ color }) => color),
+    ["#a00000", "#00a000", "#00a000", "#888888"],
+  );
+  assert.equal(looks(coloring, 4)[3].symbol, "x");
+  assert.deepEqual(
+    coloring.legend.lines.map(({ name, shapes }) => [name, shapes]),
+    [
+      ["p", [0]],
+      ["q", [1, 2]],
+      ["no a", [3]],
+    ],
+  );
+  assert.deepEqual([0, 3].map(coloring.naming.groupOf), [0, -1]);
+  assert.equal(coloring.naming.nameOf(1), "q");
+});
+
+test("of many values those with most shapes are named, in their order, and the others are one", () => {
+  const coloring = fieldColoring(database, field({ names: ["p", "q", "r", "s"], of: [0, 1, 1, 2, 3, 3] }));
+  assert.deepEqual(
+    coloring.legend.lines.map(({ name, shapes }) => [name, shapes]),
+    [
+      ["q", [1, 2]],
+      ["s", [4, 5]],
+      ["other (2 more)", [0, 3]],
+    ],
+  );
+  assert.equal(looks(coloring, 1)[0].color, "#888888");
+  assert.equal(looks(coloring, 1)[0].symbol, "o");
+  assert.equal(coloring.textOf(0), "p");
+});
+
+test("numbers have a ramp from the lowest to the highest, and a mark of their own where there is none", () => {
+  const coloring = fieldColoring(database, field({ numbers: [10, 20, null, 15], unit: "mm" }));
+  assert.deepEqual(
+    looks(coloring, 4).map(({ color }) => color),
+    ["rgb(0 0 0)", "rgb(255 255 255)", "#888888", "rgb(128 128 128)"],
+  );
+  assert.deepEqual(coloring.legend.ramp.texts, ["10 mm", "15 mm", "20 mm"]);
+  assert.deepEqual(
+    coloring.legend.lines.map(({ name, shapes }) => [name, shapes]),
+    [["no value", [2]]],
+  );
+  assert.equal(coloring.textOf(2), "–");
+});
+
+test("numbers over many powers of ten are told apart by factors", () => {
+  const coloring = fieldColoring(database, field({ numbers: [0.1, 10, 1000] }));
+  assert.equal(looks(coloring, 2)[1].color, "rgb(128 128 128)");
+  assert.deepEqual(coloring.legend.ramp.texts, ["0.1", "10", "1000"]);
+});
+
+test("dates are dates in the legend and in words", () => {
+  const coloring = fieldColoring(database, field({ numbers: [-719162, 0, 365], date: true }));
+  assert.equal(coloring.textOf(1), "1970-01-01");
+  assert.equal(coloring.legend.ramp.texts[0], "0001-01-01");
+  assert.equal(coloring.legend.ramp.texts[2], "1971-01-01");
+});
+
+test("one number for all shapes, or none, is no error", () => {
+  const same = fieldColoring(database, field({ numbers: [3, 3] }));
+  assert.equal(same.kindOf(0), 0);
+  const none = fieldColoring(database, field({ numbers: [null, null] }));
+  assert.deepEqual(none.legend.ramp.texts, []);
+});
+
+test("a ramp is mixed between its colours", () => {
+  assert.equal(between(["#000000", "#646464", "#ffffff"], 0.25), "rgb(50 50 50)");
+  assert.equal(between(["#000000", "#ffffff"], 7), "rgb(255 255 255)");
+});
