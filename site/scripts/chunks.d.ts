@@ -44,7 +44,7 @@ declare namespace Chunk {
     thumbnail: Record<string, any>;
     bars: Record<string, any>;
   }
-  /** Colours of marks in a theme; `config` is that of charts, `ramp` of numbers, in even steps from low to high. */
+  /** Colours of marks in a theme; `config` is that of charts, `ramp` of numbers, in even steps from the lowest. */
   interface ThemeMarks {
     config: Record<string, any>;
     classes: string[];

@@ -246,12 +246,12 @@ class TestColors:
 
     def test_a_bin_is_found_by_its_name(self, open_page):
         page = open_page("workbench", "index.html#view=color&by=bin:gone")
-        page.fill("#color-search", "Sc:4")
+        page.fill("#color-search", "Sc[1]:4")
         page.wait_for_selector("#color-found li[data-place]")
         page.keyboard.press("Enter")
-        eventually(page, lambda: page.locator("#color-legend h2").all_inner_texts() == ["Sc:4"])
+        eventually(page, lambda: page.locator("#color-legend h2").all_inner_texts() == ["Sc[1]:4"])
         assert "%" in page.locator(".ramp-texts").inner_text()
-        eventually(page, lambda: "by=bin:Sc:4" in address(page))
+        eventually(page, lambda: "by=bin:Sc[1]:4" in address(page))
 
     def test_a_field_that_is_not_there_is_no_error(self, open_page):
         page = open_page("no labels", "index.html#view=color&by=column:gone")
