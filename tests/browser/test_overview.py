@@ -457,12 +457,13 @@ class TestMoving:
 
     def test_digits_and_titles_choose_what_the_map_shows(self, open_page):
         page = open_page("plain")
-        for key, view in (("2", "class"), ("3", "hit"), ("1", "thumbnail")):
+        large = page.locator(LARGE).locator("..")
+        for key, view in (("2", "class"), ("3", "hit"), ("4", "color"), ("1", "thumbnail")):
             page.keyboard.press(key)
-            assert page.locator(LARGE).locator("..").get_attribute("data-view") == view
-        page.keyboard.press("4")
+            eventually(page, lambda view=view: large.get_attribute("data-view") == view)
+        page.keyboard.press("5")
         page.click("figure.linked[data-view=class] .promote")
-        assert page.locator(LARGE).locator("..").get_attribute("data-view") == "class"
+        eventually(page, lambda: large.get_attribute("data-view") == "class")
         assert "view=class" in address(page)
 
     def test_the_wheel_zooms_all_maps_about_the_pointer(self, open_page):
