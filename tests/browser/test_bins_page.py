@@ -268,7 +268,7 @@ def test_without_a_search_or_3d_data_every_bin_can_still_be_read(bins, name):
     assert page.locator(".bins-page > .notice").is_visible()
     assert page.locator("#path").count() == 0
     find(page, "#bin-search", "Gc:4")
-    assert page.locator("#bin-words h3").inner_text() == "Gc:4"
+    assert page.locator("#bin-words h3 b").inner_text() == "Gc:4"
     assert "--no-meshes" in page.locator("#stage .empty").inner_text()
 
 

@@ -524,9 +524,51 @@ class TestSearch:
         page.wait_for_selector("#search-select:not([hidden])")
         assert page.locator("#search-select").inner_text() == "Select 120" or selected(page) == 0
         page.fill("#search", "class002 n.")
-        page.wait_for_function("document.querySelector('#search-select').textContent === 'Select 10'")
-        page.keyboard.press("Enter")
+        eventually(page, lambda: page.locator("#search-select").inner_text() == "Select 10")
+        page.click("#search-select")
         assert selected(page) == 10
+
+    def test_it_suggests_shapes_with_pictures_and_enter_opens_and_zooms(self, open_page):
+        page = open_page("plain")
+        page.keyboard.press("/")
+        page.keyboard.type("kind c 7")
+        lines = page.locator("#search-found [role=option]")
+        # Whose name it is comes before those of whom something else has the words.
+        eventually(page, lambda: lines.first.locator("bdi").all_inner_texts() == ["kind c 7", "kind c"])
+        assert lines.first.locator("img").evaluate("image => image.complete && image.naturalWidth > 0")
+        # The first press of Escape closes the list, the next one takes back the words.
+        page.keyboard.press("Escape")
+        assert page.locator("#search-found").is_hidden()
+        assert page.locator("#search").input_value() == "kind c 7"
+        page.fill("#search", "kind c")
+        assert all(
+            name.startswith("kind c") for name in lines.locator("bdi:first-of-type").all_inner_texts()[:10]
+        )
+        page.keyboard.press("ArrowDown")
+        second = page.locator("#search-found [aria-selected=true] bdi").first.inner_text()
+        page.keyboard.press("Enter")
+        eventually(page, lambda: page.locator("#detail h2").all_inner_texts() == [second])
+        assert page.locator("#search").input_value() == ""
+        eventually(page, lambda: "at=" in page.url and "find=" not in page.url)
+
+    def test_a_letter_is_answered_before_the_map_is_marked(self, open_page):
+        page = open_page("plain")
+        page.focus("#search")
+        # What is seen after each letter, by the next frame: the list, and not yet the map.
+        told = page.evaluate(
+            """async () => {
+                const field = document.getElementById("search");
+                const told = [];
+                for (const text of ["k", "ki", "kin"]) {
+                    field.value = text;
+                    field.dispatchEvent(new Event("input"));
+                    told.push([document.querySelectorAll("#search-found [role=option]").length, location.hash]);
+                }
+                return told;
+            }"""
+        )
+        assert told == [[12, ""]] * 3
+        eventually(page, lambda: "find=kin" in page.url)
 
     def test_nothing_found_is_said(self, open_page):
         page = open_page("plain")

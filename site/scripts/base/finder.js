@@ -17,15 +17,16 @@ const MOST = 12;
 /** @template Value */
 export class Finder {
   /**
-   * @param {string} name of the elements
+   * @param {string} field id of the field
+   * @param {string} list id of the list below it
    * @param {Finding<Value>} finding
    */
-  constructor(name, { find, label, choose }) {
+  constructor(field, list, { find, label, choose }) {
     this.find = find;
     this.label = label;
     this.choose = choose;
-    this.field = document.getElementById(`${name}-search`);
-    this.list = document.getElementById(`${name}-found`);
+    this.field = document.getElementById(field);
+    this.list = document.getElementById(list);
     /** @type {Value[]} */
     this.found = [];
     this.at = 0;
@@ -107,10 +108,14 @@ export class Finder {
   #key(event) {
     const open = this.found.length > 0;
     if (event.key === "Enter") this.#choose(this.at);
-    else if (event.key === "Escape" && !this.list.hidden) this.#close();
-    else if (open && (event.key === "ArrowDown" || event.key === "ArrowUp")) {
+    else if (event.key === "Escape" && !this.list.hidden) {
+      this.#close();
+      // One press takes back one thing.
+      event.stopPropagation();
+    } else if (open && (event.key === "ArrowDown" || event.key === "ArrowUp")) {
       this.at = (this.at + (event.key === "ArrowDown" ? 1 : this.found.length - 1)) % this.found.length;
       this.#render();
+      this.list.children[this.at].scrollIntoView({ block: "nearest" });
     } else return;
     event.preventDefault();
   }

@@ -37,7 +37,7 @@ export class Look {
       const [bin, group] = this.choice.value.split(" ").map(Number);
       state.set({ bin, group: group >= 0 ? group : null });
     });
-    new Finder("bin", {
+    new Finder("bin-search", "bin-found", {
       find: (text) => bins.find(text),
       label: (column) => [hue(bins, column), element("bdi", {}, bins.names[column]), ...inWords(bins, column)],
       choose: (column) => state.set({ bin: column, group: null }),

@@ -24,9 +24,6 @@ import { findWords, searchTexts } from "../database/search.js";
 const LONGEST = 40;
 
 export class Groups {
-  /** @type {string[] | null} */
-  #texts = null;
-
   /**
    * @param {Database} database
    * @param {Chunk.Clusters | null} clusters
@@ -91,8 +88,7 @@ export class Groups {
         return place < 0 ? [] : where((index) => of[index] === place);
       }
       case "search":
-        this.#texts ??= await searchTexts(database);
-        return findWords(this.#texts, spec.text);
+        return findWords(await searchTexts(database), spec.text);
       case "shapes":
         return [...spec.shapes].sort((one, other) => one - other);
       default:

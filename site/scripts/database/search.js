@@ -1,71 +1,30 @@
-// Find shapes by name, label or metadata as one types.
+// What a search looks through, and what it finds.
 
 import { chunk } from "../base/chunks.js";
-import { count } from "../base/words.js";
+import { entry } from "../base/entry.js";
 
-/** @import { State } from "../base/state.js" */
 /** @import { Database } from "./database.js" */
 
-export class Search {
-  /**
-   * @param {Database} database
-   * @param {State} state
-   * @param {(text: string) => void} announce
-   */
-  constructor(database, state, announce) {
-    this.database = database;
-    this.state = state;
-    this.announce = announce;
-    /** @type {string[] | null} */
-    this.texts = null;
-    this.field = document.getElementById("search");
-    this.select = document.getElementById("search-select");
-    this.field.addEventListener("input", () => state.set({ query: this.field.value.trim() }));
-    this.field.addEventListener("keydown", (event) => {
-      if (event.key === "Enter") this.#selectAll();
-    });
-    this.select.addEventListener("click", () => this.#selectAll());
-    state.listen((changed) => {
-      if (changed.has("query")) this.run();
-    });
-  }
-
-  async run() {
-    const query = this.state.get("query");
-    if (this.field.value.trim() !== query) this.field.value = query;
-    if (query === "") {
-      this.select.hidden = true;
-      this.state.set({ matches: null });
-      return;
-    }
-    this.texts ??= await searchTexts(this.database);
-    if (this.state.get("query") !== query) return;
-    const found = findWords(this.texts, query);
-    this.select.hidden = false;
-    this.select.disabled = found.length === 0;
-    this.select.textContent = found.length === 0 ? "none found" : `Select ${found.length}`;
-    this.announce(`${count(found.length, "shape")} found`);
-    this.state.set({ matches: new Set(found) });
-  }
-
-  #selectAll() {
-    const matches = this.state.get("matches");
-    if (!matches?.size) return;
-    this.state.set({ selection: new Set(matches), query: "" });
-  }
-}
+/** @type {WeakMap<Database, Promise<string[]>>} */
+const known = new WeakMap();
 
 /**
- * One searchable text a shape: its id, name, labels and metadata.
+ * One searchable text a shape: its id, name, class, labels and metadata.
  * @param {Database} database
  */
-export async function searchTexts(database) {
+export function searchTexts(database) {
+  return entry(known, database, () => makeTexts(database));
+}
+
+/** @param {Database} database */
+async function makeTexts(database) {
   const { shapes } = await chunk("details");
   return shapes.map(({ labels, metadata }, index) =>
     plain(
       [
         database.ids[index],
         database.names[index],
+        database.groups[index] < 0 ? "" : database.className(database.groups[index]),
         ...labels.filter(Boolean),
         ...metadata.map(([, value]) => value),
       ].join("\n"),
@@ -90,7 +49,7 @@ export function findWords(texts, query) {
  * Small letters without accents: who types "munze" means "Münze".
  * @param {string} text
  */
-function plain(text) {
+export function plain(text) {
   return text
     .toLowerCase()
     .normalize("NFD")

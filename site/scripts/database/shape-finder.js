@@ -1,36 +1,54 @@
-// A field that finds shapes by name, id or class.
+// A field that suggests shapes, with their pictures, as one types what is known of them.
 
-import { element } from "../base/dom.js";
+import { element, picture, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
+import { findWords, plain, searchTexts } from "./search.js";
 
 /** @import { Database } from "./database.js" */
 
+const PICTURE = 36;
+
 /**
- * `choose` is told of the shape.
+ * `field` and `list` are the ids of the field and of the list below it; `choose` is told of the shape.
  * @param {Database} database
  * @param {(index: number) => void} choose
+ * @param {{ field: string, list: string }} [nodes]
  */
-export function findShapes(database, choose) {
-  const names = database.names.map((name) => name.toLocaleLowerCase());
-  const texts = names.map((name, index) =>
-    `${name}\n${database.ids[index]}\n${database.className(database.groups[index])}`.toLocaleLowerCase(),
+export function findShapes(database, choose, { field, list } = { field: "shape-search", list: "shape-found" }) {
+  const names = database.names.map(plain);
+  // Names, ids and classes are at hand; labels and metadata come when somebody is about to search.
+  let texts = names.map((name, index) =>
+    plain(`${name}\n${database.ids[index]}\n${database.className(database.groups[index])}`),
   );
-  return new Finder("shape", {
+  document.getElementById(field).addEventListener(
+    "focus",
+    async () => {
+      texts = await searchTexts(database);
+    },
+    { once: true },
+  );
+  return new Finder(field, list, {
     find: (text) => {
-      const whole = text.toLocaleLowerCase();
-      const words = whole.split(/\s+/);
-      const found = [...texts.keys()].filter((index) => words.every((word) => texts[index].includes(word)));
-      // Whose name is just that, or has it, comes before those whose id or class has the words somewhere.
+      const whole = plain(text);
+      // Whose name is just that, begins with it or has it comes before those of whom something else has the words.
       /** @param {number} index */
-      const rank = (index) => (names[index] === whole ? 0 : names[index].includes(whole) ? 1 : 2);
-      return found.sort((a, b) => rank(a) - rank(b) || a - b);
+      const rank = (index) => {
+        const place = names[index].indexOf(whole);
+        return names[index] === whole ? 0 : place === 0 ? 1 : place > 0 ? 2 : 3;
+      };
+      return findWords(texts, text).sort((a, b) => rank(a) - rank(b) || a - b);
     },
     label: (index) =>
       [
+        picture(database, index, PICTURE),
         element("bdi", {}, database.names[index]),
-        " ",
         database.labelled &&
-          element("span", { class: "quiet" }, element("bdi", {}, database.className(database.groups[index]))),
+          element(
+            "span",
+            { class: "quiet" },
+            swatch(database.symbol(database.groups[index]), database.color(database.groups[index])),
+            element("bdi", {}, database.className(database.groups[index])),
+          ),
       ].filter(Boolean),
     choose,
   });

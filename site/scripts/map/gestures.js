@@ -143,8 +143,16 @@ export class Gestures extends ShapeBrush {
 
   /** Zoom until the selected shapes, as far as they are shown, fill the map. */
   zoomToSelection() {
+    this.zoomTo([...this.state.get("selection")]);
+  }
+
+  /**
+   * Zoom until some shapes, as far as they are shown, fill the map.
+   * @param {number[]} shapes
+   */
+  zoomTo(shapes) {
     const { scene, view } = this;
-    const shown = [...this.state.get("selection")].filter((index) => scene.visible(index));
+    const shown = shapes.filter((index) => scene.visible(index));
     if (shown.length === 0) return;
     const [x, y] = [scene.x, scene.y].map((values) => shown.map((index) => values[index]));
     const [west, east, south, north] = [Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];

@@ -6,7 +6,6 @@ import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
 import { Database } from "../database/database.js";
-import { Search } from "../database/search.js";
 import { Card } from "../map/card.js";
 import { dragging, NOTHING_POINTED } from "../map/scene.js";
 import { mapTables } from "../map/tables.js";
@@ -17,6 +16,7 @@ import { Detail } from "../overview/detail.js";
 import { addressedMap, FeatureChoice } from "../overview/feature-choice.js";
 import { watchIntroduction } from "../overview/introduction.js";
 import { OverviewMaps } from "../overview/maps.js";
+import { Search } from "../overview/search.js";
 import { carryView } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
@@ -34,7 +34,13 @@ async function main() {
   const point = (pointed) => state.set({ pointed, pointedFrom: maps.large });
   const classes = new ClassList(database, state);
   const detail = new Detail(database, state, { point });
-  const search = new Search(database, state, announce);
+  const search = new Search(database, state, {
+    announce,
+    open(index) {
+      maps.gestures.get(maps.large)?.zoomTo([index]);
+      state.set({ opened: index });
+    },
+  });
   new Card(state);
   new Tray(database, state, {
     open: (opened) => state.set({ opened }),

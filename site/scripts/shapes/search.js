@@ -5,9 +5,6 @@ import { findWords, searchTexts } from "../database/search.js";
 /** @import { GalleryState } from "../addresses/shapes.js" */
 /** @import { Database } from "../database/database.js" */
 
-/** What the search looks through, made with the first search. */
-let texts = null;
-
 /**
  * The shapes that the words of the search find; null without words.
  * @param {Database} database
@@ -19,8 +16,7 @@ export async function search(database, state) {
     state.set({ matches: null });
     return;
   }
-  texts ??= searchTexts(database);
-  const known = await texts;
+  const known = await searchTexts(database);
   if (state.get("query") === query) state.set({ matches: new Set(findWords(known, query)) });
 }
 
