@@ -3,6 +3,7 @@
 import { chunk, chunks } from "../base/chunks.js";
 import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
+import { binName } from "../bins-kit/bin-name.js";
 import { Bins } from "../database/bins.js";
 import { Fields } from "../database/fields.js";
 import { binColoring, fieldColoring } from "../map/coloring.js";
@@ -89,9 +90,9 @@ export class Colors {
   #loadBins() {
     this.#bins ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => {
       const bins = new Bins(work, values);
-      new Finder("color", {
+      new Finder("color-search", "color-found", {
         find: (text) => bins.find(text),
-        label: (column) => [element("b", {}, bins.names[column]), ` ${bins.sentence(column)}`],
+        label: (column) => binName(bins, column),
         choose: (column) => this.state.set({ view: "color", by: `${BIN}${bins.names[column]}` }),
       });
       return bins;
