@@ -13,6 +13,7 @@ from shapeviz_report.building.stages import GENERATE
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root, discard
 from shapeviz_report.config import Config
+from shapeviz_report.demo import catalogue
 from shapeviz_report.errors import CacheError, DatabaseError
 from shapeviz_report.render import check_renderer
 from shapeviz_report.staging import write_atomically
@@ -41,10 +42,13 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
                 made[task] = outcome.value
                 advance()
     cache.tell()
+    introduction = root / "introduction.md"
+    files = {demo.shape_path(root, name, index): content for (name, index, _), content in made.items()}
+    files[root / "shapes.csv"] = catalogue.write_catalogue(config.seed).encode()
+    files[introduction] = catalogue.INTRODUCTION.encode()
     # The files that are read are written from what is kept, unless they are still the same.
     try:
-        for (name, index, _), content in made.items():
-            path = demo.shape_path(root, name, index)
+        for path, content in files.items():
             if not path.is_file() or path.is_symlink() or path.read_bytes() != content:
                 discard(path)
                 write_atomically(path, content)
@@ -53,5 +57,14 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
             f"The demo shapes cannot be written to {root}: {error.strerror} ({error.filename}). Make room there, or "
             "name another folder with --cache."
         ) from error
-    config = replace(config, title=config.title or "Demo shapes", licence=config.licence or "CC0-1.0", up="z")
+    config = replace(
+        config,
+        title=config.title or catalogue.TITLE,
+        description=config.description or catalogue.DESCRIPTION,
+        introduction=config.introduction or introduction,
+        creator=config.creator or catalogue.CREATOR,
+        citation=config.citation or catalogue.CITATION,
+        licence=config.licence or "CC0-1.0",
+        up="z",
+    )
     return build_report(root, destination, config, progress)
