@@ -18,7 +18,7 @@ from urllib.parse import urlencode
 from playwright.sync_api import Page, sync_playwright
 
 PAIRS = 10
-BINS = 12
+BINS, SHAPES = 12, 4
 """Bins of the Bins page, and shapes, of which each is looked at."""
 
 
@@ -43,13 +43,12 @@ def read_out(page: Page, site: Path) -> Iterator[str]:
     yield from _texts(page, "Outliers", "#outlier-words, .outlier .whereabouts > p, .outlier .reasons p")
     yield from _bins(page, site)
     yield from _shapes(page, site)
-    _open(page, site, "index.html")
-    yield from _texts(page, "Clusters", "#clusters .typical, .typical li, .typical")
+    _open(page, site, "about.html")
+    yield from _texts(page, "Clusters", "tr:has(th bdi) td:last-child")
 
 
 def _compared(page: Page, site: Path) -> Iterator[str]:
-    with (site / "data" / "shapes.csv").open(encoding="utf-8-sig", newline="") as file:
-        classes = sorted({row["class"] for row in csv.DictReader(file)} - {""})
+    classes = sorted({row["class"] for row in _table(site)} - {""})
     _open(page, site, "compare.html", view="classes")
     alike = page.locator("#likest li").evaluate_all(
         "(items) => items.map((item) => [...item.querySelectorAll('bdi')].map((name) => name.textContent))"
@@ -83,15 +82,18 @@ def _bins(page: Page, site: Path) -> Iterator[str]:
 
 
 def _shapes(page: Page, site: Path) -> Iterator[str]:
-    _open(page, site, "shapes.html")
-    count = page.evaluate("() => Number(document.body.dataset.count) || 168")
-    for _ in range(2):
-        _open(page, site, "shape.html")
-        page.evaluate("() => document.getElementById('by-features')?.scrollIntoView()")
-        page.wait_for_timeout(2500)
-        yield from _texts(
-            page, f"A shape of {count}", "#by-features > p, #similar-words, .similar .why, .similar p"
-        )
+    rows = _table(site)
+    for row in rows[:: max(len(rows) // SHAPES, 1)][:SHAPES]:
+        _open(page, site, "shape.html", id=row["id"])
+        page.evaluate("() => document.getElementById('by-features').scrollIntoView()")
+        page.wait_for_selector(".similar")
+        yield from _texts(page, row["name"], "#similar-words, .similar .why")
+
+
+def _table(site: Path) -> list[dict[str, str]]:
+    """The shapes of a site with what is known of them."""
+    with (site / "data" / "shapes.csv").open(encoding="utf-8-sig", newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def _open(page: Page, site: Path, file: str, **query: str) -> None:

@@ -109,6 +109,11 @@ def amount(low: float | None, high: float | None) -> str:
     return f"more than {measure(low, '%')} of" if high is None else f"{span(low, high, '%')} of"
 
 
+def say_more(own: str, other: str, reach: float, half: float) -> str:
+    """What there is more of at one end of a scale; where more than half of it is meant, what there is less of."""
+    return f"there is more {own}" if reach < half else f"there is less {other}"
+
+
 def _both(low: float, high: float) -> tuple[str, str]:
     """Both ends of a range, with as many digits as tell them apart."""
     for digits in (2, 3, 4, 6):

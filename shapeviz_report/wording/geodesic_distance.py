@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from shapeviz_report.wording.base import Said, Wording, radii, span
+from shapeviz_report.wording.base import Said, Wording, radii, say_more, span
 
 FROM = "from the other points, walking on the surface"
+MIDDLE, LIMBS = "near the middle of the shape", "far out, as on long limbs"
+HALF = 1.1
 
 
 def _say(_: int, low: float | None, high: float | None) -> Said:
@@ -15,11 +17,13 @@ def _say(_: int, low: float | None, high: float | None) -> Said:
         return Said(
             name,
             f"is on average less than {radii(high or 0)} {FROM}",
-            "there is more near the middle of the shape",
+            say_more(MIDDLE, LIMBS, high or 0, HALF),
         )
     if high is None:
         return Said(
-            name, f"is on average more than {radii(low)} {FROM}", "there is more far out, as on long limbs"
+            name,
+            f"is on average more than {radii(low)} {FROM}",
+            say_more(LIMBS, MIDDLE, 2 * HALF - low, HALF),
         )
     return Said(name, f"is on average {span(low, high)} radii {FROM}")
 

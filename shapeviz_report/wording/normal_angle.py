@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from shapeviz_report.wording.base import Said, Wording, as_slope, measure, span
+from shapeviz_report.wording.base import Said, Wording, as_slope, measure, say_more, span
 
 FROM = "from the longest direction"
+RUNS, FACES = "that runs lengthways", "that faces the two ends"
+HALF = 46.0
 
 
 def _say(_: int, low: float | None, high: float | None) -> Said:
@@ -13,11 +15,11 @@ def _say(_: int, low: float | None, high: float | None) -> Said:
         return Said(
             name,
             f"keeps within {measure(high or 0, '°')} of the longest direction",
-            "there is more that runs lengthways",
+            say_more(RUNS, FACES, high or 0, HALF),
         )
     if high is None:
         return Said(
-            name, f"turns more than {measure(low, '°')} {FROM}", "there is more that faces the two ends"
+            name, f"turns more than {measure(low, '°')} {FROM}", say_more(FACES, RUNS, 90 - low, HALF)
         )
     return Said(name, f"turns {span(low, high, '°')} {FROM}")
 

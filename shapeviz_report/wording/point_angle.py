@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from shapeviz_report.wording.base import Said, Wording, as_slope, measure, span
+from shapeviz_report.wording.base import Said, Wording, as_slope, measure, say_more, span
 
 SEEN = "from the waist, seen from the middle"
+WAIST, ENDS = "around the waist", "towards the two ends"
+HALF = 46.0
 
 
 def _say(_: int, low: float | None, high: float | None) -> Said:
@@ -13,10 +15,10 @@ def _say(_: int, low: float | None, high: float | None) -> Said:
         return Said(
             name,
             f"lies within {measure(high or 0, '°')} of the waist, seen from the middle",
-            "there is more around the waist",
+            say_more(WAIST, ENDS, high or 0, HALF),
         )
     if high is None:
-        return Said(name, f"lies more than {measure(low, '°')} {SEEN}", "there is more towards the two ends")
+        return Said(name, f"lies more than {measure(low, '°')} {SEEN}", say_more(ENDS, WAIST, 90 - low, HALF))
     return Said(name, f"lies {span(low, high, '°')} {SEEN}")
 
 

@@ -64,7 +64,7 @@ def test_words_match_the_columns():
     below, above = data["sides"][3]["below"], data["sides"][3]["above"]
     assert len(below) == len(above) == 9
     assert below[0]["clause"].startswith("is on average less than 0.1 radii from the other points")
-    assert above[8]["trend"] == "there is more far out, as on long limbs"
+    assert above[8]["trend"] == "there is less near the middle of the shape"
 
 
 def test_sentences_on_patches_that_nobody_can_picture_have_no_sides():

@@ -73,6 +73,14 @@ class TestPlain:
         assert PLAIN["Sc[12]:4"].clause == "has 5.8 to 10 % of the shape some way in front of it, outwards"
         assert PLAIN["FPFH[14]:3"].name == "16 to 27° lower: 4 to 9 %"
 
+    def test_no_trend_says_more_than_its_range(self) -> None:
+        by_name = {dimension.block.name: dimension for dimension in dimensions_of(TABLE, fixed_edges())}
+        assert by_name["Na"].say(53.0, None).trend == "there is more that faces the two ends"
+        # What turns by a few degrees faces no end.
+        assert by_name["Na"].say(12.0, None).trend == "there is less that runs lengthways"
+        assert by_name["Pa"].say(None, 53.0).trend == "there is less towards the two ends"
+        assert by_name["Agd"].say(None, 0.8).trend == "there is more near the middle of the shape"
+
     def test_vertices_are_many_and_their_verbs_are_too(self) -> None:
         said = say_bins(TABLE, fixed_edges(), by_area=False)
         clauses = {name: words.clause for name, words in zip(COLUMNS, said, strict=True) if words is not None}
