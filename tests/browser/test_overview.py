@@ -478,6 +478,16 @@ class TestMoving:
         page.keyboard.press("0")
         eventually(page, lambda: "at=" not in address(page))
 
+    def test_who_zooms_in_on_a_picture_keeps_it(self, open_page):
+        page = open_page("plain")
+        x, y = point(page, "ArrowRight")
+        page.mouse.move(x, y)
+        for _ in range(6):
+            page.mouse.wheel(0, -200)
+        eventually(page, lambda: float(address(page).rpartition(",")[2] or 0) > 8)
+        page.wait_for_timeout(300)
+        assert np.hypot(*np.subtract(middle(page), (x, y))) < picture_size(page)
+
     def test_dragging_moves_the_map_when_asked_to(self, open_page):
         page = open_page("plain")
         page.locator("#drag label", has_text="Move").click()

@@ -46,7 +46,10 @@ def test_every_page_opens_and_asks_for_nothing(open_single, single_file, name, p
 def test_it_opens_on_the_overview(open_single):
     page = open_single("plain")
     assert page.locator("nav a[aria-current=page]").inner_text() == "Overview"
-    assert page.locator(".map canvas, .map svg").count() >= 3
+    assert page.locator(".map .pictured").count() > 50
+    page.locator("#views label", has_text="All three").click()
+    for view in ("class", "hit", "thumbnail"):
+        page.wait_for_selector(f"figure.linked[data-view={view}] .chart :is(canvas, svg)")
 
 
 def test_an_address_of_a_page_that_is_not_there_leads_to_the_overview(open_single):

@@ -136,7 +136,7 @@ export class Gestures extends ShapeBrush {
   zoom(factor, place = [this.view.width / 2, this.view.height / 2]) {
     const camera = this.scene.camera();
     const zoom = Math.min(Math.max(camera.zoom * factor, 1), 40);
-    const [x, y] = this.view.toPlane(...place);
+    const [x, y] = this.view.meant(...place);
     const keep = camera.zoom / zoom;
     this.scene.look({ x: x + (camera.x - x) * keep, y: y + (camera.y - y) * keep, zoom });
   }

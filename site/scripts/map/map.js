@@ -169,6 +169,17 @@ export class MapView {
     return [camera.x + (x - this.width / 2) / scale, camera.y - (y - this.height / 2) / scale];
   }
 
+  /**
+   * The place in the plane that one of the screen stands for: that of the shape whose picture is there, which may stand
+   * beside it, and would else be pushed away by who zooms in on it.
+   * @param {number} x
+   * @param {number} y
+   */
+  meant(x, y) {
+    const index = this.at(x, y, 0);
+    return index !== null && this.pictured[index] ? [this.scene.x[index], this.scene.y[index]] : this.toPlane(x, y);
+  }
+
   get markSize() {
     const many = Math.min(Math.max(42000 / this.scene.present, 26), 150);
     return many * Math.min(Math.max(this.width / 800, 0.5), 1) * Math.min(this.scene.camera().zoom, 4) ** 0.5;
