@@ -625,6 +625,8 @@ class Chunks(TypedDict, total=False):
         The score of every scorer, class and column in 65,535 steps; uint16.
     engine : str
         The script of the worker.
+    pictures : dict of str to str
+        The content of every picture in base64, by its path; not in a site of one file, whose pictures are in it anyway.
     """
 
     overview: Overview
@@ -642,3 +644,4 @@ class Chunks(TypedDict, total=False):
     scores: bytes
     selection: Selection
     engine: str
+    pictures: dict[str, str]

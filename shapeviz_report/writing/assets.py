@@ -17,7 +17,7 @@ from shapeviz_report.writing.joiner import join, join_pages
 from shapeviz_report.writing.resources import site_folder
 
 #: The layers of the style sheet, each over those before it: a sheet of that name in ``site/styles``, or a folder.
-LAYERS = ("tokens", "base", "components", "pages")
+LAYERS = ("tokens", "base", "components", "pages", "paper")
 
 
 @cache
@@ -81,10 +81,11 @@ def pack_chunks(contents: Sequence[tuple[Page, PageContent]]) -> dict[str, tuple
                 raise ValueError(f"page {page.name!r} disagrees with an earlier page on chunk {name!r}")
             chunks[name] = value
     chunks["engine"] = join(site_folder() / "scripts" / "engine" / "worker.js")
-    return {name: _packed(value) for name, value in chunks.items()}
+    return {name: pack(value) for name, value in chunks.items()}
 
 
-def _packed(value: object) -> tuple[str, bytes]:
+def pack(value: object) -> tuple[str, bytes]:
+    """The kind of a chunk, ``json`` or ``bytes``, and its gzipped content."""
     kind, content = ("bytes", value) if isinstance(value, bytes) else ("json", json_text(value).encode())
     return kind, gzip.compress(content, compresslevel=9, mtime=0)
 

@@ -98,8 +98,27 @@ def describe_site(report: Report) -> dict[str, object]:
         "shapes": len(report.shapes),
         "classes": len(class_names(report)),
         "version": version("shapeviz-report"),
+        "source": _source(report),
         "stand_in": report.clusters is not None and report.clusters.stand_in,
     }
+
+
+def _source(report: Report) -> str:
+    """Where a figure that leaves the site is from, in one line."""
+    said = report.publication
+    # An entry in BibTeX is for programs, not for a line below a figure.
+    cited = (
+        None if said.citation is None or said.citation.startswith("@") else " ".join(said.citation.split())
+    )
+    parts = [
+        f"Source: {report.database.name}, {len(report.shapes)} shapes"
+        + (f", by {said.creator}" if said.creator else ""),
+        cited,
+        said.url,
+        said.licence and f"Licence: {said.licence.text}",
+        f"Made with shapeviz-report {version('shapeviz-report')}",
+    ]
+    return " · ".join(part for part in parts if part)
 
 
 def encode(text: str) -> bytes:

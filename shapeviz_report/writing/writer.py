@@ -23,6 +23,7 @@ from shapeviz_report.writing.assets import (
     collect_assets,
     join_scripts,
     join_styles,
+    pack,
     pack_chunks,
 )
 from shapeviz_report.writing.data import data_files
@@ -97,6 +98,7 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
         **collect_assets(report),
         "style.css": join_styles(report).encode(),
         **{f"chunk-{name}.js": chunk_script(name, *packed) for name, packed in pack_chunks(contents).items()},
+        "chunk-pictures.js": _held_pictures(report),
     }
     # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
     addresses = {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
@@ -166,6 +168,14 @@ def _pictures(report: Report) -> dict[str, bytes]:
             for picture in (painting.value, painting.inside)
         },
     }
+
+
+def _held_pictures(report: Report) -> bytes:
+    """All pictures once more, as text that a page from ``file://`` can read: it shows images, but does not know what is
+    in them, and puts them into the figures that readers take away."""
+    return chunk_script(
+        "pictures", *pack({path: base64_text(content) for path, content in _pictures(report).items()})
+    )
 
 
 def _data(report: Report) -> dict[str, bytes]:

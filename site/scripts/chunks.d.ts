@@ -438,5 +438,6 @@ declare namespace Chunk {
     scores: ArrayBuffer;
     selection: Selection;
     engine: string;
+    pictures: Record<string, string>;
   }
 }

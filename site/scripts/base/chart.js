@@ -27,7 +27,33 @@ function loadVega() {
  * @param {Record<string, any>} config
  * @param {"svg" | "canvas"} renderer
  */
-export async function drawChart(node, spec, config, renderer) {
+export function drawChart(node, spec, config, renderer) {
+  const drawn = embed(node, spec, config, renderer);
+  underWay.add(drawn);
+  drawn.finally(() => underWay.delete(drawn));
+  return drawn;
+}
+
+/** @type {Set<Promise<any>>} */
+const underWay = new Set();
+
+/** Resolved when no chart is being drawn, and what followed from that is on the page. */
+export async function chartsAtRest() {
+  const frame = () => new Promise((done) => requestAnimationFrame(done));
+  do {
+    await Promise.all(underWay);
+    // A chart that is there is then given its values.
+    for (let waited = 0; waited < 3; waited += 1) await frame();
+  } while (underWay.size > 0);
+}
+
+/**
+ * @param {HTMLElement} node
+ * @param {Record<string, any>} spec
+ * @param {Record<string, any>} config
+ * @param {"svg" | "canvas"} renderer
+ */
+async function embed(node, spec, config, renderer) {
   await loadVega();
   const { view } = await window.vegaEmbed(node, spec, {
     actions: false,

@@ -100,8 +100,9 @@ export function penOf(canvas, settings) {
   return /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d", settings));
 }
 
-/** Whether the reader asked for less movement. */
+/** Whether nothing is to move: the reader asked for that, or it is on paper. */
 export function calm() {
+  if (document.documentElement.dataset.paper !== undefined) return true;
   return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
@@ -115,12 +116,23 @@ export function coarse() {
   return window.matchMedia("(pointer: coarse)").matches;
 }
 
+/** @type {{ nodes: WeakRef<Element>[], work: () => void }[]} */
+const watched = [];
+
+/**
+ * Do what is done where elements have another size, now: a browser tells of a new size too late for a sheet of paper.
+ */
+export function remeasure() {
+  for (const { nodes, work } of watched) if (nodes.some((node) => node.deref()?.isConnected)) work();
+}
+
 /**
  * Do `work` at once, and whenever one of some elements has another size.
  * @param {Element[]} nodes
  * @param {() => void} work
  */
 export function watchSize(nodes, work) {
+  watched.push({ nodes: nodes.map((node) => new WeakRef(node)), work });
   const observer = new ResizeObserver(work);
   for (const node of nodes) observer.observe(node);
 }

@@ -1,6 +1,8 @@
 // What all pages begin and end with: a state that follows the address and the theme, and a voice.
 
 import { Address } from "./address.js";
+import { offerFigures } from "./figure-export.js";
+import { watchPaper } from "./paper.js";
 import { arriveHere, pushHash, readHash, replaceHash } from "./place.js";
 import { watchLink } from "./link.js";
 import { State } from "./state.js";
@@ -74,6 +76,8 @@ export async function openPage({ address = new Address([]), settle = (found) => 
         redraw();
         state.set({ theme: currentTheme() });
       });
+      offerFigures();
+      watchPaper();
       document.documentElement.dataset.ready = "";
     },
   };

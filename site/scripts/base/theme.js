@@ -31,9 +31,17 @@ function store(theme) {
   }
 }
 
+let changed = () => {};
+
+/** The theme in use is another: draw in its colours. */
+export function restyle() {
+  changed();
+}
+
 /** @returns {Theme} */
 export function currentTheme() {
   const chosen = /** @type {Theme | undefined} */ (document.documentElement.dataset.theme);
+  if (document.documentElement.dataset.paper !== undefined) return "light";
   return chosen ?? (system().matches ? "dark" : "light");
 }
 
@@ -69,15 +77,16 @@ export function applyStoredTheme() {
 }
 
 /**
- * Make the theme button work; `changed` is called after every change of theme, the system's included.
- * @param {() => void} changed
+ * Make the theme button work; `work` is called after every change of theme, the system's included.
+ * @param {() => void} work
  */
-export function watchTheme(changed) {
+export function watchTheme(work) {
+  changed = work;
   document.getElementById("theme").addEventListener("click", () => {
     const theme = currentTheme() === "dark" ? "light" : "dark";
     document.documentElement.dataset.theme = theme;
     store(theme);
-    changed();
+    restyle();
   });
-  system().addEventListener("change", changed);
+  system().addEventListener("change", restyle);
 }

@@ -1,6 +1,6 @@
 // Precision against recall: a line for each choice of what is compared.
 
-import { element, svg } from "../base/dom.js";
+import { element, svg, watchSize } from "../base/dom.js";
 
 /** @import { Choice } from "./ratings.js" */
 
@@ -31,7 +31,7 @@ export class Curves {
     node.replaceChildren(this.plot);
     this.plot.addEventListener("pointermove", (event) => point(event.target.dataset.key ?? null));
     this.plot.addEventListener("pointerleave", () => point(null));
-    new ResizeObserver(() => this.draw()).observe(node);
+    watchSize([node], () => this.draw());
   }
 
   /**

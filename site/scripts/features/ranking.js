@@ -81,7 +81,7 @@ export class Ranking {
       document.getElementById("feature-matrix"),
       charts.matrix,
       this.marks().config,
-      "canvas",
+      "svg",
     );
     const row = new Map(subsets.data.order.map((feature, place) => [feature, place]));
     const cells = [];
@@ -97,7 +97,7 @@ export class Ranking {
       .data("cells", cells);
     this.vegas.push(matrix);
     if (subsets.labelled) {
-      const bars = await drawChart(document.getElementById("subset-bars"), charts.bars, this.marks().config, "canvas");
+      const bars = await drawChart(document.getElementById("subset-bars"), charts.bars, this.marks().config, "svg");
       const rows = subsets.data.hit.map((hit, place) => ({ place, hit, feature: this.#hue(place) }));
       bars.signal("bar", this.marks().bar).height(BARS).data("subsets", rows);
       this.vegas.push(bars);

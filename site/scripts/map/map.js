@@ -2,8 +2,10 @@
 
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
+import { drawnAs } from "../base/snapshot.js";
 import { classColoring, classNaming, hitColoring } from "./coloring.js";
 import { Dots } from "./dots.js";
+import { mapFigure } from "./figure.js";
 import { Labels } from "./labels.js";
 import { animate, CHOSEN, crowded } from "./scene.js";
 import { spread, thinned } from "./spread.js";
@@ -55,6 +57,7 @@ export class MapView {
     this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
     this.brush = this.overlay.appendChild(svg("path", { class: "brush" }));
     this.surface.append(this.node, this.overlay);
+    drawnAs(this.surface, (picture) => mapFigure(this, picture));
     /** @type {ArrayLike<number>} 1 for a shape that is drawn as a picture */
     this.pictured = [];
     // How far each picture stands from its place, in sizes of a picture.

@@ -1,7 +1,9 @@
 // A map of shapes on one canvas: the Bins page shows dozens, each of few marks, and none needs more than a picture.
 
-import { calm } from "../base/dom.js";
+import { calm, svg, watchSize } from "../base/dom.js";
+import { drawnAs } from "../base/snapshot.js";
 import { bounds } from "../database/database.js";
+import { markAt } from "./figure.js";
 import { FADED, Marks } from "./marks.js";
 
 /** @import { Database } from "../database/database.js" */
@@ -68,9 +70,10 @@ export class Plot {
       "aria-hidden": label === null ? "true" : null,
     });
     this.node = this.#marks.node;
+    drawnAs(this.node, () => this.figure());
     /** @type {Places | null} */
     this.map = null;
-    new ResizeObserver(() => this.draw()).observe(this.node);
+    watchSize([this.node], () => this.draw());
   }
 
   /**
@@ -135,6 +138,36 @@ export class Plot {
     });
   }
 
+  /**
+   * Shapes from the lowest to the highest, with whether they are faded.
+   * @returns {Generator<{ index: number, faded: boolean }>}
+   */
+  *#stacked() {
+    const chosen = this.selection();
+    const map = /** @type {Places} */ (this.map);
+    /** @param {number} index */
+    const layer = (index) => (chosen.size > 0 && !chosen.has(index) ? 0 : this.first(index) ? 1 : 2);
+    for (const now of [0, 1, 2]) {
+      for (let index = 0; index < this.database.count; index += 1)
+        if (!Number.isNaN(map.x[index]) && layer(index) === now) yield { index, faded: now === 0 };
+    }
+  }
+
+  /** The map as a drawing of SVG; null where there is none. */
+  figure() {
+    const { width, height } = this.view;
+    if (this.map === null || width === 0) return null;
+    const below = svg("g", { opacity: FADED });
+    const above = svg("g");
+    for (const { index, faded } of this.#stacked()) {
+      const { path, color, radius, alpha } = this.mark(index);
+      const mark = markAt(path, color, this.screen(index), radius, this.database.marks.outline);
+      if (!faded) mark.setAttribute("opacity", String(alpha));
+      (faded ? below : above).append(mark);
+    }
+    return { node: svg("svg", { viewBox: `0 0 ${width} ${height}` }, below, above) };
+  }
+
   draw() {
     const { node, map, database } = this;
     const marks = this.#marks;
@@ -144,20 +177,15 @@ export class Plot {
     const scale = Math.min((width - 2 * this.margin) / extent.width, (height - 2 * this.margin) / extent.height);
     this.view = { x: extent.x, y: extent.y, scale, width, height };
     const { outline } = database.marks;
-    const chosen = this.selection();
-    /** @param {number} index */
-    const faded = (index) => chosen.size > 0 && !chosen.has(index);
     marks.begin(width, height);
-    /** @param {number} index */
-    const layer = (index) => (faded(index) ? 0 : this.first(index) ? 1 : 2);
-    for (const now of [0, 1, 2]) {
-      for (let index = 0; index < database.count; index += 1) {
-        if (Number.isNaN(map.x[index]) || layer(index) !== now) continue;
-        const { path, color, radius, alpha } = this.mark(index);
-        marks.lay(marks.stamp(path, color, radius, outline), this.screen(index), now === 0 ? 1 : alpha);
-      }
-      if (now === 0 && chosen.size > 0) marks.fade(FADED);
+    let fading = false;
+    for (const { index, faded } of this.#stacked()) {
+      if (fading && !faded) marks.fade(FADED);
+      fading = faded;
+      const { path, color, radius, alpha } = this.mark(index);
+      marks.lay(marks.stamp(path, color, radius, outline), this.screen(index), faded ? 1 : alpha);
     }
+    if (fading) marks.fade(FADED);
     marks.show();
     this.drawn(marks);
   }

@@ -1,6 +1,6 @@
 // The gallery itself: of thousands of shapes only the rows in sight, and a few around them, are in the page.
 
-import { element } from "../base/dom.js";
+import { element, watchSize } from "../base/dom.js";
 import { layOut, rowAt } from "./layout.js";
 
 /** @import { GalleryState } from "../addresses/shapes.js" */
@@ -59,7 +59,7 @@ export class Grid {
     this.active = { shape: null, head: null };
     // Caught on the way down: on a desk the frame scrolls, on a phone the page.
     document.addEventListener("scroll", () => this.#drawSoon(), { capture: true, passive: true });
-    new ResizeObserver(() => this.#resize()).observe(this.node);
+    watchSize([this.node], () => this.#resize());
   }
 
   /**
@@ -98,7 +98,8 @@ export class Grid {
   }
 
   #resize() {
-    if (this.node.clientWidth === this.width) return;
+    // On paper, and back from it, other rows are drawn.
+    if (this.node.clientWidth === this.width && this.#whole === onSheet()) return;
     this.rearrange();
   }
 
@@ -127,8 +128,12 @@ export class Grid {
     this.node.setAttribute("aria-colcount", columns);
   }
 
-  /** What of the gallery is in the window, from top to bottom. */
+  #whole = false;
+
+  /** What of the gallery is in the window, from top to bottom; all of it, on paper. */
   #window() {
+    this.#whole = onSheet();
+    if (this.#whole) return { top: 0, bottom: Infinity };
     const own = this.node.getBoundingClientRect();
     const frame = this.#framed()
       ? this.scroller.getBoundingClientRect()
@@ -402,4 +407,9 @@ export class Grid {
   get activeRow() {
     return this.#rowOfActive();
   }
+}
+
+/** Whether the page is being printed. */
+function onSheet() {
+  return document.documentElement.dataset.paper === "page";
 }

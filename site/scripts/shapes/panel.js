@@ -1,5 +1,6 @@
 // The filters on a phone: a sheet over the page, in place of the column beside the gallery.
 
+import { watchSize } from "../base/dom.js";
 import { count } from "../base/words.js";
 
 /** @import { GalleryState } from "../addresses/shapes.js" */
@@ -24,9 +25,9 @@ export class Panel {
       this.#close();
     });
     // A window that becomes wide has room for the column.
-    new ResizeObserver(() => {
+    watchSize([document.body], () => {
       if (this.shown && this.opener.offsetParent === null) this.#close();
-    }).observe(document.body);
+    });
   }
 
   get shown() {

@@ -1,5 +1,6 @@
 // The selection as a file, the same from every page; and what other exports share.
 
+import { saveFile } from "../base/saving.js";
 import { highestOf } from "../database/hit-range.js";
 
 /** @import { Database } from "../database/database.js" */
@@ -16,7 +17,7 @@ export function saveCsv(database, chosen) {
     database.groups[index] < 0 ? "" : database.className(database.groups[index]),
     ...database.data.methods.flatMap((method) => [method.hit[index] ?? "", highestOf(database, method, index) ?? ""]),
   ]);
-  saveText("selection.csv", "text/csv", csvText([header, ...rows]));
+  saveFile("selection.csv", new Blob([csvText([header, ...rows])], { type: "text/csv" }));
 }
 
 /**
@@ -31,7 +32,7 @@ export function saveJson(database, chosen) {
     nh: Object.fromEntries(database.data.methods.map(({ key, hit }) => [key, hit[index]])),
     nh_max: Object.fromEntries(database.data.methods.map((method) => [method.key, highestOf(database, method, index)])),
   }));
-  saveText("selection.json", "application/json", `${JSON.stringify({ shapes }, null, 1)}\n`);
+  saveFile("selection.json", new Blob([`${JSON.stringify({ shapes }, null, 1)}\n`], { type: "application/json" }));
 }
 
 /**
@@ -53,19 +54,4 @@ function quoted(value) {
   const plain = String(value);
   const text = typeof value === "string" && FORMULA.test(plain) && !NUMBER.test(plain) ? `'${plain}` : plain;
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-}
-
-/**
- * Hand a text to the reader as a file.
- * @param {string} name
- * @param {string} type
- * @param {string} text
- */
-export function saveText(name, type, text) {
-  const address = URL.createObjectURL(new Blob([text], { type }));
-  const link = document.createElement("a");
-  link.href = address;
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 10000);
 }

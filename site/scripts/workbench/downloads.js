@@ -4,7 +4,8 @@ import { element } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 import { highestOf, rangeOf } from "../database/hit-range.js";
-import { csvText, saveText } from "../tray/export.js";
+import { saveFile } from "../base/saving.js";
+import { csvText } from "../tray/export.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
@@ -63,7 +64,12 @@ function content(database, bins, work) {
   const save = (words, name, type, text) =>
     element(
       "button",
-      { type: "button", class: "plain strong", "data-file": name, onclick: () => saveText(name, type, text()) },
+      {
+        type: "button",
+        class: "plain strong",
+        "data-file": name,
+        onclick: () => saveFile(name, new Blob([text()], { type })),
+      },
       words,
     );
   const command = `shapeviz-report build DATABASE -o OUT --bins ${FILE}`;

@@ -1,0 +1,175 @@
+// Figures to take away: what an element with `data-figure` shows, as SVG and as PNG, with its title, and where it is from.
+//
+// There is one way for all of them: the element is drawn as it stands on the page, by day, in texts, boxes and lines that a
+// program for drawings can change. Nothing in the file leads out of it.
+
+import { chunk } from "./chunks.js";
+import { element, svg } from "./dom.js";
+import { onPaper } from "./paper.js";
+import { fileName, saveFile, xmlText } from "./saving.js";
+import { snapshot } from "./snapshot.js";
+
+/** Around a figure, and between its parts, in pixels. */
+const MARGIN = 20;
+const LINE = 18;
+/** Pixels of a PNG for one of the page, and the most on a side that browsers draw. */
+const DENSITY = 3;
+const LONGEST = 8000;
+
+/** Where the menu of a figure stands, if there is such a place in it; else in its corner. */
+const HEADS = ["figcaption", ".section-head", ".part-head", ".ranking-head", ".retrieval-head", ".class-head"]
+  .map((head) => `:scope > ${head}`)
+  .join();
+
+const FONT = { "font-family": "system-ui, sans-serif", fill: "#1c1d1f" };
+
+/** Give every figure of the page a menu; called once, when all of them are there. */
+export function offerFigures() {
+  for (const root of document.querySelectorAll("[data-figure]")) {
+    const title = root.dataset.figure ?? "";
+    /** @param {"SVG" | "PNG"} kind */
+    const way = (kind) =>
+      element(
+        "button",
+        {
+          type: "button",
+          class: "plain",
+          title: kind === "SVG" ? "A drawing of lines and texts, for papers" : "A picture, for slides and messages",
+          onclick: () => {
+            menu.open = false;
+            saveFigure(root, kind);
+          },
+        },
+        kind,
+      );
+    const menu = element(
+      "details",
+      { class: "save-figure" },
+      element("summary", { title: "Save this figure", "aria-label": `Save the figure: ${title}` }, "Save"),
+      element("div", {}, way("SVG"), way("PNG")),
+    );
+    menu.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || !menu.open) return;
+      event.stopPropagation();
+      menu.open = false;
+      menu.querySelector("summary").focus();
+    });
+    const head = root.querySelector(HEADS);
+    menu.classList.toggle("in-head", head !== null);
+    (head ?? root).append(menu);
+  }
+  document.addEventListener("pointerdown", (event) => {
+    for (const menu of document.querySelectorAll(".save-figure[open]"))
+      if (!menu.contains(event.target)) menu.removeAttribute("open");
+  });
+}
+
+/**
+ * @param {Found} root
+ * @param {"SVG" | "PNG"} kind
+ */
+async function saveFigure(root, kind) {
+  const { text, width, height } = await figureText(root);
+  const name = `${fileName(said("database"), root.dataset.figure ?? "figure")}.${kind.toLowerCase()}`;
+  const drawing = new Blob([text], { type: "image/svg+xml" });
+  saveFile(name, kind === "SVG" ? drawing : await pixels(drawing, width, height));
+}
+
+/**
+ * What a page says of itself in its head.
+ * @param {string} name
+ */
+function said(name) {
+  return document.querySelector(`meta[name="${name}"]`)?.content ?? "";
+}
+
+/** @param {Found} root */
+async function figureText(root) {
+  const pictures = await heldPictures(root);
+  const { node, width, height } = await onPaper(() => snapshot(root, pictures));
+  const title = [root.dataset.figure ?? "", said("database")].filter((word) => word !== "").join(" – ");
+  const wide = Math.max(width, 320) + 2 * MARGIN;
+  const source = wrapped(said("source"), (wide - 2 * MARGIN) / 5.6);
+  const heading = wrapped(title, (wide - 2 * MARGIN) / 8.6);
+  const top = MARGIN + heading.length * LINE + 8;
+  const high = top + height + 14 + source.length * 14 + MARGIN;
+  node.setAttribute("transform", `translate(${MARGIN} ${top})`);
+  const drawing = svg(
+    "svg",
+    { width: Math.ceil(wide), height: Math.ceil(high), viewBox: `0 0 ${Math.ceil(wide)} ${Math.ceil(high)}` },
+    svg("title", {}, title),
+    svg("desc", {}, said("source")),
+    svg("rect", { width: "100%", height: "100%", fill: "#ffffff" }),
+    heading.map((line, place) =>
+      svg(
+        "text",
+        { ...FONT, x: MARGIN, y: MARGIN + 13 + LINE * place, "font-size": "15px", "font-weight": "650" },
+        line,
+      ),
+    ),
+    node,
+    source.map((line, place) =>
+      svg(
+        "text",
+        { ...FONT, x: MARGIN, y: top + height + 24 + 14 * place, "font-size": "11px", fill: "#5f6368" },
+        line,
+      ),
+    ),
+  );
+  const text = `<?xml version="1.0" encoding="UTF-8"?>\n${xmlText(new XMLSerializer().serializeToString(drawing))}\n`;
+  return { text, width: Math.ceil(wide), height: Math.ceil(high) };
+}
+
+/**
+ * A text in lines of some letters.
+ * @param {string} text
+ * @param {number} most
+ */
+function wrapped(text, most) {
+  /** @type {string[]} */
+  const lines = [];
+  for (const word of text.split(/\s+/).filter(Boolean)) {
+    if (lines.length > 0 && `${lines.at(-1)} ${word}`.length <= most) lines.push(`${lines.pop()} ${word}`);
+    else lines.push(word);
+  }
+  return lines;
+}
+
+/**
+ * The content of the site's pictures. A page from file:// may show them but not read them, so they come in a chunk.
+ * @param {Found} root
+ * @returns {Promise<(address: string) => string | null>}
+ */
+async function heldPictures(root) {
+  const shown = root.querySelector("img:not([src^='data:']), image") !== null;
+  const pictures = shown && JSON.parse(document.body.dataset.chunks ?? "{}").pictures ? await chunk("pictures") : {};
+  return (address) => {
+    if (address.startsWith("data:")) return address;
+    const path = address.split("/").slice(-2).join("/");
+    return pictures[path] === undefined ? null : `data:image/webp;base64,${pictures[path]}`;
+  };
+}
+
+/**
+ * A drawing as a picture of many pixels.
+ * @param {Blob} drawing
+ * @param {number} width
+ * @param {number} height
+ * @returns {Promise<Blob>}
+ */
+async function pixels(drawing, width, height) {
+  const density = Math.min(DENSITY, LONGEST / Math.max(width, height));
+  const canvas = element("canvas", { width: Math.round(width * density), height: Math.round(height * density) });
+  const address = URL.createObjectURL(drawing);
+  try {
+    const image = new Image();
+    image.src = address;
+    await image.decode();
+    canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
+  } finally {
+    URL.revokeObjectURL(address);
+  }
+  return new Promise((done, failed) =>
+    canvas.toBlob((blob) => (blob ? done(blob) : failed(new Error("the browser made no picture of the figure")))),
+  );
+}

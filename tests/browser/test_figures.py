@@ -1,0 +1,195 @@
+"""Figures that readers take away: whole, self-contained, well-formed, and by day."""
+
+import re
+import xml.etree.ElementTree as ET
+
+import pytest
+from PIL import Image
+
+SVG = "{http://www.w3.org/2000/svg}"
+
+#: The pages with figures, and how many of these there are at first.
+PAGES = {
+    "index.html": 1,
+    "compare.html": 3,
+    "shape.html#id=class000%2F0001": 2,
+    "features.html": 4,
+    "bins.html": 3,
+    "workbench.html": 2,
+}
+
+
+def save(page, root, kind, folder):
+    """The file of a figure, as its menu saves it."""
+    root.locator(".save-figure summary").first.click()
+    with page.expect_download() as download:
+        root.locator(f".save-figure button:has-text('{kind}')").first.click()
+    path = folder / download.value.suggested_filename
+    download.value.save_as(path)
+    return path
+
+
+def figures(page):
+    page.wait_for_selector("[data-figure] .save-figure:visible")
+    return [root for root in page.locator("[data-figure]").all() if root.is_visible()]
+
+
+def words(tree) -> str:
+    return " ".join("".join(text.itertext()) for text in tree.iter(f"{SVG}text"))
+
+
+def check(path, root):
+    """A reader of SVG without the site can show it, and finds nothing that leads out of it."""
+    source = path.read_text(encoding="utf-8")
+    tree = ET.fromstring(source)
+    assert tree.tag == f"{SVG}svg"
+    assert tree.find(f"{SVG}title").text.startswith(root.get_attribute("data-figure"))
+    assert "Source: " in words(tree)
+    assert not re.search(
+        r"<(script|foreignObject|style)\b|url\((?!#|&quot;#|\"#)|href=\"(?!data:image/|#)", source
+    )
+    assert "var(--" not in source
+    return tree
+
+
+@pytest.mark.parametrize("file", PAGES)
+def test_every_figure_of_a_page_of_nasty_names_is_well_formed_and_holds_all_it_shows(
+    open_page, tmp_path, file
+):
+    page = open_page("everything", file)
+    found = figures(page)
+    assert len(found) >= PAGES[file]
+    for root in found:
+        path = save(page, root, "SVG", tmp_path)
+        assert path.name.startswith("everything-at-once-")
+        check(path, root)
+
+
+def test_a_map_is_drawn_in_shapes_names_and_pictures_with_a_legend_and_its_source(open_page, tmp_path):
+    page = open_page("published", "index.html", color_scheme="dark")
+    (root, *_) = figures(page)
+    tree = check(save(page, root, "SVG", tmp_path), root)
+    assert len(list(tree.iter(f"{SVG}image"))) > 6
+    text = words(tree)
+    # In the legend, and on the map.
+    for name in ("ant", "bird", "cup"):
+        assert text.count(name) >= 2
+    assert "Vessels" in text
+    assert "Licence" in text
+    # By day, though the page is dark, which it is again.
+    names = [node for node in tree.iter(f"{SVG}text") if "".join(node.itertext()) == "ant"]
+    assert names[0].get("fill") == "rgb(28, 29, 31)"
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(27, 30, 34)"
+    page.click("#views >> text=Classes")
+    page.wait_for_function("document.querySelector('figure[data-slot=large]').dataset.view === 'class'")
+    page.wait_for_selector("figure[data-slot=large] .labels > g")
+    marks = check(save(page, root, "SVG", tmp_path), root)
+    assert not list(marks.iter(f"{SVG}image"))
+    assert len(list(marks.iter(f"{SVG}path"))) >= 18
+
+
+def test_a_picture_has_three_pixels_for_one_of_the_page(open_page, tmp_path):
+    page = open_page("published", "index.html")
+    (root, *_) = figures(page)
+    with Image.open(save(page, root, "PNG", tmp_path)) as picture:
+        assert picture.width >= 3 * root.bounding_box()["width"]
+        pixels = picture.convert("RGB")
+        assert pixels.getpixel((5, 5)) == (255, 255, 255)
+        assert len(pixels.getcolors(maxcolors=1 << 24)) > 100
+
+
+def test_a_site_of_one_file_has_the_same_figures(open_page, single_file, tmp_path):
+    page = open_page("", address=single_file("published").as_uri())
+    (root, *_) = figures(page)
+    tree = check(save(page, root, "SVG", tmp_path), root)
+    assert len(list(tree.iter(f"{SVG}image"))) > 6
+
+
+def test_the_menu_works_from_the_keyboard(open_page):
+    page = open_page("published", "index.html")
+    page.focus(".save-figure summary")
+    page.keyboard.press("Enter")
+    page.wait_for_selector(".save-figure[open]")
+    page.keyboard.press("Escape")
+    assert page.locator(".save-figure[open]").count() == 0
+    page.keyboard.press("Enter")
+    page.keyboard.press("Tab")
+    with page.expect_download() as download:
+        page.keyboard.press("Enter")
+    assert download.value.suggested_filename == "vessels-map-of-all-shapes.svg"
+
+
+def printed(page) -> str:
+    """The page as it is while it is on paper; then it is on the screen again."""
+    page.emulate_media(media="print")
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    state = page.evaluate(
+        """() => ({
+            theme: getComputedStyle(document.documentElement).colorScheme,
+            width: document.querySelector("main").offsetWidth,
+            scroll: document.documentElement.scrollWidth,
+            text: document.body.innerText,
+            pressed: [...document.querySelectorAll("main :is(button.plain, select, input, .choice)")]
+                .filter((node) => node.checkVisibility()).length,
+        })"""
+    )
+    page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    page.emulate_media(media="screen")
+    assert state["theme"] == "light"
+    assert state["pressed"] == 0
+    assert state["scroll"] <= max(state["width"] + 1, page.viewport_size["width"])
+    assert page.evaluate("document.documentElement.dataset.paper") is None
+    return state["text"]
+
+
+@pytest.mark.parametrize("file", PAGES)
+def test_a_page_on_paper_is_light_and_has_nothing_to_press(open_page, file):
+    page = open_page("everything", file, color_scheme="dark")
+    before = page.evaluate("document.querySelector('main').getBoundingClientRect().width")
+    assert "Everything at once" in printed(page)
+    assert page.evaluate("document.querySelector('main').getBoundingClientRect().width") == before
+
+
+def test_the_whole_gallery_is_on_paper(open_page, site):
+    page = open_page("plain", "shapes.html")
+    on_screen = page.locator("#grid .cell").count()
+    assert on_screen < 120
+    text = printed(page)
+    for group in "abcdefghijkl":
+        for number in range(10):
+            assert f"kind {group} {number}" in text
+    page.evaluate("new Promise((done) => setTimeout(done, 100))")
+    assert page.locator("#grid .cell").count() == on_screen
+    # As the browser itself prints it, over several sheets.
+    assert page.pdf(prefer_css_page_size=True).count(b"/Type /Page\n") >= 3
+
+
+def test_a_map_on_paper_has_its_names_where_its_marks_are(open_page):
+    page = open_page("plain", "index.html#view=class")
+    page.wait_for_selector("figure[data-slot=large] .labels > g")
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    apart = page.evaluate(
+        """() => {
+            const drawing = document.querySelector("figure[data-slot=large] .on-paper");
+            const middle = (node) => {
+                const { left, top, width, height } = node.getBoundingClientRect();
+                return [left + width / 2, top + height / 2];
+            };
+            const marks = [...drawing.querySelectorAll(":scope > g path")].map((node) => [node, middle(node)]);
+            const nearest = (name) => {
+                const { left, right, top, bottom } = name.getBoundingClientRect();
+                const away = ([x, y]) => Math.hypot(Math.max(left - x, x - right, 0), Math.max(top - y, y - bottom, 0));
+                return marks.toSorted((a, b) => away(a[1]) - away(b[1]))[0][0];
+            };
+            const names = [...drawing.querySelectorAll("g g")].filter((node) => node.querySelector("text"));
+            return names
+                .filter((node) => node.children.length === 2 && node.children[0].localName === "path")
+                .map((node) => [node.children[0], nearest(node)].map((mark) => getComputedStyle(mark).fill));
+        }"""
+    )
+    assert len(apart) >= 8
+    # A name stands by a mark of its class.
+    colours = [(name, mark) for name, mark in apart]
+    assert sum(name == mark for name, mark in colours) >= len(colours) - 1
+    page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    assert page.locator(".on-paper").count() == 0
