@@ -62,6 +62,7 @@ export class Finder {
     this.at = 0;
     this.more = all.length - this.found.length;
     this.#render();
+    this.list.scrollIntoView({ block: "nearest" });
   }
 
   #render() {

@@ -2,6 +2,7 @@
 
 import { sampled } from "../database/sample.js";
 import { startEngine } from "../engine/client.js";
+import { mean } from "./distribution.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
@@ -21,6 +22,9 @@ const SEED = 0;
 
 /** A standardised difference of this size is told apart by the eye; larger ones are no clearer. */
 const NO_SPREAD = 50;
+
+/** Of the surface, a part by which both groups must differ from the others for anybody to see it. */
+const SEEN = 0.01;
 
 /** Means so many standard deviations apart tell 98 of 100 pairs of shapes apart: larger differences say no more. */
 export const ENOUGH = 3;
@@ -181,7 +185,8 @@ export class Contrast {
           Math.abs(both.effect[column]) > both.limit * (1 + 1e-9) &&
           own[column] * others[column] > 0 &&
           !this.isBeyond(column) &&
-          clear(column) > 0,
+          clear(column) > 0 &&
+          this.#isSeen(column),
       )
       .sort(
         (one, other) =>
@@ -189,6 +194,19 @@ export class Contrast {
           clear(other) - clear(one) ||
           one - other,
       );
+  }
+
+  /**
+   * Whether both groups have so much more of a bin than the other shapes, or less, that it shows.
+   * @param {number} column
+   */
+  #isSeen(column) {
+    const { bins, sample } = this;
+    if (!bins.isShare(column)) return true;
+    const [a, b, rest] = [sample.a, sample.b, sample.rest].map((rows) =>
+      mean(rows.map((row) => bins.share(column, row))),
+    );
+    return Math.min(Math.abs(a - rest), Math.abs(b - rest)) >= SEEN;
   }
 
   /**
