@@ -56,6 +56,12 @@ def changes(page, selector, act) -> None:
 class TestFirstLook:
     def test_bars_matrix_map_and_boxes_are_drawn(self, open_page):
         page = open_page("searched", "features.html")
+        # What fewer ask is folded, and drawn when it is opened.
+        assert page.locator("#seed-dots").is_hidden()
+        assert page.locator("#seed-dots svg").count() == 0
+        page.click("summary >> text=How sure is it?")
+        page.wait_for_selector("#boxes svg")
+        page.wait_for_selector("#seed-dots svg")
         for selector in (
             "#subset-bars canvas",
             "#feature-matrix canvas",
@@ -71,6 +77,8 @@ class TestFirstLook:
         best = subsets_of(site("searched"))[0]
         assert value(page) == f"{best['nh_s']:.3f}"
         assert reading(page).endswith(" ".join(best["features"]))
+        for summary in page.locator("summary").all():
+            summary.click()
         text = page.locator("main").inner_text()
         for words in ("nearest neighbours", "on average when it joins", "had no say", "dealt out at random"):
             assert words in text

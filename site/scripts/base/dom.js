@@ -136,3 +136,10 @@ export function watchSize(nodes, work) {
   const observer = new ResizeObserver(work);
   for (const node of nodes) observer.observe(node);
 }
+
+/** Let the browser draw, and hear its reader, between two pieces of work. */
+export function pause() {
+  return new Promise((resolve) => {
+    setTimeout(resolve);
+  });
+}

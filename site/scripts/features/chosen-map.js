@@ -63,7 +63,7 @@ export class ChosenMap {
     const scene = new Scene(database, state);
     const figure = document.querySelector("figure.map");
     figure.dataset.view = state.get("color");
-    this.view = new MapView(scene, figure);
+    this.view = new MapView(scene, figure, { charted: false });
     scene.views = [this.view];
     watchDragging(state);
     this.gestures = new Gestures(this.view, {
@@ -76,6 +76,12 @@ export class ChosenMap {
     state.listen((changed) => changed.has("chosen") && this.#follow());
     await this.start();
     watchSize([this.view.surface], () => this.view.resize());
+  }
+
+  /** Give the marks to a chart, once the page is drawn. */
+  async chart() {
+    this.view.charted = true;
+    await this.start();
   }
 
   /** Draw with the colours of the theme in use. */

@@ -51,21 +51,31 @@ class DotChart {
     this.rows = rows;
     this.count = count;
     this.marks = marks;
+    /** @type {any} Vega's view, once it is drawn */
+    this.vega = null;
+    this.node?.closest("details")?.addEventListener("toggle", () => this.resize());
   }
 
   async start() {
     this.vega?.finalize();
+    this.vega = null;
+    // What is folded is drawn when it is opened.
+    if (this.node.closest("details:not([open])")) return;
     const { config, ink, bar, accent, ground } = this.marks();
     this.vega = await drawChart(this.node, this.spec, config, "svg");
     const values = { ink, bar, accent, ground };
     const known = new Set(this.spec.params.map((/** @type {{ name: string }} */ { name }) => name));
     for (const [name, value] of Object.entries(values)) if (known.has(name)) this.vega.signal(name, value);
     this.vega.data(this.name, this.rows);
-    await this.resize();
+    await this.#fit();
   }
 
   async resize() {
-    if (!this.vega) return;
+    if (this.vega) await this.#fit();
+    else await this.start();
+  }
+
+  async #fit() {
     const width = this.node.clientWidth;
     if (this.spec.params.some((/** @type {{ name: string }} */ { name }) => name === "label_limit"))
       this.vega.signal("label_limit", width * 0.42);

@@ -3,7 +3,7 @@
 import { featuresAddress } from "../addresses/features.js";
 import { subsetAddress } from "../addresses/overview.js";
 import { chunk } from "../base/chunks.js";
-import { watchSize } from "../base/dom.js";
+import { pause, watchSize } from "../base/dom.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
@@ -37,7 +37,9 @@ async function main() {
   });
   watchTables(() => subsetTables(database, subsets, state, retrieval));
   paintHues(marks());
+  await pause();
   await ranking.start();
+  await pause();
 
   // The map comes with the largest chunk of the page, so it waits for what is above it.
   const map = new ChosenMap(database, subsets, state, announce);
@@ -45,16 +47,21 @@ async function main() {
   carryView(written);
   await map.open();
   const charts = subsets.labelled ? [new Boxes(database, subsets, state, marks), ...dotCharts(subsets, marks)] : [];
-  for (const chart of charts) await chart.start();
-  watchSize([ranking.scroll, ...charts.map(({ node }) => node)], () => {
-    for (const chart of [ranking, ...charts]) chart.resize();
-  });
   ready({
     redraw() {
       paintHues(marks());
       for (const chart of [ranking, map, ...charts]) chart.start();
     },
   });
+  for (const chart of charts) {
+    await pause();
+    await chart.start();
+  }
+  watchSize([ranking.scroll, ...charts.map(({ node }) => node)], () => {
+    for (const chart of [ranking, ...charts]) chart.resize();
+  });
+  await pause();
+  await map.chart();
 }
 
 /** A site without a search: nothing can be chosen. */

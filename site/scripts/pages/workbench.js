@@ -2,6 +2,7 @@
 
 import { workAddress } from "../addresses/workbench.js";
 import { chunk } from "../base/chunks.js";
+import { pause } from "../base/dom.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
@@ -35,6 +36,7 @@ async function main() {
   const answers = new Answers(database, data, bins);
   const maps = new WorkMaps(overview, database, state, announce);
   const desk = new Desk(database, data, bins, state, answers, maps.scenes, announce);
+  await pause();
   new Card(state);
   // A picture in the tray marks its shape on both maps.
   new Tray(database, state, { open: (shape) => maps.toggle(shape), zoom: () => maps.zoomToSelection() });
@@ -47,6 +49,7 @@ async function main() {
     });
   const marks = () => data.marks[currentTheme()];
   new FeatureList(bins, state, marks, (features) => desk.use({ features }));
+  await pause();
   const strip = new HistoryStrip(database, state, desk);
   const section = new BinSection(database, data, bins, state, answers, desk, announce);
   watchControls(database, data, state, desk);
@@ -55,10 +58,13 @@ async function main() {
   watchDownloads(database, bins, () => desk.work());
   new Guide(database, data, bins, state, desk);
 
+  await pause();
   desk.ask();
   for (const panel of panels) panel.render();
   strip.render();
+  await pause();
   await maps.start();
+  await pause();
   section.start();
   ready({
     arrive: (found, first) => desk.arrive(/** @type {any} */ (found), first),
@@ -68,6 +74,7 @@ async function main() {
     },
   });
   answers.warm();
+  await maps.chart();
 }
 
 main();

@@ -46,7 +46,7 @@ export class HistoryStrip {
     this.undo.disabled = !history.canUndo;
     this.redo.disabled = !history.canRedo;
     const current = this.list.children[history.at].firstElementChild;
-    this.#reveal(current);
+    if (history.steps.length > 1) this.#reveal(current);
     if (kept !== undefined)
       (this.list.querySelector(`[data-step="${kept}"]`) ?? current).focus({ preventScroll: true });
   }

@@ -1,6 +1,6 @@
 // The two maps: of all bins of the features in use, and of the chosen bins. Each is made while one looks.
 
-import { watchSize } from "../base/dom.js";
+import { pause, watchSize } from "../base/dom.js";
 import { currentTheme } from "../base/theme.js";
 import { Database } from "../database/database.js";
 import { Gestures } from "../map/gestures.js";
@@ -30,7 +30,8 @@ export class WorkMaps {
     /** @type {Record<Which, LiveScene>} */
     this.scenes = { original: scenes[0], refined: scenes[1] };
     this.views = scenes.map((scene, place) => {
-      const view = new MapView(scene, document.querySelector(`figure[data-map="${WHICH[place]}"]`));
+      const figure = document.querySelector(`figure[data-map="${WHICH[place]}"]`);
+      const view = new MapView(scene, figure, { charted: false });
       view.name = state.get("color");
       scene.views = [view];
       return view;
@@ -64,6 +65,15 @@ export class WorkMaps {
         for (const view of this.views) view.resize();
       },
     );
+  }
+
+  /** Give the marks to charts, once the page is drawn: these need the largest script of all. */
+  async chart() {
+    for (const view of this.views) {
+      await pause();
+      view.charted = true;
+      await view.start();
+    }
   }
 
   /** Draw with the colours of the theme in use. */
