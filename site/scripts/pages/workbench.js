@@ -64,7 +64,6 @@ async function main() {
   strip.render();
   await pause();
   await maps.start();
-  await pause();
   section.start();
   ready({
     arrive: (found, first) => desk.arrive(/** @type {any} */ (found), first),
