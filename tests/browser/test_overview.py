@@ -251,6 +251,7 @@ class TestColors:
         page.keyboard.press("Enter")
         eventually(page, lambda: page.locator("#color-legend h2").all_inner_texts() == ["Sc[1]:4"])
         assert "%" in page.locator(".ramp-texts").inner_text()
+        assert "share of the surface" in page.locator("#color-legend .note").inner_text()
         eventually(page, lambda: "by=bin:Sc[1]:4" in address(page))
 
     def test_a_field_that_is_not_there_is_no_error(self, open_page):

@@ -17,6 +17,7 @@ import { highestOf, ofAtMost, reachOf } from "../database/hit-range.js";
  * @property {(index: number) => number | null} kindOf
  * @property {(kind: number | null) => Look} look
  * @property {(index: number) => string} textOf what is known of a shape, in words
+ * @property {string} [note] a sentence on what that is
  * @property {Legend} [legend] what the colours are, where no other list on the page says it
  * @property {Naming} [naming] groups that stand together on a map, where these are not the classes
  *
@@ -96,9 +97,9 @@ export function fieldColoring(database, field) {
 export function binColoring(database, bins, column) {
   const values = database.ids.map((_, row) => bins.share(column, row));
   const percent = bins.isShare(column);
-  return numberColoring(database, bins.names[column], values, (value) =>
-    percent ? `${numberText(Number((100 * value).toPrecision(3)))} %` : numberText(value),
-  );
+  /** @param {number} value */
+  const textOf = (value) => (percent ? `${numberText(Number((100 * value).toPrecision(3)))} %` : numberText(value));
+  return { ...numberColoring(database, bins.names[column], values, textOf), note: bins.sentence(column) };
 }
 
 /**

@@ -109,6 +109,7 @@ export class Colors {
     }
     legend.replaceChildren(
       element("h2", { dir: "auto" }, coloring.title),
+      coloring.note ? element("p", { class: "note" }, coloring.note) : "",
       ...rampOf(coloring.legend),
       element(
         "ul",
