@@ -504,3 +504,24 @@ class TestTheView:
         eventually(page, lambda: page.locator("#copied").is_visible())
         assert page.inner_text("#copied") == "Link copied. It holds the map and which classes are hidden."
         assert page.evaluate("copied") == page.url
+
+
+def test_on_a_phone_the_menu_is_one_row_and_the_tray_a_sheet(open_page):
+    page = open_page(
+        "workbench", "workbench.html#select=class001/0002", viewport={"width": 390, "height": 844}
+    )
+    places = page.locator("nav[aria-label=Pages] a").evaluate_all(
+        "links => links.map((link) => link.getBoundingClientRect().top)"
+    )
+    assert len(set(places)) == 1
+    # The page that is open is in sight.
+    open_one = page.locator("nav [aria-current=page]").bounding_box()
+    assert 0 <= open_one["x"] <= 390 - open_one["width"]
+    tray = page.locator("#tray").bounding_box()
+    assert (tray["x"], tray["width"]) == (0, 390)
+    assert tray["y"] + tray["height"] == pytest.approx(844, abs=1)
+    heights = page.locator("#tray .tray-ways > *, .tools .plain:visible, .tools .choice span").evaluate_all(
+        "nodes => nodes.map((node) => node.getBoundingClientRect().height).filter(Boolean)"
+    )
+    assert min(heights) >= 40
+    assert page.evaluate("document.documentElement.scrollWidth") == 390
