@@ -365,3 +365,18 @@ def test_the_worker_runs_in_a_site_in_one_file(visit, heard_file):
     window.until("() => !document.querySelector('#bin-add').disabled")
     window.click("#bin-add")
     window.until("() => document.querySelector('figure[data-map=refined] .value')?.innerText > 0")
+
+
+def test_a_figure_is_saved_as_a_drawing_and_as_a_picture(visit):
+    window = visit("plain", "index.html")
+    window.evaluate(
+        """() => {
+            const make = URL.createObjectURL.bind(URL);
+            window.kept = [];
+            URL.createObjectURL = (blob) => (window.kept.push(blob), make(blob));
+            for (const button of document.querySelector(".save-figure").querySelectorAll("button")) button.click();
+        }"""
+    )
+    window.until(
+        """() => ["image/svg+xml", "image/png"].every((kind) => window.kept.some(({ type }) => type === kind))"""
+    )
