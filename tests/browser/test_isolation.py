@@ -6,12 +6,11 @@ import pytest
 
 
 def use(page):
-    """Everything that loads something: the maps, the details, a theme, another projection, the pictures."""
-    page.keyboard.press("3")
+    """Everything that loads something: Vega's maps, the details, a theme, another projection, the pictures."""
+    page.keyboard.press("5")
     page.locator("#methods label").last.click()
     page.fill("#search", "kind a")
-    page.wait_for_selector("#search-select:not([hidden])")
-    page.keyboard.press("Enter")
+    page.click("#search-select")
     page.locator("#tray .shape").first.click()
     page.wait_for_selector("#detail:not([hidden])")
     page.click("#theme")
