@@ -63,8 +63,8 @@ class TestFirstLook:
         page.wait_for_selector("#boxes svg")
         page.wait_for_selector("#seed-dots svg")
         for selector in (
-            "#subset-bars canvas",
-            "#feature-matrix canvas",
+            "#subset-bars svg",
+            "#feature-matrix svg",
             MAP,
             "#boxes svg",
             "#seed-dots svg",
@@ -263,9 +263,9 @@ class TestTables:
 class TestTheme:
     def test_all_is_drawn_anew(self, open_page):
         page = open_page("searched", "features.html", color_scheme="light")
-        before = drawn(page, "#feature-matrix canvas")
+        before = drawn(page, "#feature-matrix svg")
         page.click("#theme")
-        eventually(page, lambda: (drawn(page, "#feature-matrix canvas") != before).any())
+        eventually(page, lambda: (drawn(page, "#feature-matrix svg") != before).any())
         eventually(page, lambda: drawn(page, MAP)[5, 5].mean() < 60)
 
 

@@ -14,9 +14,9 @@ const loader = {
 /** @type {Promise<any> | null} */
 let vega = null;
 
-/** Vega is most of what a page loads: a page that names it, and does not begin with a chart, loads it with the first. */
+/** Vega is most of what a page loads: it comes with the first chart, when what the page says can be read. */
 function loadVega() {
-  vega ??= window.vegaEmbed ? Promise.resolve() : addScript(document.getElementById("content").dataset.vega ?? "");
+  vega ??= addScript(document.getElementById("content").dataset.vega ?? "");
   return vega;
 }
 
