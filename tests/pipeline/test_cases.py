@@ -17,7 +17,7 @@ CASES: dict[str, tuple[Mapping[str, str | None], list[str], list[str]]] = {
     # the files, None for a mesh; names and classes of the shapes in their order
     "numbers": (
         {f"{label}/chair_{number}.obj": None for label in ("10", "2", "1") for number in (10, 2)},
-        [f"{label}/chair_{number}" for label in (1, 2, 10) for number in (2, 10)],
+        [f"{label} chair_{number}" for label in (1, 2, 10) for number in (2, 10)],
         ["1", "1", "2", "2", "10", "10"],
     ),
     "shapenet": (
@@ -26,7 +26,7 @@ CASES: dict[str, tuple[Mapping[str, str | None], list[str], list[str]]] = {
             **{f"{folder}/{MODEL}.obj": None for folder in ("02/2", "02/10", "03/2", "03/1b")},
             **{f"03/1b/{MODEL}{end}": "x" for end in (".solid.binvox", ".surface.binvox", ".mtl", ".json")},
         },
-        ["02/2", "10", "1b", "03/2"],
+        ["02 2", "02 10", "1b", "03 2"],
         ["02", "02", "03", "03"],
     ),
     "filename": (
@@ -35,7 +35,7 @@ CASES: dict[str, tuple[Mapping[str, str | None], list[str], list[str]]] = {
             "m/10.obj": None,
             "m/2.obj": None,
         },
-        ["2", "10"],
+        ["ant 2", "cup 10"],
         ["ant", "cup"],
     ),
     "nan": (
