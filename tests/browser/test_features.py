@@ -273,6 +273,8 @@ class TestOverview:
     def test_a_subset_opens_there(self, open_page, site):
         page = open_page("searched", "features.html#features=Gc PFH")
         page.click("#open-overview")
+        page.wait_for_url("**/index.html*")
+        page.wait_for_selector("html[data-ready]", state="attached")
         page.click("#how-good summary")
         page.wait_for_selector("#bars svg")
         subset = next(s for s in subsets_of(site("searched")) if s["features"] == ["Gc", "PFH"])
@@ -411,6 +413,8 @@ class TestStates:
         assert reading(page) == before
         if page.locator("#open-overview").count():
             page.click("#open-overview")
+            page.wait_for_url("**/index.html*")
+            page.wait_for_selector("html[data-ready]", state="attached")
             page.click("#how-good summary")
         page.wait_for_selector("#bars svg")
 

@@ -127,13 +127,22 @@ export function remeasure() {
 }
 
 /**
- * Do `work` at once, and whenever one of some elements has another size.
+ * Do `work` when elements are first laid out, and whenever one of them has another size: with the next frame, for what it
+ * lays out may change a watched size again, and a browser complains of that where it happens within one.
  * @param {Element[]} nodes
  * @param {() => void} work
  */
 export function watchSize(nodes, work) {
   watched.push({ nodes: nodes.map((node) => new WeakRef(node)), work });
-  const observer = new ResizeObserver(work);
+  let asked = false;
+  const observer = new ResizeObserver(() => {
+    if (asked) return;
+    asked = true;
+    requestAnimationFrame(() => {
+      asked = false;
+      work();
+    });
+  });
   for (const node of nodes) observer.observe(node);
 }
 
