@@ -57,7 +57,9 @@ def test_every_figure_of_a_page_of_nasty_names_is_well_formed_and_holds_all_it_s
     open_page, tmp_path, file
 ):
     page = open_page("everything", file)
-    page.evaluate("for (const folded of document.querySelectorAll('details:not(.save-figure)')) folded.open = true")
+    page.evaluate(
+        "for (const folded of document.querySelectorAll('details:not(.save-figure)')) folded.open = true"
+    )
     found = figures(page)
     assert len(found) >= PAGES[file]
     for root in found:
