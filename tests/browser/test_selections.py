@@ -493,7 +493,7 @@ class TestTheView:
         bins = parse_qs(urlsplit(page.url).fragment)["bins"]
         go(page, "About")
         go(page, "Overview")
-        eventually(page, lambda: page.locator("input[type=search]").first.input_value() == "0003")
+        eventually(page, lambda: page.input_value("#search") == "0003")
         held("map=umap", "hide=kind b", "select=class000/0001")
         go(page, "Workbench")
         eventually(page, lambda: parse_qs(urlsplit(page.url).fragment).get("bins") == bins)
