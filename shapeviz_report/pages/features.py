@@ -21,6 +21,7 @@ from shapeviz_report.pages.base import (
     rounded,
 )
 from shapeviz_report.pages.chunks import Box, Chunks, Search, SubsetMaps
+from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
 from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, HitRange, Report, SeedSpread
@@ -52,7 +53,7 @@ class FeaturesPage:
         search = report.search
         if search is not None:
             ranking = Ranking.of(search)
-            context["search"] = _context(report, search, ranking)
+            context |= {"search": _context(report, search, ranking), "colors": color_choices(report)}
             chunks |= {"search": _scores(report, search, ranking), "subsets": _maps(search, ranking)}
         return PageContent(context, chunks)
 

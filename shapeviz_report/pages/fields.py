@@ -11,6 +11,7 @@ from itertools import pairwise
 from typing import Any
 
 from shapeviz_report.order import natural
+from shapeviz_report.pages.base import METHODS, class_names
 from shapeviz_report.pages.chunks import Field
 from shapeviz_report.types import Clusters, Report, ShapeFacts
 
@@ -254,3 +255,18 @@ def _factors(low: float, high: float) -> list[float]:
         if below and above and len(inner) < MOST_INTERVALS:
             return [below[-1], *inner, above[0]]
     return []
+
+
+def color_choices(report: Report) -> list[tuple[str, list[tuple[str, str]]]]:
+    """What else than the active labels a map can be coloured by: keys and titles, in groups with a title."""
+    fields = [field for field in describe_fields(report) if not field["active"]]
+    of_meshes = [field for field in fields if field["key"].startswith("fact:")]
+    given = [field for field in fields if field not in of_meshes]
+    hits = [(f"nh:{method}", f"on the {METHODS[method].title} map") for method in report.projections]
+    groups = [
+        ("Known of the shapes", [(field["key"], field["title"]) for field in given]),
+        ("Measured of the meshes", [(field["key"], field["title"]) for field in of_meshes]),
+        ("Fit (NH)", hits if len(class_names(report)) > 1 else []),
+        ("Features", [("bin:", "A bin …")]),
+    ]
+    return [(title, choices) for title, choices in groups if choices]

@@ -16,7 +16,7 @@ from shapeviz_report.pages.base import (
     rounded,
 )
 from shapeviz_report.pages.chunks import Details, Marks, Method, ShapeList, SubsetChoice
-from shapeviz_report.pages.fields import describe_fields
+from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.render import ramp_codes
 from shapeviz_report.types import Projection, Quality, Report, WithoutCopies, copies_of
 
@@ -57,7 +57,7 @@ class OverviewPage:
                     for highest in quality.range.highest_of_class.values()
                 ),
                 "subsets": _subsets(report),
-                "colors": _colors(report, methods, len(classes)),
+                "colors": color_choices(report),
             },
             chunks={
                 "overview": {
@@ -125,23 +125,6 @@ def _method(
         "chance": quality.null_mean,
         "chanceSpread": quality.null_std,
     }
-
-
-def _colors(
-    report: Report, methods: list[Method], class_count: int
-) -> list[tuple[str, list[tuple[str, str]]]]:
-    """What else than the active labels a map can be coloured by: keys and titles, in groups with a title."""
-    fields = [field for field in describe_fields(report) if not field["active"]]
-    of_meshes = [field for field in fields if field["key"].startswith("fact:")]
-    given = [field for field in fields if field not in of_meshes]
-    hits = [(f"nh:{method['key']}", f"on the {method['title']} map") for method in methods]
-    groups = [
-        ("Known of the shapes", [(field["key"], field["title"]) for field in given]),
-        ("Measured of the meshes", [(field["key"], field["title"]) for field in of_meshes]),
-        ("Fit (NH)", hits if class_count > 1 else []),
-        ("Features", [("bin:", "A bin …")]),
-    ]
-    return [(title, choices) for title, choices in groups if choices]
 
 
 def _subsets(report: Report) -> SubsetChoice | None:

@@ -18,6 +18,7 @@ from shapeviz_report.pages.chunks import (
     Scorer,
     Workbench,
 )
+from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
 from shapeviz_report.wording import WORDINGS, explain_bins, say_bins
@@ -49,6 +50,7 @@ class WorkbenchPage:
         return PageContent(
             context={
                 "classes": len(classes),
+                "colors": color_choices(report),
                 "bins": len(report.features.columns),
                 "scored": report.scores is not None,
             },

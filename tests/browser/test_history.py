@@ -57,6 +57,24 @@ def test_on_the_overview(open_page) -> None:
     assert page.locator("figure[data-slot=large]").get_attribute("data-view") == "hit"
 
 
+def test_to_the_view_that_was_left(open_page) -> None:
+    page = open_page("plain")
+    page.locator("#search").fill("kind c 3")
+    page.wait_for_selector("#search-found li[data-place]")
+    page.keyboard.press("Enter")
+    page.wait_for_selector("#detail:not([hidden])")
+    page.go_back()
+    page.wait_for_selector("#detail", state="hidden")
+    assert "index.html" in page.url
+    # Zoomed, and gone on from there before that is written.
+    page.click("[data-zoom=in]")
+    choose(page, "#methods", "UMAP")
+    eventually(page, lambda: "map=umap" in page.url and "at=" not in page.url)
+    page.go_back()
+    eventually(page, lambda: checked(page, "#methods") == "t-SNE" and "at=" in page.url)
+    assert page.evaluate("document.body.hasAttribute('data-zoomed')")
+
+
 def test_in_the_gallery(open_page) -> None:
     page = open_page("museum", "shapes.html")
     page.select_option("#group", label="place")

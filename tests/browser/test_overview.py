@@ -218,11 +218,12 @@ class TestColors:
         page.select_option("#color-by", "column:place")
         lines = page.locator("#color-legend li")
         eventually(page, lambda: lines.locator(".name").all_inner_texts() == ["Delft", "Kyoto", "Münster"])
-        assert "by=column%3Aplace" in page.evaluate("location.hash")
-        names = set(
-            page.eval_on_selector_all(f"{LARGE} .labels text", "nodes => nodes.map(n => n.textContent)")
-        )
-        assert names <= {"Delft", "Kyoto", "Münster"}
+        assert "color=column%3Aplace" in page.evaluate("location.hash")
+        # They are strewn over the map: no place on it is that of one.
+        assert page.locator(f"{LARGE} .labels text").count() == 0
+        strips = page.locator("#legend .makeup")
+        assert strips.count() == 6
+        assert page.locator("#legend .swatch").count() == 0
         point(page, "ArrowRight")
         assert "place: " in page.locator("#card").inner_text()
         page.click("#open-tables")
@@ -240,23 +241,56 @@ class TestColors:
         assert page.locator(f"{LARGE} .pictured").count() > 20
 
     def test_numbers_have_a_ramp_and_what_lacks_one_a_line(self, open_page):
-        page = open_page("museum", "index.html#view=color&by=column:year")
+        page = open_page("museum", "index.html#color=column:year")
         assert page.locator(".ramp-texts span").all_inner_texts() == ["1403", "1616", "1829"]
         assert page.locator("#color-legend li").inner_text().split() == ["no", "value", "24"]
 
     def test_a_bin_is_found_by_its_name(self, open_page):
-        page = open_page("workbench", "index.html#view=color&by=bin:gone")
-        page.fill("#color-search", "Sc[1]:4")
+        page = open_page("workbench")
+        page.locator("#views label", has_text="Colour by").click()
+        page.select_option("#color-by", "bin:")
+        # One is shown at once, and its name is written over by who types.
+        eventually(page, lambda: page.evaluate("document.activeElement.id") == "color-search")
+        assert page.input_value("#color-search") == page.locator("#color-legend h2").inner_text()
+        page.keyboard.type("Sc[1]:4")
         page.wait_for_selector("#color-found li[data-place]")
         page.keyboard.press("Enter")
         eventually(page, lambda: page.locator("#color-legend h2").all_inner_texts() == ["Sc[1]:4"])
         assert "%" in page.locator(".ramp-texts").inner_text()
         assert "share of the surface" in page.locator("#color-legend .note").inner_text()
-        eventually(page, lambda: "by=bin:Sc[1]:4" in address(page))
+        eventually(page, lambda: "color=bin:Sc[1]:4" in address(page))
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert page.input_value("#color-search") == "Sc[1]:4"
 
     def test_a_field_that_is_not_there_is_no_error(self, open_page):
-        page = open_page("no labels", "index.html#view=color&by=column:gone")
-        assert page.locator("#color-legend").is_visible()
+        page = open_page("no labels", "index.html#color=column:gone")
+        for color in ("column:gone", "bin:gone", "bin:", "hit", "x" * 5000):
+            page.evaluate("(color) => { location.hash = `color=${color}`; }", color)
+            drawn_again(page)
+            assert page.locator("#views input:checked").get_attribute("value") == "thumbnail"
+
+    def test_colors_go_along_to_the_other_maps_by_the_menu(self, open_page):
+        page = open_page("searched", "index.html#color=fact:faces")
+        ramp = page.locator(".ramp-texts").inner_text()
+        for title, maps in (("Workbench", 2), ("Features", 1)):
+            page.locator(".masthead nav a", has_text=title).click()
+            page.wait_for_selector("html[data-ready]", state="attached")
+            assert page.locator(".ramp-texts").inner_text() == ramp
+            assert page.locator("#color-by").input_value() == "fact:faces"
+            assert page.locator("#colors input:checked").get_attribute("value") == "color"
+            assert page.locator("figure.map[data-view=color]").count() == maps
+        page.select_option("#color-by", "bin:")
+        page.wait_for_selector("#color-legend .note")
+        bin_ = page.input_value("#color-search")
+        page.go_back()
+        eventually(page, lambda: page.locator("#color-by").input_value() == "fact:faces")
+        page.go_forward()
+        eventually(page, lambda: page.input_value("#color-search") == bin_)
+        page.locator("#colors label", has_text="Fit").click()
+        page.wait_for_selector("#color-legend", state="hidden")
+        page.locator(".masthead nav a", has_text="Overview").click()
+        page.wait_for_selector("figure[data-slot=large][data-view=hit]")
 
 
 class TestPointing:
@@ -465,7 +499,7 @@ class TestMoving:
         page.keyboard.press("5")
         page.click("figure.linked[data-view=class] .promote")
         eventually(page, lambda: large.get_attribute("data-view") == "class")
-        assert "view=class" in address(page)
+        assert "color=class" in address(page)
 
     def test_the_wheel_zooms_all_maps_about_the_pointer(self, open_page):
         page = open_page("plain", "index.html#view=class", viewport={"width": 1920, "height": 1080})

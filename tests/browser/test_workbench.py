@@ -207,6 +207,16 @@ def test_what_the_build_found_is_offered_with_what_it_does(bench, reports):
     told = page.inner_text("figure[data-map=refined] .empty")
     assert f"→ {search.automatic.nh_s:.3f}; on shapes that the search never saw, 0." in told
     assert page.inner_text("#first-offer") == f"Take these {len(search.automatic.bins)} bins"
+    # What is promised is what these bins reach, by a link too.
+    page.evaluate("(bins) => { location.hash = `bins=${bins}`; }", " ".join(search.automatic.bins))
+    eventually(page, lambda: nh(page, "refined") is not None)
+    answered(page)
+    assert nh(page, "refined") == float(f"{search.automatic.nh_s:.3f}")
+    page.click("#bin-clear")
+    # By another projection nothing was searched.
+    page.locator("#projections label", has_text="UMAP").click()
+    answered(page)
+    assert "on a t-SNE map" in page.inner_text("figure[data-map=refined] .empty")
     # Of other classes the build knows nothing.
     page.locator("#class-table .use").first.click()
     answered(page)

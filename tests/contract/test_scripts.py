@@ -17,7 +17,7 @@ from shapeviz_report.writing.resources import site_folder
 LAYERS = (
     ("pages", "opening"),
     ("overview", "shapes", "shape", "compare", "features", "workbench", "bins", "about"),
-    ("tray",),
+    ("tray", "colors"),
     ("addresses",),
     ("map", "bins-kit"),
     ("database",),

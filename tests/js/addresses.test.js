@@ -136,12 +136,15 @@ const PAGES = {
     [
       "",
       "view=three&exact=",
-      "view=color&by=column%3Aplace&pictures=",
-      "map=pca&view=hit&hide=ant&hide=cup+%26+plate&hide-unlabelled=",
-      "select=ant%2F1&select=lost&open=bee%2F1&find=two+words&at=0.5%2C-12.25%2C3",
+      "color=column%3Aplace&pictures=",
+      "map=pca&color=hit&hide=ant&hide=cup+%26+plate&hide-unlabelled=",
+      "select=ant%2F1&select=lost&open=bee%2F1&find=two+words&at=0.5%2C-0.25%2C3",
     ],
   ],
-  features: [featuresAddress(subsets, database), ["", "features=Gc&s=3&color=hit&select=lost", "features=FPFH&s=none"]],
+  features: [
+    featuresAddress(subsets, database),
+    ["", "features=Gc&s=3&color=hit&select=lost&open=ant%2F1&at=0%2C1%2C40", "features=FPFH&s=none&color=bin%3AGc%3A1"],
+  ],
   bins: [
     binsAddress(database, bins, selection, { bin: 5, group: 1 }),
     ["", "size=2&step=1&bin=bin+7&of=bee&shape=least&reading=inside", "bin=bin+5&id=cup+%26+plate%2F1&select=ant%2F2"],
@@ -172,12 +175,12 @@ const PAGES = {
     ],
   ],
   workbench: [
-    workAddress(database, work),
+    workAddress({ ...database, count: 5000 }, work),
     [
       "",
       "hide=ant&features=FPFH+50%2520%2525%2520of%2520it&bins=FPFH%5B1%5D%3A2&map=umap&scorer=anova",
       "class=bee&bins=&separate=ant&separate=bee&from=cup+%26+plate&together=&sample=&color=hit&select=ant%2F1",
-      "class=&separate=&from=",
+      "hide-unlabelled=&hide=ant&hide=bee&hide=cup+%26+plate&separate=&from=",
       "unlabelled=",
       "hide-unlabelled=",
     ],
@@ -187,7 +190,22 @@ const PAGES = {
 /** What stands nowhere for a number, a place among others, or a range. */
 const NONSENSE = [
   ...["NaN", "Infinity", "-Infinity", "9".repeat(400), "0x", "%00", "constructor"],
-  ...["NaN,0,1", "0,0", "0,0,Infinity", "NaN..1", "1..Infinity", "..2..", "-"],
+  ...[
+    "nope",
+    "-1",
+    "1e99",
+    "NaN,0,1",
+    "0,0",
+    "0,0,Infinity",
+    "1e99,0,2",
+    "0,0,1e99",
+    "0,0,0",
+    "0,0,-1",
+    "NaN..1",
+    "1..Infinity",
+    "..2..",
+    "-",
+  ],
 ];
 
 for (const [page, [address, queries]] of Object.entries(PAGES)) {
@@ -212,10 +230,12 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
 
   test(`${page} passes over what it cannot read`, () => {
     const usual = writtenAgain("");
-    const prefixed = ["range.faces", "is.kind", "is.folders", "hide", "a", "select", "selected"];
+    const prefixed = ["range.faces", "is.kind", "is.folders", "hide", "a", "select", "selected", "view", "map"];
+    if (page === "workbench") prefixed.push("class", "separate", "from", "features", "bins");
     const keys = new Set([...address.rows.flatMap(({ key }) => key ?? []), ...prefixed]);
     // Any text is valid there.
-    for (const key of ["find", "bin", "parts", "closed", "down", "sample", "exact", "by", "pictures"]) keys.delete(key);
+    for (const key of ["find", "bin", "parts", "closed", "down", "sample", "exact", "by", "pictures", "color"])
+      keys.delete(key);
     if (page === "shape") for (const key of ["features", "bins", "within"]) keys.delete(key);
     for (const key of keys)
       for (const word of NONSENSE) assert.equal(writtenAgain([[key, word]]), usual, `${key}=${word}`);
@@ -226,6 +246,16 @@ test("the selection of another page is compared with the rest", () => {
   const [address] = PAGES.compare;
   const { a, b } = address.read(new URLSearchParams("select=bee/1"));
   assert.deepEqual([a, b], [{ kind: "shapes", shapes: new Set([2]) }, { kind: "rest" }]);
+});
+
+test("an unlabelled database has no classes to be coloured by, to keep to or to hide", () => {
+  const bare = { ...database, labelled: false, classes: [], sizes: new Map([[-1, 5]]) };
+  for (const address of [overviewAddress(bare), workAddress(bare, work)]) {
+    const usual = address.write(new Map(Object.entries(address.read(new URLSearchParams())))).toString();
+    for (const query of ["color=hit", "view=three", "view=hit", "class=ant", "unlabelled=&class=x", "hide=ant"])
+      assert.equal(address.write(new Map(Object.entries(address.read(new URLSearchParams(query))))).toString(), usual);
+  }
+  assert.equal(overviewAddress(bare).read(new URLSearchParams("hide-unlabelled=")).hidden.size, 0);
 });
 
 test("bins of features that are not in use are none", () => {

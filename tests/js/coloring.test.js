@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { between, fieldColoring } from "../../site/scripts/map/coloring.js";
+import { between, fieldColoring, placedGroups, stripesOf } from "../../site/scripts/map/coloring.js";
 
 const marks = {
   unlabelled: "#888888",
@@ -93,9 +93,64 @@ test("dates are dates in the legend and in words", () => {
 
 test("one number for all shapes, or none, is no error", () => {
   const same = fieldColoring(database, field({ numbers: [3, 3] }));
-  assert.equal(same.kindOf(0), 0);
+  assert.equal(same.look(same.kindOf(0)).color, "rgb(0 0 0)");
   const none = fieldColoring(database, field({ numbers: [null, null] }));
   assert.deepEqual(none.legend.ramp.texts, []);
+});
+
+test("where colours are numbers, symbols are those of the classes", () => {
+  const two = { ...database, groups: [0, 1, -1], symbol: (group) => ["o", "+"][group] ?? "." };
+  const coloring = fieldColoring(two, field({ numbers: [10, 20, 10] }));
+  assert.deepEqual(
+    looks(coloring, 3).map(({ symbol, color }) => [symbol, color]),
+    [
+      ["o", "rgb(0 0 0)"],
+      ["+", "rgb(255 255 255)"],
+      [".", "rgb(0 0 0)"],
+    ],
+  );
+  assert.ok(coloring.ofClasses);
+});
+
+test("the strip of some shapes has a stripe for each, in the order of their colours", () => {
+  const coloring = fieldColoring(database, field({ names: ["p", "q"], of: [1, -1, 0, 1] }));
+  assert.deepEqual(stripesOf(coloring, [0, 1, 2, 3]), [
+    "#a00000 0.00% 25.00%",
+    "#00a000 25.00% 50.00%",
+    "#00a000 50.00% 75.00%",
+    "#888888 75.00% 100.00%",
+  ]);
+});
+
+test("a group has a place where its shapes have others of theirs about them, and none where it is strewn", () => {
+  // On a line, the three nearest of each.
+  const count = 60;
+  const onLine = {
+    ids: Array.from({ length: count }, (_, index) => `${index}`),
+    neighbours: (index) => [1, -1, 2, -2].map((way) => index + way).filter((at) => at >= 0 && at < count),
+  };
+  const placed = (groupOf) => [...placedGroups({ groupOf }, onLine, 0)].sort();
+  assert.deepEqual(
+    placed((index) => Math.floor(index / 20)),
+    [0, 1, 2],
+  );
+  assert.deepEqual(
+    placed((index) => index % 3),
+    [],
+  );
+  assert.deepEqual(
+    placed((index) => (index < 20 ? 0 : 1 + (index % 2))),
+    [0],
+  );
+  // Nearly all are of one group: that others of it lie about its shapes says nothing.
+  assert.deepEqual(
+    placed((index) => Number(index % 10 === 0)),
+    [],
+  );
+  assert.deepEqual(
+    placed(() => -1),
+    [],
+  );
 });
 
 test("a ramp is mixed between its colours", () => {

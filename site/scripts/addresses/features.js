@@ -1,6 +1,8 @@
 // The state of the Features page in its address: the chosen subset, the greedy path, and the colours of the map.
 
-import { Address, choice } from "../base/address.js";
+import { Address, named } from "../base/address.js";
+import { CAMERA } from "./camera.js";
+import { coloredBy } from "./colors.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
@@ -8,6 +10,7 @@ import { brushed } from "./selected.js";
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
 /** @import { Subsets } from "../database/subsets.js" */
+/** @import { MapValues } from "../map/scene.js" */
 
 /**
  * What the Features page has in its state, beside what its map has.
@@ -15,17 +18,15 @@ import { brushed } from "./selected.js";
  * @property {number} chosen place of a subset
  * @property {number | null} pointedPlace
  * @property {number | null} s of the greedy path
- * @property {"class" | "hit"} color
+ * @property {string} color what it says: `class`, `hit`, or the key of a field or a bin
  * @property {number | null} method the map, once it is there
  * @property {import("../map/scene.js").Camera | null} camera
  * @property {number | null} opened
  * @property {number | null} pointedGroup
  * @property {"move" | "select"} drag
  *
- * @typedef {State<FeaturesValues & Shared>} FeaturesState
+ * @typedef {State<FeaturesValues & Shared & Pick<MapValues, "coloring">>} FeaturesState
  */
-
-const COLORS = ["class", "hit"];
 
 /**
  * @param {Subsets} subsets
@@ -54,13 +55,9 @@ export function featuresAddress(subsets, database) {
       },
       standard: sizes[0] ?? null,
     },
-    {
-      name: "color",
-      key: "color",
-      kind: choice(subsets.labelled ? COLORS : COLORS.slice(0, 1)),
-      standard: COLORS[0],
-      place: true,
-    },
+    { ...coloredBy(database), place: true },
     brushed(database),
+    { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the marked shape" },
+    CAMERA,
   ]);
 }

@@ -1,11 +1,13 @@
 // The state of the Overview in its address.
 
-import { Address, choice, flag, named, text } from "../base/address.js";
+import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
+import { CAMERA } from "./camera.js";
+import { colors, OWN_COLORS } from "./colors.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
-/** @import { Kind, Ways } from "../base/address.js" */
+/** @import { Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
@@ -15,7 +17,7 @@ import { brushed } from "./selected.js";
  * What the Overview has in its state, beside what maps have.
  * @typedef {object} OverviewValues
  * @property {string} view what the map shows, or `three` for the three linked maps beside each other
- * @property {string} by key of the field, or `bin:` and the name of the bin, that `color` shows
+ * @property {string} by key of the field, or `bin:` and the name of the bin, that `color` shows, or showed last
  * @property {boolean} pictures whether it shows pictures, on grounds of these colours
  * @property {boolean} exact whether pictures stand at their exact places, where they may cover each other
  * @property {string} query of the search
@@ -24,21 +26,26 @@ import { brushed } from "./selected.js";
  * @typedef {State<OverviewValues & MapValues & Shared>} OverviewState
  */
 
-export const VIEWS = ["thumbnail", "class", "hit", "color", "three"];
+/**
+ * What the map can show: classes, and how well shapes keep to theirs, where there are some.
+ * @param {Database} database
+ */
+export function viewsOf({ labelled }) {
+  return labelled ? ["thumbnail", "class", "hit", "color", "three"] : ["thumbnail", "class", "color"];
+}
 
 /** @param {Database} database */
 export function overviewAddress(database) {
   return new Address([
     { names: ["method", "features"], ...mapOfFeatures(database), place: true, words: "the map" },
-    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true, words: "what the marks show" },
-    { name: "by", key: "by", kind: text, standard: "", place: true, words: "what colours say" },
+    { names: ["view", "by"], ...viewAndColors(database), place: true, words: "what the map shows" },
     { name: "pictures", key: "pictures", kind: flag, standard: false, place: true },
     { name: "exact", key: "exact", kind: flag, standard: false, place: true },
     { name: "hidden", ...hiddenClasses(database), place: true, words: "which classes are hidden" },
     brushed(database),
-    { name: "opened", key: "open", kind: named(database.ids), standard: null, words: "the open shape" },
+    { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the open shape" },
     { name: "query", key: "find", kind: text, standard: "", often: true, words: "the search" },
-    { name: "camera", key: "at", kind: camera, standard: null, often: true, words: "the zoom" },
+    CAMERA,
   ]);
 }
 
@@ -75,10 +82,35 @@ function mapOfFeatures(database) {
 }
 
 /**
+ * The view, where no other page of maps has the same: there its colours say it.
  * @param {Database} database
  * @returns {Ways}
  */
-function hiddenClasses({ classes }) {
+function viewAndColors(database) {
+  const views = viewsOf(database);
+  const kind = colors(database);
+  return {
+    keys: /^(view|color)$/,
+    read(query) {
+      const view = query.get("view") ?? "";
+      const color = kind.read(query.getAll("color"));
+      if (view !== "color" && views.includes(view)) return { view };
+      if (color === undefined) return { view: views[0] };
+      return OWN_COLORS.includes(color) ? { view: color } : { view: "color", by: color };
+    },
+    write(query, { view, by }) {
+      if (view === "color") query.set("color", by);
+      else if (OWN_COLORS.includes(view)) query.set("color", view);
+      else if (view !== views[0]) query.set("view", view);
+    },
+  };
+}
+
+/**
+ * @param {Database} database
+ * @returns {Ways}
+ */
+function hiddenClasses({ classes, sizes, labelled }) {
   return {
     keys: /^hide(-unlabelled)?$/,
     read: (query) => {
@@ -86,7 +118,7 @@ function hiddenClasses({ classes }) {
         .getAll("hide")
         .map((name) => classes.indexOf(name))
         .filter((group) => group >= 0);
-      return new Set(query.has("hide-unlabelled") ? [...hidden, -1] : hidden);
+      return new Set(query.has("hide-unlabelled") && labelled && sizes.has(-1) ? [...hidden, -1] : hidden);
     },
     write(query, hidden) {
       for (const group of hidden) {
@@ -96,16 +128,3 @@ function hiddenClasses({ classes }) {
     },
   };
 }
-
-/** @type {Kind} */
-const camera = {
-  read([word = ""]) {
-    const numbers = word.split(",").map(Number);
-    if (numbers.length !== 3 || !numbers.every(Number.isFinite)) return undefined;
-    const [x, y, zoom] = numbers;
-    return { x, y, zoom };
-  },
-  write: ({ x, y, zoom }) => [
-    [x, y, zoom].map((/** @type {number} */ value) => Number(value.toPrecision(5))).join(","),
-  ],
-};

@@ -1,7 +1,9 @@
 // The work in the address: a link, and a reload, bring back the same maps and the same figures.
 
 import { Address, choice, flag } from "../base/address.js";
+import { MOST_SHAPES } from "../database/sample.js";
 import { readShortNames, shortNames } from "./bin-names.js";
+import { coloredBy } from "./colors.js";
 import { joinNames, splitNames } from "./names.js";
 import { brushed } from "./selected.js";
 
@@ -22,7 +24,7 @@ import { brushed } from "./selected.js";
  * @property {string} scorer
  * @property {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} separation
  * @property {boolean} sample
- * @property {"class" | "hit"} color
+ * @property {string} color what it says: `class`, `hit`, or the key of a field or a bin
  * @property {any} step of the history
  * @property {ShapeMap | null} originalMap
  * @property {ShapeMap | null} refinedMap
@@ -33,11 +35,10 @@ import { brushed } from "./selected.js";
  * @property {number | null} refused NH that no bins were found to exceed
  * @property {Float64Array | null} scores
  *
- * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null} & Pick<MapValues, "drag" | "join">>} WorkState
+ * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null} & Pick<MapValues, "drag" | "join" | "coloring">>} WorkState
  */
 
 const PROJECTIONS = ["tsne", "umap"];
-const COLORS = ["class", "hit"];
 
 /** Its best bins make the best maps, on shapes that had no say too (docs/method/scorers.md). */
 export const DEFAULT_SCORER = "rfe";
@@ -52,6 +53,7 @@ export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true
  */
 export function workAddress(database, data) {
   const method = PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0];
+  const samples = database.count > MOST_SHAPES ? flag : choice([]);
   return new Address([
     { name: "hidden", ...classesInUse(database), place: true, words: "the classes" },
     { names: ["features", "bins"], ...binsInUse(data), place: true, words: "features and bins" },
@@ -65,8 +67,8 @@ export function workAddress(database, data) {
       words: "the scorer",
     },
     { name: "separation", ...separation(database), place: true, words: "the question" },
-    { name: "sample", key: "sample", kind: flag, standard: false, place: true },
-    { name: "color", key: "color", kind: choice(database.labelled ? COLORS : COLORS.slice(0, 1)), standard: COLORS[0] },
+    { name: "sample", key: "sample", kind: samples, standard: false, place: true },
+    coloredBy(database),
     brushed(database),
   ]);
 }
@@ -90,22 +92,21 @@ function classesInUse(database) {
   return {
     keys: /^(hide|hide-unlabelled|class|unlabelled)$/,
     read(query) {
-      if (query.has("class") || query.has("unlabelled")) {
-        const used = new Set([...classesNamed(query, "class", database), ...(query.has("unlabelled") ? [-1] : [])]);
-        return new Set(everyone.filter((group) => !used.has(group)));
-      }
-      const unlabelled = query.has("hide-unlabelled") && database.sizes.has(-1);
-      return new Set([...classesNamed(query, "hide", database), ...(unlabelled ? [-1] : [])]);
+      const named = (/** @type {string} */ key, /** @type {string} */ unlabelled) =>
+        new Set([
+          ...classesNamed(query, key, database),
+          ...(query.has(unlabelled) && database.labelled && database.sizes.has(-1) ? [-1] : []),
+        ]);
+      const used = named("class", "unlabelled");
+      return used.size > 0 ? new Set(everyone.filter((group) => !used.has(group))) : named("hide", "hide-unlabelled");
     },
     write(query, hidden) {
       const used = everyone.filter((group) => !hidden.has(group));
-      const fewer = used.length < hidden.size;
+      const fewer = used.length > 0 && used.length < hidden.size;
       for (const group of fewer ? used : [...hidden].sort((a, b) => a - b)) {
         if (group < 0) query.set(fewer ? "unlabelled" : "hide-unlabelled", "");
         else query.append(fewer ? "class" : "hide", database.classes[group]);
       }
-      // No class in use has no name to give.
-      if (used.length === 0) query.append("class", "");
     },
   };
 }
@@ -124,7 +125,9 @@ function binsInUse({ features, bins: ofSite }) {
     read(query) {
       const known = splitNames(query.get("features"), names);
       const used = [...features.keys()].filter((index) => known.length === 0 || known.includes(names[index]));
-      const bins = query.has("bins") ? readShortNames(query.get("bins"), features) : (ofSite ?? []);
+      const chosen = readShortNames(query.get("bins"), features);
+      // Nothing says that none is chosen; words of which none is a bin say nothing.
+      const bins = chosen.size > 0 || query.get("bins") === "" ? chosen : (ofSite ?? []);
       return {
         features: new Set(used),
         bins: new Set([...bins].filter((column) => used.includes(featureOf(column)))),
@@ -148,7 +151,10 @@ function separation(database) {
    * @param {URLSearchParams} query
    * @param {string} key
    */
-  const read = (query, key) => (query.has(key) ? new Set(classesNamed(query, key, database)) : null);
+  const read = (query, key) => {
+    const named = new Set(classesNamed(query, key, database));
+    return named.size > 0 || query.get(key) === "" ? named : null;
+  };
   /**
    * @param {URLSearchParams} query
    * @param {string} key

@@ -27,24 +27,49 @@ export async function openPage({ address = new Address([]), settle = (found) => 
   arriveHere();
   const acted = watchActs();
   let passing = address.passing(readHash());
-  /** The address of the view as it is now, and what passes through it to other pages. */
-  const written = () => {
-    const query = address.write(state);
+  /**
+   * The address of the view as it is now, or as it was, and what passes through it to other pages.
+   * @param {Map<string, any>} [before] the values that it had then
+   */
+  const written = (before = new Map()) => {
+    const query = address.write({ get: (name) => (before.has(name) ? before.get(name) : state.get(name)) });
     for (const [name, value] of passing) query.append(name, value);
     return query;
   };
-  const step = () => {
-    const query = written();
-    if (query.toString() !== readHash().toString()) (acted() ? pushHash : replaceHash)(query);
+  /**
+   * @param {boolean} step
+   * @param {Map<string, any>} [before]
+   */
+  const write = (step, before) => {
+    const query = written(before);
+    if (query.toString() !== readHash().toString()) (step ? pushHash : replaceHash)(query);
   };
-  const later = { step: delayed(step), replace: delayed(() => replaceHash(written())) };
-  state.listen((changed) => {
+  // What changes often and is not written yet: whether that is a step; null where there is nothing.
+  /** @type {boolean | null} */
+  let owed = null;
+  /** @param {Map<string, any>} [before] */
+  const pay = (before) => {
+    const step = owed;
+    owed = null;
+    if (step !== null) write(step, before);
+  };
+  const later = delayed(pay);
+  /** @param {boolean} step */
+  const owe = (step) => {
+    owed = owed || step;
+    later();
+  };
+  state.listen((changed, before) => {
     const changes = (/** @type {boolean} */ place, /** @type {boolean} */ often) =>
       address.has(changed, (row) => (row.place ?? false) === place && (row.often ?? false) === often);
-    if (changes(true, false) && !arriving) step();
-    else if (changes(true, true) && !arriving) later.step();
-    else if (changes(false, false) || arriving) replaceHash(written());
-    else if (changes(false, true)) later.replace();
+    const steps = changes(true, false) && !arriving;
+    if (steps || changes(false, false) || arriving) {
+      // The way back leads to the view as it was left, not as it was when it was written last.
+      if (arriving) owed = null;
+      else pay(before);
+      write(steps && acted());
+    } else if (changes(true, true)) owe(acted());
+    else if (changes(false, true)) owe(false);
   });
   return {
     state,
@@ -69,6 +94,9 @@ export async function openPage({ address = new Address([]), settle = (found) => 
         arriving = true;
         arrive(found, first);
         arriving = false;
+      });
+      window.addEventListener("pagehide", () => {
+        if (owed !== null) write(false);
       });
       showPageInMenu();
       watchLink(() => address.holds(state));

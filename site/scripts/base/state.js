@@ -1,6 +1,6 @@
 // What the reader has chosen. Views listen; nothing else is kept anywhere.
 
-/** @typedef {(changed: Set<string>) => void} Listener is told the names of what changed */
+/** @typedef {(changed: Set<string>, before: Map<string, any>) => void} Listener is told the names of what changed, and what it was */
 
 /** @template {Record<string, any>} [Values=any] */
 export class State {
@@ -28,17 +28,18 @@ export class State {
    * @param {Partial<Values>} patch
    */
   set(patch) {
-    /** @type {Set<string>} */
-    const changed = new Set();
+    /** @type {Map<string, any>} */
+    const before = new Map();
     /** @type {Record<string, any>} */
     const values = this.#values;
     for (const [name, value] of Object.entries(patch)) {
       if (values[name] === value) continue;
+      before.set(name, values[name]);
       values[name] = value;
-      changed.add(name);
     }
-    if (changed.size === 0) return;
-    for (const listener of this.#listeners) listener(changed);
+    if (before.size === 0) return;
+    const changed = new Set(before.keys());
+    for (const listener of this.#listeners) listener(changed, before);
   }
 
   /** @param {Listener} listener */

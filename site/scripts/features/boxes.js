@@ -1,7 +1,8 @@
 // NH of every class: on the chosen map, and over all subsets (Fig. 3).
 
 import { drawChart } from "../base/chart.js";
-import { element, swatch } from "../base/dom.js";
+import { element } from "../base/dom.js";
+import { classMark } from "../colors/legend.js";
 import { hitRange } from "../database/hit-range.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
@@ -32,26 +33,15 @@ export class Boxes {
       .sort((a, b) => (boxes[b].median ?? 0) - (boxes[a].median ?? 0) || classes[a] - classes[b]);
     state.listen((changed) => {
       if (changed.has("chosen")) this.render();
+      if (changed.has("coloring")) this.#list();
     });
   }
 
   async start() {
     for (const [, vega] of this.vegas) vega.finalize();
     this.vegas = [];
+    this.#list();
     const { database, subsets } = this;
-    /** @param {number | null} pointedGroup */
-    const point = (pointedGroup) => () => this.state.set({ pointedGroup });
-    this.node.replaceChildren(
-      ...this.order.map((column) => {
-        const group = subsets.data.classes[column];
-        return element(
-          "li",
-          { title: database.className(group), onpointerenter: point(group), onpointerleave: point(null) },
-          swatch(database.symbol(group), database.color(group)),
-          element("span", { class: "name", dir: "auto" }, database.className(group)),
-        );
-      }),
-    );
     const bars = await drawChart(
       document.getElementById("bars"),
       database.data.charts.bars,
@@ -72,6 +62,23 @@ export class Boxes {
       ["boxes", boxes],
     ];
     this.render();
+  }
+
+  #list() {
+    const { database, subsets } = this;
+    /** @param {number | null} pointedGroup */
+    const point = (pointedGroup) => () => this.state.set({ pointedGroup });
+    this.node.replaceChildren(
+      ...this.order.map((column) => {
+        const group = subsets.data.classes[column];
+        return element(
+          "li",
+          { title: database.className(group), onpointerenter: point(group), onpointerleave: point(null) },
+          classMark(database, this.state.get("coloring") ?? null, group),
+          element("span", { class: "name", dir: "auto" }, database.className(group)),
+        );
+      }),
+    );
   }
 
   resize() {

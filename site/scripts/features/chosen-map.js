@@ -1,16 +1,18 @@
 // The map of the chosen subset: it follows the choice, and has the gestures of all maps.
 
 import { watchSize } from "../base/dom.js";
+import { chosenColors } from "../colors/choice.js";
 import { Card } from "../map/card.js";
 import { watchDragging } from "../map/dragging.js";
 import { Gestures } from "../map/gestures.js";
 import { MapView } from "../map/map.js";
 import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
-import { watchColors, watchMapKeys } from "./controls.js";
+import { watchMapKeys } from "./controls.js";
 import { shown } from "./subset-map.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { State } from "../base/state.js" */
+/** @import { Colors } from "../colors/colors.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
 /** @import { Subsets } from "../database/subsets.js" */
@@ -24,8 +26,7 @@ export function nothingShown() {
     method: null,
     hidden: new Set(),
     matches: null,
-    opened: null,
-    camera: null,
+    coloring: null,
   };
 }
 
@@ -34,6 +35,8 @@ export class ChosenMap {
   view;
   /** @type {Gestures} */
   gestures;
+  /** @type {Colors} */
+  colors;
 
   /**
    * @param {Database} database
@@ -62,7 +65,6 @@ export class ChosenMap {
     state.set({ method: await shown(database, subsets, state.get("chosen")) });
     const scene = new Scene(database, state);
     const figure = document.querySelector("figure.map");
-    figure.dataset.view = state.get("color");
     this.view = new MapView(scene, figure, { charted: false });
     scene.views = [this.view];
     watchDragging(state);
@@ -71,9 +73,10 @@ export class ChosenMap {
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
     });
     watchMapKeys(this.view.surface, state, this.gestures);
-    watchColors(state, this.view);
+    this.colors = chosenColors(database, state);
+    state.listen((changed) => changed.has("color") && this.start());
     new Card(/** @type {State<MapValues & Shared>} */ (/** @type {State} */ (state)));
-    state.listen((changed) => changed.has("chosen") && this.#follow());
+    state.listen((changed) => changed.has("chosen") && this.#follow(changed.has("camera")));
     await this.start();
     watchSize([this.view.surface], () => this.view.resize());
   }
@@ -84,15 +87,20 @@ export class ChosenMap {
     await this.start();
   }
 
-  /** Draw with the colours of the theme in use. */
+  /** Draw with the colours that are asked for, of the theme in use. */
   async start() {
+    if (!(await this.colors.make())) return;
+    this.view.colorBy(this.state.get("color"), this.state.get("coloring") ?? null);
     await this.view.start();
   }
 
-  async #follow() {
+  /** @param {boolean} aimed whether the part in view was said with the choice */
+  async #follow(aimed) {
     const chosen = this.state.get("chosen");
     const method = await shown(this.database, this.subsets, chosen);
     // Another may have been chosen while this one was fetched.
-    if (this.state.get("chosen") === chosen) this.state.set({ method });
+    if (this.state.get("chosen") !== chosen) return;
+    const camera = this.state.get("camera");
+    this.state.set(aimed && camera ? { method, camera: { ...camera } } : { method });
   }
 }

@@ -2,7 +2,6 @@
 
 /** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Gestures } from "../map/gestures.js" */
-/** @import { MapView } from "../map/map.js" */
 
 /**
  * @param {Found} surface
@@ -18,24 +17,4 @@ export function watchMapKeys(surface, state, gestures) {
     else return;
     event.preventDefault();
   });
-}
-
-/**
- * Colours of the map: by class or by neighbourhood hit.
- * @param {FeaturesState} state
- * @param {MapView} map
- */
-export function watchColors(state, map) {
-  const inputs = document.querySelectorAll("#colors input");
-  const check = () => {
-    for (const input of inputs) input.checked = input.value === state.get("color");
-  };
-  for (const input of inputs) input.addEventListener("change", () => state.set({ color: input.value }));
-  state.listen((changed) => {
-    if (!changed.has("color")) return;
-    check();
-    map.name = state.get("color");
-    map.start();
-  });
-  check();
 }

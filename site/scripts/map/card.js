@@ -23,7 +23,7 @@ export class Card {
     /** @type {ShapeMap | null} */
     this.map = null;
     state.listen((changed) => {
-      if (changed.has("theme") || changed.has("by") || changed.has("view")) this.shown = null;
+      if (["theme", "by", "view", "color"].some((name) => changed.has(name))) this.shown = null;
       const camera = state.get("pointedFrom")?.scene.cameraName;
       if (["pointed", camera, "method", "theme"].some((name) => name !== undefined && changed.has(name))) this.#show();
     });

@@ -1,5 +1,6 @@
 // What the colour of a mark says: a class, how well a shape keeps to its class, or anything else that is known of shapes.
 
+import { entry } from "../base/entry.js";
 import { figure } from "../base/words.js";
 import { NONE, numberText, valueName } from "../database/fields.js";
 import { highestOf, ofAtMost, reachOf } from "../database/hit-range.js";
@@ -20,6 +21,7 @@ import { highestOf, ofAtMost, reachOf } from "../database/hit-range.js";
  * @property {string} [note] a sentence on what that is
  * @property {Legend} [legend] what the colours are, where no other list on the page says it
  * @property {Naming} [naming] groups that stand together on a map, where these are not the classes
+ * @property {boolean} [ofClasses] whether symbols are those of the classes all the same
  *
  * Shapes of one look have a line of their own; numbers have their ramp, with texts at equal distances.
  * @typedef {{ name: string, look: Look, shapes: number[] }} Line
@@ -172,9 +174,13 @@ function numberColoring(database, title, numbers, textOf) {
   /** @param {number} number */
   const lengthOf = (number) => (wide ? Math.log(number) : number);
   const span = lengthOf(high) - lengthOf(low) || 1;
+  // A kind is a class and a step: the symbol says the one, the colour the other.
   /** @type {Coloring["look"]} */
-  const look = (step) =>
-    step === null ? missing({ data, marks }) : { symbol: data.marks.plain, color: between(marks.ramp, step / STEPS) };
+  const look = (kind) => {
+    if (kind === null) return missing({ data, marks });
+    const group = Math.floor(kind / (STEPS + 1)) - 1;
+    return { symbol: database.symbol(group), color: between(marks.ramp, (kind % (STEPS + 1)) / STEPS) };
+  };
   const lacking = numbers.flatMap((number, index) => (number === null ? [index] : []));
   /** @param {number} share */
   const at = (share) => (wide ? low * (high / low) ** share : low + share * (high - low));
@@ -182,7 +188,9 @@ function numberColoring(database, title, numbers, textOf) {
     title,
     kindOf(index) {
       const number = numbers[index];
-      return number === null ? null : Math.round(((lengthOf(number) - lengthOf(low)) / span) * STEPS);
+      if (number === null) return null;
+      const step = Math.round(((lengthOf(number) - lengthOf(low)) / span) * STEPS);
+      return (database.groups[index] + 1) * (STEPS + 1) + step;
     },
     look,
     textOf: (index) => (numbers[index] === null ? "–" : textOf(/** @type {number} */ (numbers[index]))),
@@ -193,12 +201,57 @@ function numberColoring(database, title, numbers, textOf) {
         texts: known.length === 0 ? [] : Array.from({ length: TEXTS }, (_, text) => textOf(at(text / (TEXTS - 1)))),
       },
     },
+    ofClasses: true,
     // The colours of classes would be read as numbers.
     naming: {
       ...classNaming(database),
       lookOf: (group) => ({ symbol: database.symbol(group), color: marks.ink }),
     },
   };
+}
+
+/**
+ * The colours of some shapes in their order, as the stops of a strip.
+ * @param {Coloring} coloring
+ * @param {number[]} shapes
+ */
+export function stripesOf({ kindOf, look }, shapes) {
+  const kinds = shapes.map(kindOf).sort((one, other) => (one ?? Infinity) - (other ?? Infinity));
+  return kinds.map((kind, place) => {
+    const [from, to] = [place, place + 1].map((end) => `${((100 * end) / kinds.length).toFixed(2)}%`);
+    return `${look(kind).color} ${from} ${to}`;
+  });
+}
+
+/** Of so many shapes at most it is asked whether others like them lie about them. */
+const ASKED = 400;
+/** How far above chance groups have to keep together to have a place: half the way to all. */
+const TOGETHER = 0.5;
+
+/**
+ * The groups that have a place on a map: there others of theirs lie about their shapes. The name of one that is strewn
+ * over the map would say nothing of where it stands.
+ * @param {Naming} naming
+ * @param {Database} database
+ * @param {number} method
+ */
+export function placedGroups({ groupOf }, database, method) {
+  const groups = database.ids.map((_, index) => groupOf(index));
+  const stride = Math.ceil(groups.length / ASKED);
+  /** @type {Map<number, { near: number, own: number }>} */
+  const found = new Map();
+  for (let index = 0; index < groups.length; index += stride) {
+    if (groups[index] < 0) continue;
+    const near = database.neighbours(index, method);
+    const sum = entry(found, groups[index], () => ({ near: 0, own: 0 }));
+    sum.near += near.length;
+    sum.own += near.filter((other) => groups[other] === groups[index]).length;
+  }
+  const placed = [...found].filter(([group, { near, own }]) => {
+    const chance = (groups.filter((other) => other === group).length - 1) / Math.max(groups.length - 1, 1);
+    return own - chance * near >= TOGETHER * (1 - chance) * near;
+  });
+  return new Set(placed.map(([group]) => group));
 }
 
 /**

@@ -3,6 +3,7 @@
 import { clicked, combined, toggled } from "../database/selection.js";
 import { boxOf } from "./area.js";
 import { ShapeBrush, selects } from "./brush.js";
+import { LARGEST_ZOOM } from "./scene.js";
 
 /** @import { Join } from "../database/selection.js" */
 /** @import { Fingers, Place } from "./brush.js" */
@@ -135,7 +136,7 @@ export class Gestures extends ShapeBrush {
    */
   zoom(factor, place = [this.view.width / 2, this.view.height / 2]) {
     const camera = this.scene.camera();
-    const zoom = Math.min(Math.max(camera.zoom * factor, 1), 40);
+    const zoom = Math.min(Math.max(camera.zoom * factor, 1), LARGEST_ZOOM);
     const [x, y] = this.view.meant(...place);
     const keep = camera.zoom / zoom;
     this.scene.look({ x: x + (camera.x - x) * keep, y: y + (camera.y - y) * keep, zoom });

@@ -3,15 +3,15 @@
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
 import { drawnAs } from "../base/snapshot.js";
-import { classColoring, classNaming, hitColoring } from "./coloring.js";
+import { classColoring, classNaming, hitColoring, placedGroups } from "./coloring.js";
 import { Dots } from "./dots.js";
 import { mapFigure } from "./figure.js";
 import { Labels } from "./labels.js";
 import { animate, CHOSEN, crowded } from "./scene.js";
 import { spread, thinned } from "./spread.js";
 
-/** @import { Coloring } from "./coloring.js" */
-/** @import { Scene } from "./scene.js" */
+/** @import { Coloring, Naming } from "./coloring.js" */
+/** @import { Camera, Scene } from "./scene.js" */
 
 /** @typedef {"class" | "hit" | "thumbnail" | "color"} MapName what its marks tell; `color` what its reader chose */
 
@@ -27,6 +27,8 @@ const LARGEST = 110;
 const CLOSEST = 200;
 /** Where pictures stand at their exact places, they may cover each other by half. */
 const EXACT_APART = 0.5;
+/** So far from its edges a map shows what was out of view. */
+const INWARD = 0.2;
 /** On a smaller map there is no room for names. */
 const NAMED_WIDTH = 280;
 
@@ -90,6 +92,17 @@ export class MapView {
     if (this.name === "hit") return hitColoring(this.database, this.database.methods[this.scene.target]);
     if (this.chosenColoring !== null) return this.chosenColoring;
     return classColoring(this.database);
+  }
+
+  /**
+   * Let colours say what a page asks for: `class`, `hit`, or what its reader chose.
+   * @param {string} color
+   * @param {Coloring | null} chosen
+   */
+  colorBy(color, chosen) {
+    this.name = /** @type {MapName} */ (chosen === null ? color : "color");
+    this.chosenColoring = chosen;
+    this.figure.dataset.view = this.name;
   }
 
   /** Draw the map with the colours of the theme in use; called again when the theme changes. */
@@ -261,6 +274,7 @@ export class MapView {
   settle() {
     if (!this.started || this.scene.moving) return;
     this.#choosePictures();
+    this.#keepInView();
     this.#drawMarks();
     this.drawRings();
     if (this.width >= NAMED_WIDTH) this.#name();
@@ -397,6 +411,35 @@ export class MapView {
   }
 
   /**
+   * Where no shape is in view, since an address or a reader went to where none is, or other marks stand elsewhere, go to
+   * the nearest; of several maps the first says where.
+   */
+  #keepInView() {
+    const { scene } = this;
+    if (scene.views[0] !== this || this.state.get(scene.cameraName) === null) return;
+    const placeOf = this.placing();
+    /** @type {[number | null, number]} */
+    let [nearest, least] = [null, Infinity];
+    for (let index = 0; index < this.database.count; index += 1) {
+      if (!scene.visible(index)) continue;
+      const [x, y] = placeOf(index);
+      const outside = Math.hypot(beyond(x, this.width, 0), beyond(y, this.height, 0));
+      if (outside === 0) return;
+      if (outside < least) [nearest, least] = [index, outside];
+    }
+    if (nearest === null) return;
+    const camera = scene.camera();
+    const [x, y] = placeOf(nearest);
+    scene.look({
+      ...camera,
+      x: camera.x + beyond(x, this.width, INWARD) / this.scale,
+      y: camera.y - beyond(y, this.height, INWARD) / this.scale,
+    });
+    // Beyond the edge of the map there is no looking.
+    if (isSame(scene.camera(), camera)) this.state.set({ [scene.cameraName]: null });
+  }
+
+  /**
    * Pictures of what stands out, too, at their places: what they may cover is faint, and nothing else moves for them.
    * @param {number[]} rows
    * @param {number[][]} places
@@ -453,21 +496,58 @@ export class MapView {
     return this.order;
   }
 
+  /** @type {{ coloring: Coloring, map: string, groups: Set<number> } | null} */
+  #together = null;
+
+  /**
+   * Groups with a place on this map.
+   * @param {Coloring} coloring with groups of its own
+   */
+  #placed(coloring) {
+    const map = `${this.scene.target} ${this.database.revision}`;
+    if (this.#together?.coloring !== coloring || this.#together.map !== map) {
+      const groups = placedGroups(/** @type {Naming} */ (coloring.naming), this.database, this.scene.target);
+      this.#together = { coloring, map, groups };
+    }
+    return this.#together.groups;
+  }
+
   #name() {
     const placeOf = this.placing();
-    const naming = this.coloring.naming ?? classNaming(this.database);
+    const { coloring } = this;
+    const naming = coloring.naming ?? classNaming(this.database);
     this.labels.naming = naming;
+    const named = coloring.naming && !coloring.ofClasses ? this.#placed(coloring) : null;
     const points = [];
     for (let index = 0; index < this.database.count; index += 1) {
       if (!this.scene.visible(index)) continue;
       const [x, y] = placeOf(index);
       if (x < 0 || y < 0 || x > this.width || y > this.height) continue;
-      points.push({ index, group: naming.groupOf(index), x, y });
+      const group = naming.groupOf(index);
+      points.push({ index, group: named === null || named.has(group) ? group : -1, x, y });
     }
     const radius = this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius;
     this.labels.place(points, this.width, this.height, radius);
     this.labels.follow(placeOf);
   }
+}
+
+/**
+ * How far a place is outside of what goes from 0 to a length, less a share of it on both sides; below zero before it.
+ * @param {number} place
+ * @param {number} length
+ * @param {number} rim
+ */
+function beyond(place, length, rim) {
+  return Math.min(place - rim * length, 0) + Math.max(place - (1 - rim) * length, 0);
+}
+
+/**
+ * @param {Camera} one
+ * @param {Camera} other
+ */
+function isSame(one, other) {
+  return one.x === other.x && one.y === other.y && one.zoom === other.zoom;
 }
 
 /** @param {number} index */

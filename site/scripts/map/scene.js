@@ -6,6 +6,7 @@ import { calm, coarse } from "../base/dom.js";
 /** @import { State } from "../base/state.js" */
 /** @import { Bounds, Database } from "../database/database.js" */
 /** @import { Join } from "../database/selection.js" */
+/** @import { Coloring } from "./coloring.js" */
 /** @import { MapView } from "./map.js" */
 
 /**
@@ -27,12 +28,13 @@ import { calm, coarse } from "../base/dom.js";
  * @property {MapView | null} pointedFrom
  * @property {number | null} pointedGroup
  * @property {number[] | null} [pointedShapes] those of a line of a legend
+ * @property {Coloring | null} [coloring] what else than the classes the marks are coloured by, as far as it is made
  * @property {"move" | "select" | "lasso"} drag what dragging does: with "select" it draws a box
  * @property {Join} [join] what a drawn area does to the selection, where no key says it
  */
 
 const DURATION = 650;
-const LARGEST_ZOOM = 40;
+export const LARGEST_ZOOM = 40;
 const CROWD = 1500;
 
 /** What says how present a shape is. */
@@ -52,8 +54,13 @@ export function crowded(database) {
 }
 
 /** The part of a page's state that says what is under the pointer: nothing, at first. */
-/** @type {Readonly<Pick<MapValues, "pointed" | "pointedFrom" | "pointedGroup">>} */
-export const NOTHING_POINTED = Object.freeze({ pointed: null, pointedFrom: null, pointedGroup: null });
+/** @type {Readonly<Pick<MapValues, "pointed" | "pointedFrom" | "pointedGroup" | "pointedShapes">>} */
+export const NOTHING_POINTED = Object.freeze({
+  pointed: null,
+  pointedFrom: null,
+  pointedGroup: null,
+  pointedShapes: null,
+});
 
 /**
  * The part that says what dragging does, at first: fingers move a map, a mouse selects.
@@ -88,7 +95,7 @@ export class Scene {
     this.views = [];
     this.weigh();
     state.listen((changed) => {
-      if (changed.has("method")) this.#travel(state.get("method"));
+      if (changed.has("method")) this.#travel(state.get("method"), changed.has(camera));
       if (WEIGHED.some((name) => changed.has(name))) this.weigh();
       if ([camera, ...WEIGHED, "exact"].some((name) => changed.has(name))) this.draw();
       else if (changed.has("pointed") || changed.has("opened")) for (const view of this.views) view.drawRings();
@@ -132,15 +139,17 @@ export class Scene {
   #voyage = null;
 
   /**
-   * Move all points to another projection, on a straight way; the camera goes back to showing all of it.
+   * Move all points to another projection, on a straight way; the camera goes back to showing all of it, unless it is to
+   * be somewhere there.
    * @param {number} target
+   * @param {boolean} aimed
    */
-  #travel(target) {
+  #travel(target, aimed) {
     this.origin = this.target;
     this.target = target;
     const from = this.bounds;
     const to = this.database.bounds[target];
-    const camera = this.state.get(this.cameraName) && this.camera();
+    const camera = aimed ? null : this.state.get(this.cameraName) && this.camera();
     this.#voyage?.abort();
     this.#voyage = new AbortController();
     animate(DURATION, this.#voyage.signal, (linear) => {

@@ -1,8 +1,9 @@
 // The classes: a legend that filters; and how good the map is, for who asks: in words, and by a bar of NH for each.
 
 import { drawChart } from "../base/chart.js";
-import { element, focused, swatch, watchSize } from "../base/dom.js";
+import { element, focused, watchSize } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
+import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
@@ -27,7 +28,7 @@ export class ClassList {
     watchSize([this.node], () => this.#mark());
     state.listen((changed) => {
       if (changed.has("view") && this.#asksItself) this.asked.open = true;
-      if (changed.has("method")) this.render();
+      if (changed.has("method") || changed.has("coloring")) this.render();
       else if (changed.has("hidden")) this.#mark();
     });
   }
@@ -72,6 +73,7 @@ export class ClassList {
   #button(group) {
     const { database } = this;
     const name = database.className(group);
+    const coloring = this.state.get("coloring") ?? null;
     const method = database.methods[this.state.get("method")];
     const hit = group < 0 ? null : method.hitOfClass[group];
     const most = hit === null ? "" : ofAtMost(rangeOf(database, method).highestOfClass.get(group));
@@ -88,8 +90,9 @@ export class ClassList {
         onpointerenter: point(group),
         onpointerleave: point(null),
       },
-      swatch(database.symbol(group), database.color(group)),
+      classMark(database, coloring, group),
       element("span", { class: "name", dir: "auto" }, name),
+      coloring && makeupOf(database, coloring, group),
       element("span", { class: "size" }, String(database.sizes.get(group) ?? 0)),
     );
   }

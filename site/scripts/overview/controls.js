@@ -1,6 +1,6 @@
 // The controls of the maps, and their keys.
 
-import { VIEWS } from "../addresses/overview.js";
+import { viewsOf } from "../addresses/overview.js";
 import { coarse } from "../base/dom.js";
 import { watchDragging } from "../map/dragging.js";
 
@@ -76,7 +76,8 @@ export function watchKeys(state, maps) {
       return;
     }
     if (event.target instanceof HTMLInputElement && event.target.type === "search") return;
-    if (event.key >= "1" && event.key <= String(VIEWS.length)) state.set({ view: VIEWS[Number(event.key) - 1] });
+    const view = viewsOf(maps.database)[Number(event.key) - 1];
+    if (view) state.set({ view });
     else if (event.key in zooms) zoom(zooms[event.key], state, maps);
     else if (event.key === "/") document.getElementById("search").focus();
     else return;

@@ -9,7 +9,7 @@ import { tellReading } from "./readings.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database } from "../database/database.js" */
-/** @import { Colors } from "./colors.js" */
+/** @import { Colors } from "../colors/colors.js" */
 /** @import { MapName } from "../map/map.js" */
 
 /** In the order in which they stand beside another. */
@@ -95,9 +95,9 @@ export class OverviewMaps {
   }
 
   async #show() {
-    if (!(await this.colors.choose())) return;
+    if (!(await this.colors.make())) return;
     this.main.name = this.#name;
-    this.main.chosenColoring = this.colors.coloring;
+    this.main.chosenColoring = this.state.get("coloring") ?? null;
     this.figure.dataset.view = this.#name;
     await this.start();
   }

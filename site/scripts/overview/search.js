@@ -33,8 +33,8 @@ export class Search {
       database,
       (index) => {
         clearTimeout(this.#pause);
-        state.set({ query: "" });
         open(index);
+        state.set({ query: "" });
       },
       { field: "search", list: "search-found" },
     );

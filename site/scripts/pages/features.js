@@ -7,6 +7,7 @@ import { pause, watchSize } from "../base/dom.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
+import { knownColor } from "../colors/choice.js";
 import { Database } from "../database/database.js";
 import { Subsets } from "../database/subsets.js";
 import { Boxes } from "../features/boxes.js";
@@ -26,6 +27,7 @@ async function main() {
   const database = new Database(overview, currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: featuresAddress(subsets, database),
+    settle: knownColor,
     values: { ...nothingShown(), pointedPlace: null },
   });
   const marks = hues(search, database);
@@ -40,7 +42,6 @@ async function main() {
   await pause();
   await ranking.start();
   await pause();
-
   // The map comes with the largest chunk of the page, so it waits for what is above it.
   const map = new ChosenMap(database, subsets, state, announce);
   new Tray(database, state, { open: (shape) => map.toggle(shape), zoom: () => map.gestures.zoomToSelection() });

@@ -5,18 +5,19 @@ import { chunk } from "../base/chunks.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
+import { firstKey } from "../colors/colors.js";
 import { Database } from "../database/database.js";
 import { Card } from "../map/card.js";
 import { dragging, NOTHING_POINTED } from "../map/scene.js";
 import { mapTables } from "../map/tables.js";
 import { ClassList } from "../overview/classes.js";
-import { Colors } from "../overview/colors.js";
 import { trayHint, watchControls, watchKeys } from "../overview/controls.js";
 import { Detail } from "../overview/detail.js";
 import { addressedMap, FeatureChoice } from "../overview/feature-choice.js";
 import { watchIntroduction } from "../overview/introduction.js";
 import { OverviewMaps } from "../overview/maps.js";
 import { Search } from "../overview/search.js";
+import { knownView, viewColors } from "../overview/view-colors.js";
 import { carryView } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
@@ -24,11 +25,10 @@ async function main() {
   const database = new Database(await chunk("overview"), currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: overviewAddress(database),
-    settle: (found) => addressedMap(database, found),
-    values: { ...NOTHING_POINTED, ...dragging(), matches: null, pointedShapes: null },
+    settle: async (found) => knownView(database, await addressedMap(database, found)),
+    values: { ...NOTHING_POINTED, ...dragging(), matches: null, by: firstKey(), coloring: null },
   });
-  const colors = new Colors(database, state);
-  const maps = new OverviewMaps(database, state, colors, announce);
+  const maps = new OverviewMaps(database, state, viewColors(database, state), announce);
   // Pictures beside the map point at their shape on it.
   /** @param {number | null} pointed */
   const point = (pointed) => state.set({ pointed, pointedFrom: maps.large });
@@ -37,8 +37,8 @@ async function main() {
   const search = new Search(database, state, {
     announce,
     open(index) {
-      maps.gestures.get(maps.large)?.zoomTo([index]);
       state.set({ opened: index });
+      maps.gestures.get(maps.large)?.zoomTo([index]);
     },
   });
   new Card(state);
@@ -49,7 +49,7 @@ async function main() {
     zoom: () => maps.gestures.get(maps.large)?.zoomToSelection(),
   });
   carryView(written);
-  watchTables(() => mapTables(database, state, colors.coloring));
+  watchTables(() => mapTables(database, state, state.get("coloring") ?? null));
   if (database.data.subsets) new FeatureChoice(database, state);
   watchIntroduction();
   watchControls(database, state, maps);

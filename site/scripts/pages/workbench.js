@@ -6,6 +6,7 @@ import { pause } from "../base/dom.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
+import { chosenColors, knownColor } from "../colors/choice.js";
 import { Bins } from "../database/bins.js";
 import { Database } from "../database/database.js";
 import { Card } from "../map/card.js";
@@ -31,17 +32,17 @@ async function main() {
   const database = new Database(overview, currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: workAddress(database, data),
-    values: { ...NOTHING_POINTED, ...dragging(), ...nothingMade() },
+    settle: knownColor,
+    values: { ...NOTHING_POINTED, ...dragging(), ...nothingMade(), coloring: null },
   });
   const answers = new Answers(database, data, bins);
-  const maps = new WorkMaps(overview, database, state, announce);
+  const maps = new WorkMaps(overview, database, state, chosenColors(database, state), announce);
   const desk = new Desk(database, data, bins, state, answers, maps.scenes, announce);
   await pause();
   new Card(state);
   // A picture in the tray marks its shape on both maps.
   new Tray(database, state, { open: (shape) => maps.toggle(shape), zoom: () => maps.zoomToSelection() });
   carryView(written);
-  const panels = mapPanels(database, state, bins, answers, desk);
   if (database.labelled)
     new ClassTable(database, state, {
       change: (hidden) => desk.use({ hidden }),
@@ -57,10 +58,9 @@ async function main() {
   watchTables(() => workTables(database, bins, state));
   watchDownloads(database, bins, () => desk.work());
   new Guide(database, data, bins, state, desk);
-
   await pause();
   desk.ask();
-  for (const panel of panels) panel.render();
+  for (const panel of mapPanels(database, state, bins, answers, desk)) panel.render();
   strip.render();
   await pause();
   await maps.start();

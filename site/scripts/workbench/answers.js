@@ -5,7 +5,9 @@ import { chunk } from "../base/chunks.js";
 import { sampled } from "../database/sample.js";
 import { Subsets } from "../database/subsets.js";
 import { startEngine } from "../engine/client.js";
+import { mapOf } from "../map/plot.js";
 import { contests } from "./separation.js";
+import { turned } from "./turned.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
@@ -37,6 +39,9 @@ const MOST_CONTESTS = 500;
 /** A search for bins looks at no more shapes and at the best of the bins only, so that it takes seconds. */
 const SEARCHED_SHAPES = 400;
 const SEARCHED_BINS = 300;
+/** By whose maps the build searches bins; the promise of another is none. */
+export const FOUND_BY = "tsne";
+
 /** More bins than this hardly raise NH: docs/method/bins-search.md. */
 const FOUND_BINS = 25;
 
@@ -153,7 +158,10 @@ export class Answers {
     /** @type {Layout} */
     const asked = { method: projection, rows: this.rows(step), columns, by: "bins" };
     const offline = this.hasMap("refined", projection, step) ? this.#siteMap(projection) : null;
-    return this.#chain(async (run) => offline ?? this.#layout(run, asked, report, partial));
+    return this.#chain(
+      async (run) =>
+        offline ?? (await this.#foundMap(run, projection, step)) ?? this.#layout(run, asked, report, partial),
+    );
   }
 
   /**
@@ -171,7 +179,9 @@ export class Answers {
       const columns = known?.bins ?? (await this.#grow(run, step, ranking, report));
       /** @type {Layout} */
       const asked = { method: projection, rows: this.rows(step), columns: Int32Array.from(columns).sort(), by: "bins" };
-      return { columns, map: await this.#layout(run, asked, report, () => {}) };
+      const chosen = { ...step, bins: new Set(columns) };
+      const map = (await this.#foundMap(run, projection, chosen)) ?? (await this.#layout(run, asked, report, () => {}));
+      return { columns, map };
     });
   }
 
@@ -183,6 +193,33 @@ export class Answers {
     const { found } = this.data;
     if (found === null || hidden.size > 0 || sample || features.size < this.bins.features.length) return null;
     return isSame(bins, found.bins) ? null : found;
+  }
+
+  /**
+   * The map by which the build found these bins, where it is of all shapes: another run would place them a little
+   * differently, and reach another NH than was told. Null for others.
+   * @param {Run} run
+   * @param {string} projection
+   * @param {Asked} step
+   */
+  async #foundMap(run, projection, step) {
+    const { data, database } = this;
+    const { found } = data;
+    if (found === null || projection !== FOUND_BY || step.hidden.size > 0 || step.sample) return null;
+    if (!isSame(step.bins, found.bins)) return null;
+    const selection = await chunk("selection");
+    const last = selection.path.at(-1);
+    if (selection.rows !== null || last === undefined) return null;
+    const base = this.#siteMap(projection);
+    const map = mapOf(last, selection, database.count);
+    const { x, y } = base === null ? map : turned(map, base);
+    const rows = this.rows(step);
+    const xy = Float64Array.from(
+      { length: 2 * rows.length },
+      (_, place) => (place % 2 === 0 ? x : y)[rows[place >> 1]],
+    );
+    // Told is what the unrounded map reaches.
+    return { ...(await this.#measured(run, projection, rows, xy)), hitOfAll: found.nh };
   }
 
   /**
@@ -373,22 +410,38 @@ export class Answers {
       { length: 2 * rows.length },
       (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]],
     );
-    /**
-     * @param {Float32Array} xy
-     * @param {number} place
-     * @returns {number[]}
-     */
-    const spread = (xy, place) => {
-      const all = new Array(database.count).fill(NaN);
-      for (let index = 0; index < rows.length; index += 1) all[rows[index]] = xy[2 * index + place];
-      return all;
-    };
     /** @type {Listener} */
     const listen = (told) => {
       report({ progress: told.progress * 0.97 });
-      if (told.partial) partial(spread(told.partial.xy, 0), spread(told.partial.xy, 1));
+      if (told.partial) partial(this.#spread(rows, told.partial.xy, 0), this.#spread(rows, told.partial.xy, 1));
     };
     const { xy } = await run("layout", { method, rows, columns, by, start, seed: data.seed }, listen);
+    return this.#measured(run, method, rows, xy);
+  }
+
+  /**
+   * Places of all shapes, of which some have one.
+   * @param {ArrayLike<number>} rows
+   * @param {ArrayLike<number>} xy
+   * @param {0 | 1} part
+   * @returns {number[]}
+   */
+  #spread(rows, xy, part) {
+    const all = new Array(this.database.count).fill(NaN);
+    for (let index = 0; index < rows.length; index += 1) all[rows[index]] = xy[2 * index + part];
+    return all;
+  }
+
+  /**
+   * A map of some shapes with its neighbourhood hits.
+   * @param {Run} run
+   * @param {string} method
+   * @param {ArrayLike<number> & Iterable<number>} rows
+   * @param {ArrayLike<number>} xy
+   * @returns {Promise<ShapeMap>}
+   */
+  async #measured(run, method, rows, xy) {
+    const { database, data } = this;
     const groups = Int32Array.from(rows, (row) => database.groups[row]);
     const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
     const hits = new Array(database.count).fill(null);
@@ -397,8 +450,8 @@ export class Answers {
       key: "live",
       ...(this.titles.get(method) ?? { title: method }),
       features: [],
-      x: spread(xy, 0),
-      y: spread(xy, 1),
+      x: this.#spread(rows, xy, 0),
+      y: this.#spread(rows, xy, 1),
       hit: hits,
       neighbours: Math.min(data.neighbours, rows.length - 1),
       hitOfClass: database.classes.map((_, group) => known(hitOfClass[group])),

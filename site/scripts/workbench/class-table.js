@@ -1,8 +1,9 @@
 // The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
 
-import { element, focused, swatch } from "../base/dom.js";
+import { element, focused } from "../base/dom.js";
 import { difference } from "../base/figures.js";
 import { figure } from "../base/words.js";
+import { classMark } from "../colors/legend.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
@@ -41,7 +42,7 @@ export class ClassTable {
     this.body.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
     state.listen((changed) => {
       if (["hidden", "separation"].some((name) => changed.has(name))) this.#mark();
-      if (["originalMap", "refinedMap", "theme"].some((name) => changed.has(name))) this.render();
+      if (["originalMap", "refinedMap", "theme", "coloring"].some((name) => changed.has(name))) this.render();
     });
     this.render();
   }
@@ -72,7 +73,7 @@ export class ClassTable {
         title: `${name}\nClick takes it into use or out of it.`,
         onclick: (event) => (event.altKey ? this.#only(group) : this.#toggle(group)),
       },
-      swatch(database.symbol(group), database.color(group)),
+      classMark(database, state.get("coloring") ?? null, group),
       element("span", { class: "name", dir: "auto" }, name),
     );
     const only = element(

@@ -1,4 +1,4 @@
-// The small controls: projection, colours, what dragging does, scorer and separation; and the keys of the page.
+// The small controls: projection, what dragging does, scorer and separation; and the keys of the page.
 
 import { element } from "../base/dom.js";
 import { count, grouped } from "../base/words.js";
@@ -19,23 +19,13 @@ import { contests, separationWords } from "./separation.js";
  * @param {Desk} desk
  */
 export function watchControls(database, data, state, desk) {
-  /**
-   * @param {string} id
-   * @param {"projection" | "color"} name
-   * @param {(value: any) => any} [changed]
-   */
-  const radios = (id, name, changed = (value) => state.set({ [name]: value })) => {
-    const node = document.getElementById(id);
-    if (node === null) return;
-    const check = () => {
-      for (const input of node.querySelectorAll("input")) input.checked = input.value === state.get(name);
-    };
-    node.addEventListener("change", (event) => changed(event.target.value));
-    state.listen((now) => now.has(name) && check());
-    check();
+  const projections = document.getElementById("projections");
+  const check = () => {
+    for (const input of projections.querySelectorAll("input")) input.checked = input.value === state.get("projection");
   };
-  radios("projections", "projection", (projection) => desk.use({ projection }));
-  radios("colors", "color");
+  projections.addEventListener("change", (event) => desk.use({ projection: event.target.value }));
+  state.listen((changed) => changed.has("projection") && check());
+  check();
   watchDragging(state);
   watchRamp(database, state);
   watchPicked(state, desk);

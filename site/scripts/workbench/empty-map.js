@@ -4,6 +4,7 @@ import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
+import { FOUND_BY } from "./answers.js";
 import { FEWEST_SHAPES } from "./desk.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
@@ -81,6 +82,7 @@ export function emptyMap(which, state, answers, desk) {
       {},
       `${intended} The build searched all bins for a few that keep the classes apart: `,
       element("b", {}, `NH ${figure(found.allFeatures)} → ${figure(found.nh)}`),
+      state.get("projection") === FOUND_BY ? "" : " on a t-SNE map, for which they were searched",
       `; on shapes that the search never saw, ${figure(found.heldOut)}. `,
       element("a", { href: pageAddress("bins.html") }, "How they were found"),
     ),

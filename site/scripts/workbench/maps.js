@@ -8,6 +8,7 @@ import { LiveScene } from "../map/live-scene.js";
 import { MapView } from "../map/map.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
+/** @import { Colors } from "../colors/colors.js" */
 /** @import { Which } from "./desk.js" */
 
 /** @type {Which[]} */
@@ -18,10 +19,12 @@ export class WorkMaps {
    * @param {Chunk.Overview} overview
    * @param {Database} database
    * @param {WorkState} state
+   * @param {Colors} colors
    * @param {(text: string) => void} announce
    */
-  constructor(overview, database, state, announce) {
+  constructor(overview, database, state, colors, announce) {
     this.state = state;
+    this.colors = colors;
     // Each map has a database of its own: the same shapes, one layout.
     const methods = overview.methods.slice(0, 1);
     const scenes = WHICH.map(
@@ -32,7 +35,6 @@ export class WorkMaps {
     this.views = scenes.map((scene, place) => {
       const figure = document.querySelector(`figure[data-map="${WHICH[place]}"]`);
       const view = new MapView(scene, figure, { charted: false });
-      view.name = state.get("color");
       scene.views = [view];
       return view;
     });
@@ -42,7 +44,7 @@ export class WorkMaps {
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
     };
     this.gestures = new Map(this.views.map((view) => [view.surface, new Gestures(view, does)]));
-    state.listen((changed) => changed.has("color") && this.#recolor());
+    state.listen((changed) => changed.has("color") && this.redraw());
   }
 
   /**
@@ -58,7 +60,7 @@ export class WorkMaps {
   }
 
   async start() {
-    for (const view of this.views) await view.start();
+    await this.redraw();
     watchSize(
       this.views.map(({ surface }) => surface),
       () => {
@@ -76,13 +78,12 @@ export class WorkMaps {
     }
   }
 
-  /** Draw with the colours of the theme in use. */
-  redraw() {
-    for (const view of this.views) view.start();
-  }
-
-  #recolor() {
-    for (const view of this.views) view.name = this.state.get("color");
-    this.redraw();
+  /** Draw with the colours that are asked for, of the theme in use. */
+  async redraw() {
+    if (!(await this.colors.make())) return;
+    for (const view of this.views) {
+      view.colorBy(this.state.get("color"), this.state.get("coloring") ?? null);
+      await view.start();
+    }
   }
 }

@@ -143,7 +143,7 @@ def test_keys_go_through_a_map_and_select(visit):
     named(window, 1)
     window.press("3")
     window.until("() => document.querySelector('figure[data-slot=large]').dataset.view === 'hit'")
-    addressed(window, "view=hit")
+    addressed(window, "color=hit")
 
 
 def test_the_wheel_zooms_about_the_pointer(visit):

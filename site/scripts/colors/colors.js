@@ -1,0 +1,126 @@
+// What the reader colours a map by, on every page with one: any field of the database, a neighbourhood hit, or a bin; and
+// what its colours are.
+
+import { chunk, chunks } from "../base/chunks.js";
+import { Finder } from "../base/finder.js";
+import { binName } from "../bins-kit/bin-name.js";
+import { Bins } from "../database/bins.js";
+import { Fields } from "../database/fields.js";
+import { binColoring, fieldColoring } from "../map/coloring.js";
+import { showLegend } from "./legend.js";
+
+/** @import { State } from "../base/state.js" */
+/** @import { Database } from "../database/database.js" */
+/** @import { MapValues } from "../map/scene.js" */
+/** @import { Shared } from "../database/selection.js" */
+
+const BIN = "bin:";
+
+/** @type {Promise<{ bins: Bins, first: number }> | null} */
+let loaded = null;
+
+/** The bins, and the one to begin with: the first of those that keep the classes apart best, where a build found some. */
+function loadBins() {
+  loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => ({
+    bins: new Bins(work, values),
+    first: work.found?.bins[0] ?? 0,
+  }));
+  return loaded;
+}
+
+function choice() {
+  return document.getElementById("color-by");
+}
+
+/** The keys of the fields that a page offers. */
+function offered() {
+  /** @type {string[]} */
+  const keys = Array.from(choice().options, ({ value }) => value);
+  return keys.filter((key) => key !== BIN);
+}
+
+/** What maps are coloured by where nobody has said it. */
+export function firstKey() {
+  return offered()[0];
+}
+
+/**
+ * Whether there is such a field or bin: an address may name what is not there.
+ * @param {string} key
+ */
+export async function isKnown(key) {
+  if (!key.startsWith(BIN)) return offered().includes(key);
+  return (await loadBins()).bins.names.includes(key.slice(BIN.length));
+}
+
+export class Colors {
+  /** @type {Promise<Fields> | null} */
+  #fields = null;
+  /** @type {Finder<number> | null} */
+  #finder = null;
+
+  /**
+   * @param {Database} database
+   * @param {State<MapValues & Shared>} state
+   * @param {object} ways
+   * @param {() => string | null} ways.key of the field or the bin that is asked for; null where the map tells something else
+   * @param {(key: string) => void} ways.choose
+   */
+  constructor(database, state, { key, choose }) {
+    this.database = database;
+    this.state = state;
+    this.key = key;
+    this.choose = choose;
+    this.choice = choice();
+    this.node = document.getElementById("color-choice");
+    this.finder = /** @type {Found} */ (document.querySelector("[data-finder=color]"));
+    this.field = document.getElementById("color-search");
+    this.choice.addEventListener("change", () => this.#change());
+  }
+
+  async #change() {
+    if (this.choice.value !== BIN) {
+      this.choose(this.choice.value);
+      return;
+    }
+    const { bins, first } = await loadBins();
+    this.choose(BIN + bins.names[first]);
+    await this.make();
+    this.field.focus();
+    this.field.select();
+  }
+
+  /** Make what is asked for; the answer is whether it is still asked for. */
+  async make() {
+    const key = this.key();
+    const bin = key?.startsWith(BIN) ?? false;
+    const coloring = key === null ? null : await (bin ? this.#ofBin(key.slice(BIN.length)) : this.#ofField(key));
+    if (key !== this.key()) return false;
+    if (key !== null) this.choice.value = bin ? BIN : key;
+    this.node.hidden = key === null;
+    this.finder.hidden = !bin;
+    showLegend(coloring, this.state);
+    this.state.set({ coloring });
+    return true;
+  }
+
+  /** @param {string} name */
+  async #ofBin(name) {
+    const { bins } = await loadBins();
+    this.#finder ??= new Finder("color-search", "color-found", {
+      find: (text) => bins.find(text),
+      label: (column) => binName(bins, column),
+      choose: (column) => this.choose(BIN + bins.names[column]),
+    });
+    this.field.value = name;
+    const column = bins.names.indexOf(name);
+    return column < 0 ? null : binColoring(this.database, bins, column);
+  }
+
+  /** @param {string} key */
+  async #ofField(key) {
+    this.#fields ??= chunks("fields", "hierarchy").then((found) => new Fields(this.database, ...found));
+    const field = (await this.#fields).byKey.get(key);
+    return field ? fieldColoring(this.database, field) : null;
+  }
+}
