@@ -75,6 +75,29 @@ def test_to_the_view_that_was_left(open_page) -> None:
     assert page.evaluate("document.body.hasAttribute('data-zoomed')")
 
 
+def test_on_the_features(open_page) -> None:
+    page = open_page("searched", "features.html")
+    page.focus("figure.map .surface")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    eventually(page, lambda: "open=" in page.url)
+    for _ in range(3):
+        page.keyboard.press("+")
+    page.locator("#colors label", has_text="Fit").click()
+    eventually(page, lambda: page.locator("figure.map[data-view=hit]").count() == 1)
+    page.click("[data-key=next]")
+    eventually(page, lambda: "features=" in page.url and "at=" not in page.url)
+    page.go_back()
+    eventually(page, lambda: "features=" not in page.url)
+    page.wait_for_timeout(500)
+    assert "at=" in page.url
+    page.go_back()
+    eventually(page, lambda: page.locator("figure.map[data-view=class]").count() == 1)
+    page.go_back()
+    eventually(page, lambda: page.locator("figure.map .ring.opened.shown").count() == 0)
+    assert "features.html" in page.url
+
+
 def test_in_the_gallery(open_page) -> None:
     page = open_page("museum", "shapes.html")
     page.select_option("#group", label="place")

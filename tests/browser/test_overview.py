@@ -513,6 +513,18 @@ class TestMoving:
         page.keyboard.press("0")
         eventually(page, lambda: "at=" not in address(page))
 
+    def test_something_is_in_view_wherever_one_zooms_and_whatever_marks_show(self, open_page):
+        page = open_page("plain")
+        place = page.locator(LARGE).bounding_box()
+        page.mouse.move(place["x"] + place["width"] * 0.45, place["y"] + place["height"] * 0.55)
+        for _ in range(12):
+            page.mouse.wheel(0, -300)
+        eventually(page, lambda: "at=" in address(page))
+        for view in "23412":
+            page.keyboard.press(view)
+            # Left of the buttons; a single mark has colours enough.
+            eventually(page, lambda: np.ptp(drawn(page, LARGE)[40:-40, 40:-240].astype(int)) > 60)
+
     def test_who_zooms_in_on_a_picture_keeps_it(self, open_page):
         page = open_page("plain")
         x, y = point(page, "ArrowRight")
@@ -711,6 +723,19 @@ class TestPhone:
         _, y, width, height = corner(page)
         assert width > 340
         assert y + height < 844
+
+    def test_search_and_views_stand_above_the_map_in_a_row_each(self, open_page):
+        page = open_page("museum", "index.html#view=three", **PHONE)
+        views, search = (page.locator(selector).bounding_box() for selector in ("#views", "#search"))
+        assert views["height"] < 60
+        assert search["height"] >= 40
+        last = page.locator("#views label").last.bounding_box()
+        # What is shown is seen there.
+        assert views["x"] <= last["x"]
+        assert last["x"] + last["width"] <= views["x"] + views["width"] + 1
+        page = open_page("museum", **PHONE)
+        place = page.locator(LARGE).bounding_box()
+        assert page.locator("#search").bounding_box()["y"] < place["y"] < 340
 
     def test_a_tap_opens_a_shape(self, open_page):
         page = open_page("plain", **PHONE)

@@ -371,6 +371,13 @@ class TestUnusualDatabases:
         page.click("#classes-none")
         answered(page)
         assert "take more classes into use" in page.locator("figure[data-map=original] .empty").inner_text()
+        # Nothing is told of what there is not.
+        assert "No bars" in page.inner_text(".bin-chart .key")
+        assert page.inner_text(".bin-tools .reading").split() == ["0", "bins", "chosen"]
+        page.locator("#class-table .use").first.click()
+        answered(page)
+        assert nh(page, "original") is None
+        assert "One class alone" in page.inner_text("figure[data-map=refined] .empty")
         page.click("#classes-all")
         answered(page)
         assert nh(page, "original") is not None

@@ -152,3 +152,13 @@ export function pause() {
     setTimeout(resolve);
   });
 }
+
+/**
+ * Scroll a row, and nothing but the row, until one of its items is in its middle.
+ * @param {Found} row
+ * @param {Found} item
+ */
+export function bringIntoRow(row, item) {
+  const [outer, inner] = [row.getBoundingClientRect(), item.getBoundingClientRect()];
+  row.scrollLeft += inner.left + inner.width / 2 - (outer.left + outer.width / 2);
+}

@@ -2,6 +2,7 @@
 
 import { Address } from "./address.js";
 import { offerFigures } from "./figure-export.js";
+import { bringIntoRow } from "./dom.js";
 import { watchPaper } from "./paper.js";
 import { arriveHere, pushHash, readHash, replaceHash } from "./place.js";
 import { watchLink } from "./link.js";
@@ -114,7 +115,7 @@ export async function openPage({ address = new Address([]), settle = (found) => 
 /** On a phone the menu is one row that scrolls: to the page that is open. */
 function showPageInMenu() {
   const open = document.querySelector(".masthead nav [aria-current]");
-  if (open) open.parentElement.scrollLeft = open.offsetLeft - (open.parentElement.clientWidth - open.offsetWidth) / 2;
+  if (open) bringIntoRow(open.parentElement, open);
 }
 
 /**

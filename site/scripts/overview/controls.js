@@ -1,7 +1,7 @@
 // The controls of the maps, and their keys.
 
 import { viewsOf } from "../addresses/overview.js";
-import { coarse } from "../base/dom.js";
+import { bringIntoRow, coarse } from "../base/dom.js";
 import { watchDragging } from "../map/dragging.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
@@ -23,7 +23,10 @@ export function watchControls(database, state, maps) {
    * @param {string} value
    */
   const check = (group, value) => {
-    for (const input of group.querySelectorAll("input")) input.checked = input.value === value;
+    for (const input of group.querySelectorAll("input")) {
+      input.checked = input.value === value;
+      if (input.checked) bringIntoRow(group, input.parentElement);
+    }
   };
   const show = () => {
     check(methods, database.methods[database.methods[state.get("method")].base].key);

@@ -444,6 +444,8 @@ export class Answers {
     const { database, data } = this;
     const groups = Int32Array.from(rows, (row) => database.groups[row]);
     const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
+    // Neighbours of one class cannot disagree.
+    const several = new Set(groups.filter((group) => group >= 0)).size > 1;
     const hits = new Array(database.count).fill(null);
     for (let index = 0; index < rows.length; index += 1) hits[rows[index]] = known(hit[index]);
     return {
@@ -454,9 +456,9 @@ export class Answers {
       y: this.#spread(rows, xy, 1),
       hit: hits,
       neighbours: Math.min(data.neighbours, rows.length - 1),
-      hitOfClass: database.classes.map((_, group) => known(hitOfClass[group])),
-      hitOfAll: known(hitOfAll),
-      chance: chance(groups),
+      hitOfClass: database.classes.map((_, group) => (several ? known(hitOfClass[group]) : null)),
+      hitOfAll: several ? known(hitOfAll) : null,
+      chance: several ? chance(groups) : null,
       chanceSpread: null,
     };
   }

@@ -93,6 +93,7 @@ export class BinChart {
     this.outcome = null;
     /** @type {Order} */
     this.order = "score";
+    this.busy = false;
     this.ranking = new Int32Array();
     this.rankOf = new Int32Array(bins.count);
     /** @type {number | null} */
@@ -226,8 +227,10 @@ export class BinChart {
     this.separation = separation;
     this.outcome = outcome;
     this.finder.disabled = !canFind;
+    this.busy = busy;
     this.plot.surface.setAttribute("aria-busy", String(busy));
     this.node.classList.toggle("busy", busy);
+    this.#explain();
     if (arranged) this.#arrange();
     else {
       this.#match();
@@ -261,7 +264,6 @@ export class BinChart {
     if (this.pointed !== null && this.rankOf[this.pointed] === 0) this.point(null);
     this.#search();
     this.#offer();
-    this.#explain();
     this.#read();
   }
 
@@ -361,9 +363,15 @@ export class BinChart {
     this.closer.textContent = `First ${this.plot.close}`;
     this.closer.hidden = this.plot.close >= this.ranking.length;
     this.add.disabled = best === 0;
-    this.add.title = `${count(best, "bin")} with the highest scores, of those not chosen yet`;
+    this.add.title =
+      best === 0
+        ? "No bin with a score is left to add"
+        : `${count(best, "bin")} with the highest scores, of those not chosen yet`;
     this.remove.disabled = weakest === 0;
-    this.remove.title = `${count(weakest, "bin")} with the lowest scores, of those chosen`;
+    this.remove.title =
+      weakest === 0
+        ? "No bin with a score is chosen"
+        : `${count(weakest, "bin")} with the lowest scores, of those chosen`;
     this.clear.disabled = this.chosen.size === 0;
   }
 
@@ -510,7 +518,12 @@ export class BinChart {
       ];
     } else {
       parts = [
-        [element("b", {}, grouped(this.chosen.size)), ` of ${count(this.ranking.length, "bin")} chosen`],
+        [
+          element("b", {}, grouped(this.chosen.size)),
+          this.ranking.length > 0
+            ? ` of ${count(this.ranking.length, "bin")} chosen`
+            : ` ${this.chosen.size === 1 ? "bin" : "bins"} chosen`,
+        ],
         this.outcome,
         ...this.#census(),
       ];
@@ -541,6 +554,10 @@ export class BinChart {
   }
 
   #explain() {
+    if (this.ranking.length === 0 && !this.busy) {
+      this.key.textContent = "No bars: there is nothing to tell apart. What is missing stands after “Separate”.";
+      return;
+    }
     const touched = window.matchMedia("(pointer: coarse)").matches;
     const sentences = [
       "A bar a bin: a share of the surface in a small range of a feature",

@@ -4,7 +4,7 @@ import { watchSize } from "../base/dom.js";
 import { figure } from "../base/words.js";
 import { BinCard } from "../bins-kit/bin-card.js";
 import { BinChart } from "./bin-chart.js";
-import { separationWords, sides } from "./separation.js";
+import { contests, separationWords, sides } from "./separation.js";
 import { StatusLine } from "./status-line.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
@@ -96,7 +96,7 @@ export class BinSection {
       scores,
       chosen: state.get("bins"),
       busy: state.get("scoresStatus").kind === "working",
-      separation: database.separable ? separationWords(separation, groups, database) : null,
+      separation: contests(separation, groups).length > 0 ? separationWords(separation, groups, database) : null,
       outcome: this.#outcome(),
       canFind: this.desk.canFind,
     });

@@ -368,7 +368,7 @@ export class Desk {
     const words = [
       `map: ${state.get("projection")}, seed ${data.seed}`,
       database.labelled &&
-        `classes: ${groups.length === database.classes.length ? "all" : groups.map((group) => database.className(group)).join(", ")}`,
+        `classes: ${groups.length === database.classes.length ? "all" : groups.map((group) => database.className(group)).join(", ") || "none"}`,
       database.separable &&
         `scorer: ${state.get("scorer")}, separating ${separationWords(state.get("separation"), groups, database)}`,
     ].filter(Boolean);

@@ -61,6 +61,14 @@ export function emptyMap(which, state, answers, desk) {
       element("p", {}, intended),
       offer(`Take the ${BEST} that vary most`, state.get("scores") !== null, () => desk.takeBest(BEST)),
     ];
+  if (answers.groups(state.get("hidden")).length < 2)
+    return [
+      element(
+        "p",
+        {},
+        "One class alone has nothing to be kept apart from: take another into use, and bins are scored and found again.",
+      ),
+    ];
   const refused = state.get("refused");
   if (refused !== null)
     return [

@@ -155,6 +155,26 @@ def test_the_wheel_zooms_about_the_pointer(visit):
     assert (left + width / 2, top + height / 2) == pytest.approx((x, y), abs=4)
 
 
+def test_a_map_is_coloured_by_a_bin_and_the_next_one_too(visit):
+    window = visit("searched", "index.html#color=fact:faces")
+    window.until("() => document.querySelectorAll('#color-legend .ramp-texts span').length === 3")
+    window.evaluate(
+        """() => {
+            const choice = document.getElementById("color-by");
+            choice.value = "bin:";
+            choice.dispatchEvent(new Event("change"));
+        }"""
+    )
+    window.until("() => document.activeElement.id === 'color-search'")
+    addressed(window, "color=bin:")
+    ramp = window.text("#color-legend .ramp-texts")
+    colors = window.evaluate("() => location.hash")
+    for page in ("workbench.html", "features.html"):
+        other = visit("searched", page + colors)
+        assert other.text("#color-legend .ramp-texts") == ramp
+        assert other.evaluate("() => document.querySelector('figure.map').dataset.view") == "color"
+
+
 def test_a_click_hides_a_class_and_the_address_keeps_it(visit):
     window = visit("plain", "index.html")
     window.click("#legend button", "kind c")
