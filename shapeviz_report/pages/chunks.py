@@ -236,6 +236,7 @@ class Side(TypedDict):
 
     clause: str
     trend: str
+    fewer: bool
 
 
 class Sides(TypedDict):
@@ -431,13 +432,14 @@ class SubsetMaps(TypedDict):
 
 
 class FeatureWords(TypedDict):
-    """What a feature is."""
+    """What a feature is; ``sought`` are other words for small and for large values of each dimension."""
 
     title: str
     aspect: str
     measures: str
     lowMeans: str
     highMeans: str
+    sought: list[tuple[str, str]]
     ease: float
 
 

@@ -120,4 +120,4 @@ def _sides(report: Report, *, by_area: bool) -> list[Sides]:
 
 
 def _side(said: Said) -> Side:
-    return {"clause": said.clause, "trend": said.trend}
+    return {"clause": said.clause, "trend": said.trend, "fewer": said.fewer}

@@ -115,6 +115,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
             "measures": "A feature that was brought along.",
             "lowMeans": "",
             "highMeans": "",
+            "sought": [("", "")] * block.dimensions,
             "ease": 1,
         }
     wording = WORDINGS[block.name]
@@ -124,6 +125,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
         "measures": descriptor.measures,
         "lowMeans": wording.low,
         "highMeans": wording.high,
+        "sought": list(wording.sought),
         "ease": wording.ease,
     }
 

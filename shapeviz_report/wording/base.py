@@ -21,13 +21,16 @@ class Said(NamedTuple):
     clause : str
         What a part of the surface does or is, as it stands after "28 % of the surface": "is thicker than 0.4 radii".
     trend : str
-        What a stranger sees of a shape that has more of it, as it stands after "In bird,": "bodies are thicker". Empty
-        where the clause says it all.
+        What a stranger sees of a shape that has more of it, as it stands before "in bird than in fish": "bodies are
+        thicker". Empty where the clause says it all.
+    fewer : bool
+        Whether the trend is that there is less of something: then what lies beyond the range has more of it.
     """
 
     name: str
     clause: str
     trend: str = ""
+    fewer: bool = False
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,7 @@ class Wording:
     Attributes
     ----------
     aspect : str
-        What the descriptor looks at, as it stands in "alike in ... and ...".
+        What the descriptor looks at, as it stands in "alike in ... and ...": one thing, without an "and" of its own.
     topics : tuple of str
         What the value in each dimension is, in few words.
     quantities : tuple of str
@@ -48,6 +51,8 @@ class Wording:
         Values as a reader reads them, from values as they are computed; rising.
     low, high : str
         Where on a shape, or in what surroundings, small and large values are found.
+    sought : tuple of pairs of str
+        Other words by which readers may look for small and for large values of each dimension.
     ease : float
         How easily a stranger pictures the surface that a bin counts from its plain words: as often counts a difference
         in it where it is chosen what is told first. From 1, which is not at all.
@@ -62,6 +67,7 @@ class Wording:
     shown: Callable[[FloatArray], FloatArray]
     low: str
     high: str
+    sought: tuple[tuple[str, str], ...]
     ease: float
     say: Callable[[int, float | None, float | None], Said]
 
@@ -109,9 +115,13 @@ def amount(low: float | None, high: float | None) -> str:
     return f"more than {measure(low, '%')} of" if high is None else f"{span(low, high, '%')} of"
 
 
-def say_more(own: str, other: str, reach: float, half: float) -> str:
-    """What there is more of at one end of a scale; where more than half of it is meant, what there is less of."""
-    return f"there is more {own}" if reach < half else f"there is less {other}"
+def say_more(own: str, other: str, reach: float, half: float) -> tuple[str, bool]:
+    """What there is more of at one end of a scale; where more than half of it is meant, what there is less of.
+
+    ``own`` and ``other`` say what the surface does there, as they stand after "more surface". The answer is a trend, and
+    whether there is less.
+    """
+    return (f"more surface {own}", False) if reach < half else (f"less surface {other}", True)
 
 
 def _both(low: float, high: float) -> tuple[str, str]:

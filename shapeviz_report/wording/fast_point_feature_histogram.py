@@ -22,22 +22,41 @@ def _side(dimension: int) -> int:
 
 
 def _name_part(dimension: int) -> str:
-    """The neighbouring surface that a dimension counts."""
+    """How the neighbouring surface that a dimension counts lies."""
     angle, near, far = _degrees(dimension)
     side = _side(dimension)
     if angle == 0:
-        way = "right" if side > 0 else "left"
-        return f"leaning {way} {near} to {far}°" if side else f"upright to {far}°"
+        return (
+            f"tilted {'right' if side > 0 else 'left'} by {near} to {far}°"
+            if side
+            else f"upright within {far}°"
+        )
     if angle == 1:
-        way = "higher" if side > 0 else "lower"
-        return f"{near} to {far}° {way}" if side else f"level to {far}°"
+        return (
+            f"{'rising' if side > 0 else 'falling off'} by {near} to {far}°"
+            if side
+            else f"level within {far}°"
+        )
     way = "outwards" if side > 0 else "inwards"
-    return f"turned {way} {near} to {far}°" if side else f"straight to {far}°"
+    return f"bent {way} by {near} to {far}°" if side else f"straight within {far}°"
+
+
+def _look_for(dimension: int) -> str:
+    """Words for surface that is mostly as a dimension counts it."""
+    angle, side = dimension // 11, _side(dimension)
+    if angle == 0:
+        return "twisted leaning" if side else "even"
+    if side == 0:
+        return "flat even smooth"
+    # What falls off around a point, or turns outwards, is round.
+    return "round rounded convex edge" if (side > 0) == (angle == 2) else "hollow concave groove"
 
 
 def _say(dimension: int, low: float | None, high: float | None) -> Said:
     part = _name_part(dimension)
-    return Said(f"{part}: {span(low, high, '%')}", f"has {amount(low, high)} the surface around it {part}")
+    return Said(
+        f"around it {part}: {span(low, high, '%')}", f"has {amount(low, high)} what surrounds it {part}"
+    )
 
 
 def _word_bin(dimension: int) -> str:
@@ -66,7 +85,7 @@ def _word_bin(dimension: int) -> str:
 
 
 FAST_POINT_FEATURE_HISTOGRAM = Wording(
-    aspect="bends",
+    aspect="wider bends",
     topics=tuple(
         f"share of the surface around a point {_name_part(dimension)}" for dimension in range(COUNT)
     ),
@@ -75,6 +94,7 @@ FAST_POINT_FEATURE_HISTOGRAM = Wording(
     shown=as_percent,
     low="places with few such neighbours",
     high="places with many such neighbours",
+    sought=tuple(("", _look_for(dimension)) for dimension in range(COUNT)),
     ease=1,
     say=_say,
 )

@@ -34,11 +34,12 @@ def _say_up_to(high: float) -> Said:
             f"bump under {measure(high, '°')}",
             f"bulges by less than {measure(high, '°')} at a point, if at all",
             "there are fewer bumps and tips",
+            True,
         )
     return Said(
         f"saddle over {measure(-high, '°')}",
         f"bends like a saddle by more than {measure(-high, '°')} at a point",
-        "there are more saddles, as where a limb leaves the body",
+        "there are more saddle-like bends",
     )
 
 
@@ -47,7 +48,8 @@ def _say_from(low: float) -> Said:
         return Said(
             f"saddle under {measure(-low, '°')}",
             f"bends like a saddle by less than {measure(-low, '°')} at a point, if at all",
-            "there are fewer saddles, as where a limb leaves the body",
+            "there are fewer saddle-like bends",
+            True,
         )
     return Said(
         f"bump over {measure(low, '°')}",
@@ -61,13 +63,14 @@ def _how(degrees: float) -> str:
 
 
 GAUSSIAN_CURVATURE = Wording(
-    aspect="bumps and saddles",
+    aspect="curvature",
     topics=("how much the surface bulges; below 0, how much it bends like a saddle",),
     quantities=("the angle by which the triangles around a point fall short of a full turn",),
     unit="°",
     shown=as_degrees,
     low="saddles, as where a limb leaves the body",
     high="bumps and tips",
+    sought=(("neck fork branch", "round rounded bulge ball corner pointed sharp"),),
     ease=2,
     say=_say,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from shapeviz_report.wording.base import Said, Wording, as_slope, measure, say_more, span
 
 FROM = "from the longest direction"
-RUNS, FACES = "that runs lengthways", "that faces the two ends"
+RUNS, FACES = "runs lengthways", "faces the two ends"
 HALF = 46.0
 
 
@@ -15,11 +15,11 @@ def _say(_: int, low: float | None, high: float | None) -> Said:
         return Said(
             name,
             f"keeps within {measure(high or 0, '°')} of the longest direction",
-            say_more(RUNS, FACES, high or 0, HALF),
+            *say_more(RUNS, FACES, high or 0, HALF),
         )
     if high is None:
         return Said(
-            name, f"turns more than {measure(low, '°')} {FROM}", say_more(FACES, RUNS, 90 - low, HALF)
+            name, f"turns more than {measure(low, '°')} {FROM}", *say_more(FACES, RUNS, 90 - low, HALF)
         )
     return Said(name, f"turns {span(low, high, '°')} {FROM}")
 
@@ -32,6 +32,7 @@ NORMAL_ANGLE = Wording(
     shown=as_slope,
     low="surface that runs along the longest direction",
     high="surface that faces the ends",
+    sought=(("side along lengthways", "across end front back cap"),),
     ease=2,
     say=_say,
 )

@@ -24,6 +24,7 @@ NORMAL_DIAMETER = Wording(
     shown=np.asarray,
     low="thin sheets and limbs",
     high="full bodies",
+    sought=(("slim slender plate narrow", "thick fat stout massive wide"),),
     ease=2,
     say=_say,
 )

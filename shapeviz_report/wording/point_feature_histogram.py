@@ -6,12 +6,15 @@ from shapeviz_report.wording.base import Said, Wording, amount, as_percent, span
 
 COUNT = 125
 
+MIDDLE = 2
+"""The fifth of an angle that is nothing special."""
+
 LEANS = (
-    ("leaning far to the left", "leans more than 37° to the left"),
-    ("leaning to the left", "leans 12 to 37° to the left"),
+    ("tilted far left", "leans more than 37° to the left"),
+    ("tilted left", "leans 12 to 37° to the left"),
     ("upright", "leans sideways by less than 12°"),
-    ("leaning to the right", "leans 12 to 37° to the right"),
-    ("leaning far to the right", "leans more than 37° to the right"),
+    ("tilted right", "leans 12 to 37° to the right"),
+    ("tilted far right", "leans more than 37° to the right"),
 )
 HEIGHTS = (
     ("far lower", "more than 37° below"),
@@ -35,15 +38,29 @@ def _fifths(dimension: int) -> tuple[int, int, int]:
     return dimension // 25, dimension // 5 % 5, dimension % 5
 
 
-def _name_pairs(dimension: int) -> str:
+def _name_pairs(dimension: int) -> list[str]:
+    """How the surface goes from one point of a pair to the other; what is nothing special is not said."""
     alpha, phi, theta = _fifths(dimension)
-    return f"{HEIGHTS[phi][0]}, {TURNS[theta][0]}, {LEANS[alpha][0]}"
+    special = [words[fifth][0] for fifth, words in ((phi, HEIGHTS), (alpha, LEANS)) if fifth != MIDDLE]
+    return [TURNS[theta][0], *special] if special or theta != MIDDLE else ["flat"]
+
+
+def _look_for(dimension: int) -> str:
+    """Words for patches that are mostly as a dimension counts."""
+    alpha, phi, theta = _fifths(dimension)
+    if alpha != MIDDLE:
+        return "twisted leaning"
+    if theta != MIDDLE:
+        return "round rounded convex edge" if theta > MIDDLE else "hollow concave groove"
+    return "even smooth" if phi == MIDDLE else "step layers"
 
 
 def _say(dimension: int, low: float | None, high: float | None) -> Said:
-    pairs = _name_pairs(dimension)
+    *first, last = _name_pairs(dimension)
+    pairs = f"{', '.join(first)} and {last}" if first else last
     return Said(
-        f"{pairs}: {span(low, high, '%')}", f"has {amount(low, high)} its nearby pairs of points {pairs}"
+        f"patch {', '.join((*first, last))}: {span(low, high, '%')}",
+        f"has {amount(low, high)} the patch around it {pairs}",
     )
 
 
@@ -58,12 +75,15 @@ def _word_cell(dimension: int) -> str:
 
 POINT_FEATURE_HISTOGRAM = Wording(
     aspect="fine bends",
-    topics=tuple(f"share of nearby pairs of points {_name_pairs(dimension)}" for dimension in range(COUNT)),
+    topics=tuple(
+        f"share of a small patch that is {', '.join(_name_pairs(dimension))}" for dimension in range(COUNT)
+    ),
     quantities=tuple(_word_cell(dimension) for dimension in range(COUNT)),
     unit="%",
     shown=as_percent,
     low="patches with few such pairs",
     high="patches with many such pairs",
+    sought=tuple(("", _look_for(dimension)) for dimension in range(COUNT)),
     ease=1,
     say=_say,
 )

@@ -41,13 +41,14 @@ def _word_part(dimension: int) -> str:
 
 
 SHAPE_CONTEXT = Wording(
-    aspect="what lies around a point",
+    aspect="surroundings",
     topics=tuple("share of the shape {} {}, {}".format(*_place(dimension)) for dimension in range(COUNT)),
     quantities=tuple(_word_part(dimension) for dimension in range(COUNT)),
     unit="%",
     shown=as_percent,
     low="points with little of the shape in that part of their surroundings",
     high="points with much of the shape in that part of their surroundings",
+    sought=(("empty free", "crowded enclosed"),) * COUNT,
     ease=1.5,
     say=_say,
 )

@@ -150,6 +150,7 @@ declare namespace Chunk {
   interface Side {
     clause: string;
     trend: string;
+    fewer: boolean;
   }
   /** What lies below and above each inner edge of a histogram, whose first column is `start`. */
   interface Sides {
@@ -273,13 +274,14 @@ declare namespace Chunk {
     y: number[][];
     hit: number[][];
   }
-  /** What a feature is. */
+  /** What a feature is; `sought` are other words for small and for large values of each dimension. */
   interface FeatureWords {
     title: string;
     aspect: string;
     measures: string;
     lowMeans: string;
     highMeans: string;
+    sought: ([string, string])[];
     ease: number;
   }
   /** A feature: its columns, its words, and between which values the chunk "bins" is cut into steps. */
@@ -289,6 +291,7 @@ declare namespace Chunk {
     measures: string;
     lowMeans: string;
     highMeans: string;
+    sought: ([string, string])[];
     ease: number;
     name: string;
     start: number;

@@ -208,7 +208,7 @@ class TestTwoGroups:
         compared(page)
         assert "a=class:kind e&b=rest" in address(page)
         assert "kind e" in title(page)
-        assert "the rest" in title(page)
+        assert "the other shapes" in title(page)
         assert page.locator("#head-b b").inner_text() == "64 shapes"
         assert "no others that they could be alike against" in page.locator("#shared-words").inner_text()
         # The name of a shape ends with its number.
@@ -245,8 +245,15 @@ class TestTwoGroups:
         assert page.locator("#result").is_hidden()
         page.select_option("#group-a", label="kind a (16)")
         compared(page)
-        # Two equal groups are no question: the other one becomes the rest.
-        eventually(page, lambda: "the rest" in title(page))
+        # Two equal groups are no question: the other one becomes all other shapes, and that is said.
+        eventually(page, lambda: "the other shapes" in title(page))
+        assert "as kind a was on both sides" in page.locator("#common").inner_text()
+        page.select_option("#group-b", label="kind b (16)")
+        eventually(page, lambda: "kind b" in title(page))
+        assert page.locator("#common").inner_text() == ""
+        # An address may hold what the lists do not.
+        page.evaluate("(hash) => { location.hash = hash; }", "a=class:kind a&b=class:kind a")
+        eventually(page, lambda: "Both sides are kind a" in page.locator("#status").inner_text())
 
     def test_all_bins_are_in_the_tables(self, compare):
         page = compare()
@@ -454,7 +461,7 @@ class TestStates:
         ("name", "groups", "outliers", "classes"),
         [
             ("one shape", "nothing to compare it with", "one class", "one class"),
-            ("one class", "there is no rest", "one class", "one class"),
+            ("one class", "there are no others", "one class", "one class"),
             ("no labels", "has no labels", "has no labels", "has no labels"),
         ],
     )

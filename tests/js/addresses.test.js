@@ -169,9 +169,11 @@ const PAGES = {
   compare: [
     comparePageAddress(database, spaces, neighbours),
     [
-      "a=class%3Abee&b=class%3Acup+%26+plate",
+      "",
+      "a=class%3Acup+%26+plate&b=class%3Abee",
+      "select=bee%2F1",
       "view=outliers&a=shapes&a-select=ant%2F1&b=rest&bin=Gc%3A3&reading=inside&of=ant&by=tsne",
-      "view=classes&a=cluster%3Aone%3Atwo&b=search%3Aa+%26+b&row=ant&column=bee&select=lost",
+      "select=lost&view=classes&a=cluster%3Aone%3Atwo&b=search%3Aa+%26+b&row=ant&column=bee",
     ],
   ],
   workbench: [
@@ -256,6 +258,19 @@ test("an unlabelled database has no classes to be coloured by, to keep to or to 
       assert.equal(address.write(new Map(Object.entries(address.read(new URLSearchParams(query))))).toString(), usual);
   }
   assert.equal(overviewAddress(bare).read(new URLSearchParams("hide-unlabelled=")).hidden.size, 0);
+});
+
+test("two groups go along through another page; those that follow from the selection follow the next one", () => {
+  const [[compare], [overview]] = [PAGES.compare, PAGES.overview];
+  /** @param {string} query */
+  const through = (query) => {
+    const written = compare.write(new Map(Object.entries(compare.read(new URLSearchParams(query)))));
+    return overview.passing(new URLSearchParams(commonTo(written))).map(([name]) => name);
+  };
+  assert.deepEqual(through("a=class:ant&b=shapes&b-select=bee/1&b-select=lost"), ["a", "b", "b-select", "b-select"]);
+  assert.deepEqual(through("select=bee/1"), []);
+  assert.deepEqual(through("select=bee/1&a=class:bee&b=class:cup %26 plate"), ["a", "b"]);
+  assert.deepEqual(through(""), []);
 });
 
 test("bins of features that are not in use are none", () => {

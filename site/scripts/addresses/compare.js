@@ -46,6 +46,7 @@ const READINGS = ["value", "inside", "apart"];
 export function comparePageAddress(database, data, neighbours) {
   const ofClass = named(database.classes);
   return new Address([
+    selected(database),
     { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true, words: "the view" },
     { names: ["a", "b"], ...twoGroups(database, neighbours), place: true, words: "the two groups" },
     { name: "bin", key: "bin", kind: text, standard: null, place: true, words: "the bin" },
@@ -54,7 +55,6 @@ export function comparePageAddress(database, data, neighbours) {
     { name: "row", key: "row", kind: ofClass, standard: null, place: true, often: true },
     { name: "column", key: "column", kind: ofClass, standard: null, place: true, often: true },
     { name: "space", key: "by", kind: choice(data.spaces), standard: data.spaces[0], place: true },
-    selected(database),
   ]);
 }
 
@@ -72,26 +72,40 @@ export function compareAddress(database, a, b) {
 }
 
 /**
+ * The groups go along to other pages and back. Those that the page opens with anyway are not written, so that another
+ * selection, made meanwhile, is what it opens with then.
  * @param {Database} database
  * @param {Likest} neighbours
  * @returns {Ways}
  */
 function twoGroups(database, neighbours) {
+  /** @param {URLSearchParams} query */
+  const read = (query) => {
+    let a = readGroup(query, database, "a");
+    const b = readGroup(query, database, "b");
+    if (a === null && !query.has("a")) {
+      // The selection that came along from another page.
+      const shapes = readSelection(query, database);
+      if (shapes.size > 0) a = { kind: "shapes", shapes };
+    }
+    return a === null && b === null ? firstGroups(database, neighbours) : { a, b: b ?? { kind: "rest" } };
+  };
+  /** @param {{ a: GroupSpec | null, b: GroupSpec | null }} groups */
+  const written = ({ a, b }) => {
+    const query = new URLSearchParams();
+    if (a === null || b === null) return query;
+    writeGroup(query, database, "a", a);
+    writeGroup(query, database, "b", b);
+    return query;
+  };
   return {
-    read(query) {
-      let a = readGroup(query, database, "a");
-      const b = readGroup(query, database, "b");
-      if (a === null && !query.has("a")) {
-        // The selection that came along from another page.
-        const shapes = readSelection(query, database);
-        if (shapes.size > 0) a = { kind: "shapes", shapes };
-      }
-      return a === null && b === null ? firstGroups(database, neighbours) : { a, b: b ?? { kind: "rest" } };
-    },
-    write(query, { a, b }) {
-      if (a === null || b === null) return;
-      writeGroup(query, database, "a", a);
-      writeGroup(query, database, "b", b);
+    keys: /^[ab](-select(ed)?)?$/,
+    read,
+    write(query, groups) {
+      const own = written(groups);
+      // The selection stands in the address already.
+      if (own.toString() === written(read(query)).toString()) return;
+      for (const [name, value] of own) query.append(name, value);
     },
   };
 }

@@ -4,7 +4,7 @@ import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
 import { percent, percents } from "../base/words.js";
-import { binName, exactly, inWords } from "./bin-name.js";
+import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 
 /** @import { State } from "../base/state.js" */
@@ -39,7 +39,7 @@ export class Look {
     });
     new Finder("bin-search", "bin-found", {
       find: (text) => bins.find(text),
-      label: (column) => [hue(bins, column), element("bdi", {}, bins.names[column]), ...inWords(bins, column)],
+      label: (column) => binName(bins, column),
       choose: (column) => state.set({ bin: column, group: null }),
     });
     state.listen((changed) => {
@@ -274,16 +274,6 @@ export function shapeLine(database, bins, column, shape) {
       bins.isShare(column) ? `${percent(value)} in the bin` : String(Number(value.toPrecision(3))),
     ),
   ].filter(Boolean);
-}
-
-/**
- * @param {Bins} bins
- * @param {number} column
- */
-function hue(bins, column) {
-  const mark = element("i", { class: "hued" });
-  mark.style.background = bins.color(column);
-  return mark;
 }
 
 /** @param {string} text */

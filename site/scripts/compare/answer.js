@@ -4,7 +4,7 @@ import { element } from "../base/dom.js";
 import { count, percent, percents } from "../base/words.js";
 import { worth } from "./contrasts.js";
 import { mean } from "./distribution.js";
-import { binCount, called, share, statement } from "./words.js";
+import { binCount, called, inBoth, moreOf, share, statement } from "./words.js";
 
 /** @import { Contrast } from "./contrasts.js" */
 /** @import { Group } from "./groups.js" */
@@ -134,6 +134,7 @@ function plainest(contrast, a, b, data) {
   const much =
     first !== undefined &&
     bins.ease(first) === 1 &&
+    contrast.gap(first) >= SEEN &&
     worth(contrast.difference[first], 1) > (sides.length > 0 ? telling(sides[0]) : 0);
   return [
     ...(much ? [statement(first, contrast, a, b, data)] : []),
@@ -182,8 +183,8 @@ function bestSide({ bins, sample }, { start, below, above }) {
     const spread = Math.sqrt(
       (squares(sums.a, means.a) + squares(sums.b, means.b)) / Math.max(sample.a.length + sample.b.length - 2, 1),
     );
-    // The smaller side of the two says more.
-    const upper = means.a + means.b > 1;
+    // The side says more of which there is more, else the smaller one.
+    const upper = below[edge].fewer || (!above[edge].fewer && means.a + means.b > 1);
     const side = {
       size: Math.abs(means.a - means.b) / Math.max(spread, 0.01),
       means: upper ? { a: 1 - means.a, b: 1 - means.b } : means,
@@ -202,21 +203,9 @@ function bestSide({ bins, sample }, { start, below, above }) {
  * @param {Group} b
  * @param {Chunk.Comparison} data
  */
-function sentence({ means, side: { clause, trend } }, a, b, data) {
+function sentence({ means, side }, a, b, data) {
   const [more, less] = means.a > means.b ? [a, b] : [b, a];
-  const [most, least] = percents(means[more.side], means[less.side]);
-  return [
-    "In ",
-    called(more),
-    ", ",
-    trend === "" ? "" : `${trend}: `,
-    element("b", {}, most),
-    ` of ${data.whole} ${clause}; in `,
-    called(less),
-    ", ",
-    element("b", {}, least),
-    ".",
-  ];
+  return moreOf(side, more, less, percents(means[more.side], means[less.side]), data);
 }
 
 /**
@@ -244,17 +233,7 @@ function inCommon(contrast, a, b, data) {
     return Math.min(Math.abs(first - others), Math.abs(second - others)) >= SEEN;
   });
   if (column === undefined) return null;
-  const [first, second, others] = means(column);
-  const told = percents(first, second, others);
-  return [
-    "In both, compared with other shapes, ",
-    element("b", {}, first > others ? "more" : "less"),
-    ` of ${data.whole} ${data.clauses[column]}: `,
-    called(a),
-    ` ${told[0]}, `,
-    called(b),
-    ` ${told[1]}, the others ${told[2]}.`,
-  ];
+  return inBoth(column, means(column), { a, b, bins, data });
 }
 
 /** @param {Contrast} contrast */
@@ -277,10 +256,10 @@ export function kinship(a, b, neighbours) {
   return [
     "Of the ",
     count(neighbours.k, "shape"),
-    " most like one of ",
+    " most like a shape of ",
     called(a),
     `, ${percent(there)} on average are of `,
     called(b),
-    `; the other way round it is ${percent(back)}.`,
+    `; the other way round, ${percent(back)}.`,
   ];
 }

@@ -1,10 +1,9 @@
 // Bins as cards: what it says in a sentence, and how much of it both groups have.
 
 import { element } from "../base/dom.js";
-import { percents } from "../base/words.js";
 import { exactly, inWords } from "../bins-kit/bin-name.js";
 import { distribution, mean } from "./distribution.js";
-import { called, meaning, numbers, pairs, statement } from "./words.js";
+import { inBoth, meaning, pairs, statement } from "./words.js";
 
 /** @import { Contrast } from "./contrasts.js" */
 /** @import { View } from "./groups-view.js" */
@@ -55,41 +54,11 @@ export function binCard(column, view, { shared = false } = {}) {
         inWords(bins, column),
       ),
     ),
-    element("p", { class: "says" }, shared ? common(column, view, means) : statement(column, contrast, a, b, data)),
+    element("p", { class: "says" }, shared ? inBoth(column, means, view) : statement(column, contrast, a, b, data)),
     distribution(rows, share),
     !shared && element("p", { class: "quiet" }, ahead(column, contrast, a, b)),
     exactly(bins, column, meaning(column, bins)),
   );
-}
-
-/**
- * What two groups have in common against the rest.
- * @param {number} column
- * @param {View} view
- * @param {number[]} means
- */
-function common(column, { a, b, bins, data, rest }, means) {
-  const [first, second, others] = means;
-  const told = (bins.isShare(column) ? percents : numbers)(first, second, others);
-  const more = (first + second) / 2 > others;
-  const figures = [called(a), ` ${told[0]}, `, called(b), ` ${told[1]}, `, called(rest), ` ${told[2]}`];
-  if (!bins.isShare(column))
-    return [
-      "In ",
-      called(a),
-      " and ",
-      called(b),
-      ", ",
-      element("bdi", {}, bins.names[column]),
-      ` is ${more ? "higher" : "lower"} than in other shapes: `,
-      ...figures,
-      ".",
-    ];
-  return [
-    `In both, compared with other shapes, ${more ? "more" : "less"} of ${data.whole} ${data.clauses[column]}: `,
-    ...figures,
-    ".",
-  ];
 }
 
 /**
@@ -101,12 +70,9 @@ function common(column, { a, b, bins, data, rest }, means) {
  */
 function ahead(column, contrast, a, b) {
   const share = contrast.ahead(column);
-  const [more, less] = share >= 0.5 ? [a, b] : [b, a];
   return [
-    "A shape of ",
-    element("bdi", {}, more.name),
-    ` has more of it than one of `,
-    element("bdi", {}, less.name),
-    ` ${pairs(Math.max(share, 1 - share))}.`,
+    "Taken two by two, the one of ",
+    element("bdi", {}, (share >= 0.5 ? a : b).name),
+    ` has more of it ${pairs(Math.max(share, 1 - share))}.`,
   ];
 }

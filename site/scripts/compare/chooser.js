@@ -79,9 +79,24 @@ export class Chooser {
     /** @type {Partial<Record<Side, GroupSpec | null>>} */
     const patch = { [side]: spec };
     // Two rests are no question; the other side has then to be chosen anew.
-    if (spec !== null && isSame(spec, this.state.get(other)))
+    if (spec !== null && isSame(spec, this.state.get(other))) {
       patch[other] = spec.kind === "rest" ? null : { kind: "rest" };
+      this.#moved = patch[other];
+    }
     this.state.set(patch);
+  }
+
+  /** What became of a side for whose group the other side was chosen. */
+  /** @type {GroupSpec | null} */
+  #moved = null;
+
+  /** Why a side is another than the reader chose, in words; empty where it is not. */
+  get moved() {
+    const { state } = this;
+    const side = SIDES.find((own) => this.#moved !== null && state.get(own) === this.#moved);
+    if (side === undefined) return "";
+    const name = nameOf(/** @type {GroupSpec} */ (state.get(side === "a" ? "b" : "a")), this.database);
+    return `Nothing can be compared with itself: as ${name} was on both sides, it is now compared with all other shapes.`;
   }
 
   render() {

@@ -23,7 +23,7 @@ const SEED = 0;
 /** A standardised difference of this size is told apart by the eye; larger ones are no clearer. */
 const NO_SPREAD = 50;
 
-/** Of the surface, a part by which both groups must differ from the others for anybody to see it. */
+/** Of the surface, a part by which groups must differ for anybody to see it. */
 const SEEN = 0.01;
 
 /** Means so many standard deviations apart tell 98 of 100 pairs of shapes apart: larger differences say no more. */
@@ -136,9 +136,13 @@ export class Contrast {
     this.ranked = [...this.difference.keys()].filter((column) => apart.effect[column] !== 0);
     this.ranked.sort((one, other) => Math.abs(apart.effect[other]) - Math.abs(apart.effect[one]) || one - other);
     this.beyond = this.ranked.filter((column) => this.isBeyond(column));
+    const [shown, seen] = [this.beyond, this.ranked.filter((column) => this.gap(column) >= SEEN)].map(
+      (columns) => new Set(columns),
+    );
     this.told = [...this.ranked].sort(
       (one, other) =>
-        Number(this.isBeyond(other)) - Number(this.isBeyond(one)) ||
+        Number(shown.has(other)) - Number(shown.has(one)) ||
+        Number(seen.has(other)) - Number(seen.has(one)) ||
         worth(this.difference[other], bins.ease(other)) - worth(this.difference[one], bins.ease(one)) ||
         Math.abs(this.difference[other]) - Math.abs(this.difference[one]),
     );
@@ -186,6 +190,8 @@ export class Contrast {
           own[column] * others[column] > 0 &&
           !this.isBeyond(column) &&
           clear(column) > 0 &&
+          // To have less of "hardly any" is to have more of something else, which other bins say plainly.
+          (own[column] > 0 || bins.binOf(column) > 0 || bins.features[bins.featureOf(column)].dimensions === 1) &&
           this.#isSeen(column),
       )
       .sort(
@@ -197,16 +203,33 @@ export class Contrast {
   }
 
   /**
+   * By how much of the surface the two groups differ in a bin, on average; of a feature that is no share, by all there is.
+   * @param {number} column
+   */
+  gap(column) {
+    const { a, b } = this.sample;
+    return this.#apart(column, a, b);
+  }
+
+  /**
    * Whether both groups have so much more of a bin than the other shapes, or less, that it shows.
    * @param {number} column
    */
   #isSeen(column) {
-    const { bins, sample } = this;
-    if (!bins.isShare(column)) return true;
-    const [a, b, rest] = [sample.a, sample.b, sample.rest].map((rows) =>
-      mean(rows.map((row) => bins.share(column, row))),
-    );
-    return Math.min(Math.abs(a - rest), Math.abs(b - rest)) >= SEEN;
+    const { a, b, rest } = this.sample;
+    return Math.min(this.#apart(column, a, rest), this.#apart(column, b, rest)) >= SEEN;
+  }
+
+  /**
+   * @param {number} column
+   * @param {number[]} rows
+   * @param {number[]} others
+   */
+  #apart(column, rows, others) {
+    const { bins } = this;
+    if (!bins.isShare(column)) return 1;
+    const [own, other] = [rows, others].map((shapes) => mean(shapes.map((row) => bins.share(column, row))));
+    return Math.abs(own - other);
   }
 
   /**

@@ -13,7 +13,7 @@ import { binCard } from "./bin-cards.js";
 import { Chooser } from "./chooser.js";
 import { Contrasts, MOST_COMPARED, varied } from "./contrasts.js";
 import { featureRows } from "./feature-rows.js";
-import { Groups } from "./groups.js";
+import { Groups, isSame } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
 import { called } from "./words.js";
 
@@ -121,10 +121,13 @@ export class GroupsView {
             " and choose “Compare with the rest” there.",
           ];
     }
+    if (isSame(a.spec, b.spec))
+      return ["Both sides are ", called(a), ": choose another group on one of them, or all other shapes."];
     for (const group of [a, b]) {
       if (group.shapes.length > 0) continue;
       if (group.spec.kind === "search") return ["No shape is found by ", called(group), ": try another word."];
-      if (group.spec.kind === "rest") return ["All shapes are in ", called(group === a ? b : a), ": there is no rest."];
+      if (group.spec.kind === "rest")
+        return ["All shapes are in ", called(group === a ? b : a), ": there are no others."];
       return ["There is no shape in ", called(group), " that the other group does not have."];
     }
     if (a.shapes.length + b.shapes.length < 3)
@@ -177,7 +180,7 @@ export class GroupsView {
     document.getElementById("common").textContent =
       common > 0
         ? `${count(common, "shape")} would be in both groups; the smaller one keeps ${common === 1 ? "it" : "them"}.`
-        : "";
+        : this.chooser.moved;
   }
 
   /** @param {Standing} standing */
@@ -212,7 +215,7 @@ export class GroupsView {
     const named = bins.names.indexOf(this.state.get("bin") ?? "");
     const best = contrast.told[0] ?? 0;
     /** @type {View["rest"]} */
-    const rest = { side: "rest", name: "the rest", color: () => "var(--quiet)", mark: () => null };
+    const rest = { side: "rest", name: "the others", color: () => "var(--quiet)", mark: () => null };
     /** @param {number} column */
     const look = (column) => this.state.set({ bin: bins.names[column] });
     this.view = {

@@ -137,7 +137,7 @@ export function nameOf(spec, database, other = null) {
   if (spec.kind === "class") return shortened(database.className(spec.group), LONGEST);
   if (spec.kind === "cluster") return shortened(spec.name, LONGEST);
   if (spec.kind === "search") return `“${shortened(spec.text, LONGEST)}”`;
-  if (spec.kind === "rest") return "the rest";
+  if (spec.kind === "rest") return "the other shapes";
   if (spec.shapes.size === 1) return shortened(database.names[[...spec.shapes][0]], LONGEST);
   return other?.kind === "shapes" ? `${spec.shapes.size} selected shapes` : "the selected shapes";
 }

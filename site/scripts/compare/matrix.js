@@ -284,7 +284,7 @@ export class Matrix {
                 element("b", {}, `${pairs.length} of ${count(database.sizes.get(row) ?? 0, "shape")}`),
                 ` of `,
                 element("bdi", {}, database.className(row)),
-                ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? "of their own class" : "of "}`,
+                ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? `of ${pairs.length === 1 ? "its" : "their"} own class` : "of "}`,
                 !own && element("bdi", {}, database.className(column)),
                 ": ",
                 `${percents(this.share(row, column))} of all their neighbours.`,

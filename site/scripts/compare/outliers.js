@@ -160,7 +160,7 @@ export class Outliers {
           {},
           fit < 0
             ? ["Closer to ", name(database, rival), " than to its own class."]
-            : ["Of its own class, but next to ", name(database, rival), "."],
+            : ["Closest to its own class, with ", name(database, rival), " next."],
         ),
         element(
           "p",
@@ -312,11 +312,11 @@ export class Outliers {
         "p",
         {},
         words,
-        "; in ",
+        `, against ${usual} on average in `,
         element("bdi", {}, database.className(group)),
-        `, ${usual} on average; in `,
+        ` and ${toldAs(share)(means[1])} in `,
         element("bdi", {}, database.className(other)),
-        `, ${toldAs(share)(means[1])}.`,
+        ".",
       ),
       distribution(rows, share),
       element("p", { class: "quiet" }, hue, element("bdi", {}, bins.shortName(column, 18)), inWords(bins, column)),

@@ -33,10 +33,71 @@ export function statement(column, contrast, a, b, data) {
   const means = { a: mean(values.a), b: mean(values.b) };
   const [more, less] = contrast.difference[column] > 0 ? [a, b] : [b, a];
   const told = (bins.isShare(column) ? percents : numbers)(means[more.side], means[less.side]);
-  const figures = [element("b", {}, told[0]), "; in ", called(less), ", ", element("b", {}, told[1]), "."];
+  return bins.isShare(column)
+    ? moreOf({ clause: /** @type {string} */ (data.clauses[column]), trend: "", fewer: false }, more, less, told, data)
+    : [
+        element("bdi", {}, bins.names[column]),
+        " is higher in ",
+        called(more),
+        " than in ",
+        called(less),
+        ...against(told),
+      ];
+}
+
+/**
+ * That the surface of one group does something more than that of another: what a stranger sees of it, and how much.
+ * @param {Chunk.Side} side
+ * @param {Group} more
+ * @param {Group} less
+ * @param {string[]} told how much of each
+ * @param {Chunk.Comparison} data
+ */
+export function moreOf({ clause, trend }, more, less, [most, least], { whole }) {
+  if (trend === "")
+    return [`More of ${whole} of `, called(more), " than of ", called(less), ` ${clause}`, ...against([most, least])];
+  return [
+    `${trend[0].toUpperCase()}${trend.slice(1)} in `,
+    called(more),
+    " than in ",
+    called(less),
+    ": ",
+    element("b", {}, most),
+    ` of ${whole} ${clause}, against `,
+    element("b", {}, least),
+    ".",
+  ];
+}
+
+/** @param {string[]} told */
+function against([most, least]) {
+  return [": ", element("b", {}, most), ", against ", element("b", {}, least), "."];
+}
+
+/**
+ * What both groups have more of than the other shapes, or less.
+ * @param {number} column
+ * @param {number[]} means of the first group, of the second, and of the others
+ * @param {{ a: Group, b: Group, bins: Bins, data: Chunk.Comparison }} compared
+ */
+export function inBoth(column, means, { a, b, bins, data }) {
+  const [first, second, others] = (bins.isShare(column) ? percents : numbers)(...means);
+  const more = (means[0] + means[1]) / 2 > means[2];
+  const figures = [
+    ...(first === second ? [`both ${first}`] : [called(a), ` ${first}, `, called(b), ` ${second}`]),
+    `, the others ${others}.`,
+  ];
   if (!bins.isShare(column))
-    return ["In ", called(more), ", ", element("bdi", {}, bins.names[column]), " is higher: ", ...figures];
-  return ["In ", called(more), `, more of ${data.whole} ${data.clauses[column]}: `, ...figures];
+    return [
+      element("bdi", {}, bins.names[column]),
+      ` is ${more ? "higher" : "lower"} in both than in other shapes: `,
+      ...figures,
+    ];
+  return [
+    element("b", {}, more ? "More" : "Less"),
+    ` of ${data.whole} of both than of other shapes ${data.clauses[column]}: `,
+    ...figures,
+  ];
 }
 
 /**

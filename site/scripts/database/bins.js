@@ -2,8 +2,12 @@
 
 import { currentTheme } from "../base/theme.js";
 import { shortened } from "../base/words.js";
+import { BinWords } from "./bin-words.js";
 
 const STEPS = 65535;
+
+/** What stands in names of bins and in no words. */
+const OF_NAMES = /[[\]:]/;
 
 export class Bins {
   /**
@@ -125,36 +129,42 @@ export class Bins {
   }
 
   /**
-   * The columns that a text names, rising: one name, or the beginning of several (`FPFH[14]:3`, `agd`, `PFH[2`), else
-   * a part of names or of a feature's title; else all that several such texts name, with spaces or commas between.
+   * The columns that a text means: one name, or the beginning of several (`FPFH[14]:3`, `agd`, `PFH[2`), rising; else
+   * what says it in words ("thick", "saddle"), best first; else all that several names name, with spaces or commas
+   * between.
    * @param {string} text
    * @returns {number[]}
    */
   find(text) {
     const wanted = text.trim().toLowerCase();
     if (wanted === "") return [];
-    const found = this.#named(wanted);
-    if (found.length > 0) return found;
-    const parts = wanted.split(/[\s,;]+/).filter(Boolean);
-    if (parts.length < 2) return [];
-    return [...new Set(parts.flatMap((part) => this.#named(part)))].sort((a, b) => a - b);
+    const named = this.#named(wanted);
+    if (named.length > 0) return named;
+    const found = new Set(this.#where((name) => name.includes(wanted)));
+    if (!OF_NAMES.test(wanted)) {
+      this.#words ??= new BinWords(this);
+      for (const column of this.#words.find(wanted)) found.add(column);
+    }
+    if (found.size > 0) return [...found];
+    const names = wanted.split(/[\s,;]+/).filter(Boolean);
+    return [...new Set(names.flatMap((name) => this.#named(name)))].sort((a, b) => a - b);
   }
 
   /** @type {string[] | null} */
   #searched = null;
+  /** @type {BinWords | null} */
+  #words = null;
 
   /** @param {string} wanted */
   #named(wanted) {
+    const exact = this.#where((name) => name === wanted);
+    return exact.length > 0 ? exact : this.#where((name) => name.startsWith(wanted));
+  }
+
+  /** @param {(name: string) => boolean} holds */
+  #where(holds) {
     this.#searched ??= this.names.map((name) => name.toLowerCase());
-    const searched = this.#searched;
-    const exact = searched.indexOf(wanted);
-    if (exact >= 0) return [exact];
-    /** @param {(name: string, column: number) => boolean} holds */
-    const where = (holds) => searched.flatMap((name, column) => (holds(name, column) ? [column] : []));
-    const begun = where((name) => name.startsWith(wanted));
-    if (begun.length > 0) return begun;
-    const titled = this.features.map(({ title }) => title.toLowerCase().includes(wanted));
-    return where((name, column) => name.includes(wanted) || titled[this.#featureOf[column]]);
+    return this.#searched.flatMap((name, column) => (holds(name) ? [column] : []));
   }
 
   /**

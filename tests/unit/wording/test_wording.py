@@ -34,6 +34,8 @@ def test_every_descriptor_has_its_words(descriptor) -> None:
     wording = WORDINGS[descriptor.name]
     for texts in (wording.topics, wording.quantities):
         assert len(texts) == len(set(texts)) == descriptor.dimensions, "different words, one a dimension"
+    assert " and " not in wording.aspect, "two aspects are joined by an and"
+    assert len(wording.sought) == descriptor.dimensions
     for words in (wording.aspect, *wording.topics, *wording.quantities, wording.low, wording.high):
         assert words
         assert not words.endswith("."), f"{words!r} stands within a sentence"
@@ -71,15 +73,19 @@ class TestPlain:
         assert PLAIN["Gc:5"].name == "flat, −0.57 to 0.57°"
         assert PLAIN["Gc:1"].name == "saddle over 4°"
         assert PLAIN["Sc[12]:4"].clause == "has 5.8 to 10 % of the shape some way in front of it, outwards"
-        assert PLAIN["FPFH[14]:3"].name == "16 to 27° lower: 4 to 9 %"
+        assert PLAIN["FPFH[14]:3"].name == "around it falling off by 16 to 27°: 4 to 9 %"
+        assert PLAIN["PFH[62]:10"].name == "patch flat: over 52 %"
+        assert PLAIN["PFH[48]:4"].clause == (
+            "has 5.8 to 10 % of the patch around it bent outwards, far higher and tilted left"
+        )
 
     def test_no_trend_says_more_than_its_range(self) -> None:
         by_name = {dimension.block.name: dimension for dimension in dimensions_of(TABLE, fixed_edges())}
-        assert by_name["Na"].say(53.0, None).trend == "there is more that faces the two ends"
+        assert by_name["Na"].say(53.0, None).trend == "more surface faces the two ends"
         # What turns by a few degrees faces no end.
-        assert by_name["Na"].say(12.0, None).trend == "there is less that runs lengthways"
-        assert by_name["Pa"].say(None, 53.0).trend == "there is less towards the two ends"
-        assert by_name["Agd"].say(None, 0.8).trend == "there is more near the middle of the shape"
+        assert by_name["Na"].say(12.0, None).trend == "less surface runs lengthways"
+        assert by_name["Pa"].say(None, 53.0).trend == "less surface lies towards the two ends"
+        assert by_name["Agd"].say(None, 0.8).trend == "more surface lies near the middle of the shape"
 
     def test_vertices_are_many_and_their_verbs_are_too(self) -> None:
         said = say_bins(TABLE, fixed_edges(), by_area=False)
