@@ -36,9 +36,9 @@ DIGITS = 6
 #: What is measured of every mesh: key, title, unit.
 _FACTS: tuple[tuple[str, str, str, Callable[[ShapeFacts], float | None]], ...] = (
     ("faces", "Faces", "", lambda facts: facts.faces_read),
-    ("area", "Area", "file’s units²", lambda facts: facts.area),
-    ("volume", "Volume", "file’s units³", lambda facts: facts.volume),
-    ("side", "Longest side", "file’s units", lambda facts: max(facts.extents)),
+    ("area", "Area", "file’s units²", lambda facts: facts.area),
+    ("volume", "Volume", "file’s units³", lambda facts: facts.volume),
+    ("side", "Longest side", "file’s units", lambda facts: max(facts.extents)),
     ("parts", "Parts", "", lambda facts: facts.components),
 )
 

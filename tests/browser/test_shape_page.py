@@ -8,7 +8,7 @@ from urllib.parse import parse_qs
 import numpy as np
 import pytest
 from PIL import Image
-from reports import make_report, with_external
+from reports import make_report, with_copies, with_external
 from similar_cases import similar_cases
 from waiting import drawn_again, eventually
 
@@ -458,6 +458,33 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
 def seen(page) -> np.ndarray:
     picture = Image.open(io.BytesIO(page.locator("#stage canvas").screenshot()))
     return np.asarray(picture.convert("RGB"), dtype=float)[6:-6, 6:-6]
+
+
+def test_a_copy_is_called_one(shape, tmp_path):
+    report = with_copies(make_report(["ant", "bird"], 6), [(0, 3), (0, 4)])
+    # The first copy has the same features to the last digit, the other nearly so.
+    report.features.values[3] = report.features.values[0]
+    write_site(report, tmp_path / "site")
+    page = shape(address=f"{(tmp_path / 'site').as_uri()}/shape.html#id={report.shapes[0].id}")
+    cards = {card.locator(".name").inner_text(): card for card in page.locator(".similar").all()}
+    same, other, stranger = (cards[report.shapes[row].name] for row in (3, 4, 5))
+    assert "A copy of this shape: identical geometry, mirrored." in same.inner_text()
+    # Nothing tells the two apart, so nothing is offered to see.
+    assert same.locator("button, .alike").count() == 0
+    assert "distance" not in same.inner_text()
+    assert "A copy of this shape" in other.inner_text()
+    assert other.locator("button, .alike").count() == 2
+    assert "copy" not in stranger.inner_text()
+    other.locator("button").click()
+    eventually(page, lambda: "is a copy of" in page.locator("#beside-words").inner_text())
+    assert page.locator("#beside-title").inner_text().startswith("Where ")
+    page.evaluate(
+        "(id) => { location.hash = `id=${id[0]}&beside=${id[1]}`; }",
+        [report.shapes[0].id, report.shapes[3].id],
+    )
+    eventually(page, lambda: "Nothing that is compared" in page.locator("#beside-words").inner_text())
+    assert not page.locator("#beside-title").inner_text().startswith("Where ")
+    assert page.locator(".difference").count() == 0
 
 
 def test_where_two_shapes_differ_is_seen_on_both(shape):

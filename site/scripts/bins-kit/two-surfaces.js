@@ -60,7 +60,7 @@ export class TwoSurfaces {
     this.legend.hidden = true;
     const solids = await this.#solids(pair);
     if (latest !== this.latest) return;
-    const found = solids && densities(parts, this.bins, pair, solids, total);
+    const found = parts.length > 0 && solids && densities(parts, this.bins, pair, solids, total);
     const shown = await Promise.all(
       this.stages.map((stage, side) => {
         // Who asks where two shapes differ asks for their surfaces.

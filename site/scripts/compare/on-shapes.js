@@ -11,6 +11,7 @@ import { Legend } from "../bins-kit/legend.js";
 import { sumOf } from "../bins-kit/difference.js";
 import { Stage } from "../bins-kit/stage.js";
 import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
+import { copyEvidence } from "../database/facts.js";
 import { Similarity } from "../database/similarity.js";
 import { Paint } from "../viewer/paint.js";
 import { meaning } from "./words.js";
@@ -79,7 +80,7 @@ export class OnShapes {
     if (view !== this.view) return;
     this.stages ??= this.#makeStages(this.selection);
     this.check();
-    if (state.get("reading") === "apart") this.#apart(view);
+    if (state.get("reading") === "apart") await this.#apart(view);
     else this.#bin(view, this.selection);
   }
 
@@ -113,8 +114,11 @@ export class OnShapes {
    * Where the two shapes differ, in all features together.
    * @param {View} view
    */
-  #apart({ bins }) {
+  async #apart(view) {
     const { database, chosen } = this;
+    const { bins } = view;
+    const details = await chunk("details");
+    if (view !== this.view || this.state.get("reading") !== "apart") return;
     const selection = /** @type {Chunk.Selection} */ (this.selection);
     const stages = /** @type {Record<Side, Stage>} */ (this.stages);
     /** @type {[number, number]} */
@@ -127,9 +131,11 @@ export class OnShapes {
     });
     this.similarity ??= new Similarity(bins);
     const parts = this.similarity.differences(...pair, { features: [...bins.features.keys()] });
+    const evidence = copyEvidence(details, ...pair);
     document
       .getElementById("seen-bin")
       .replaceChildren(
+        evidence === null ? "" : `The two are copies of each other: ${evidence}. `,
         "All features together: what one of these two shapes has and the other lacks is coloured. ",
         element("a", { href: besideAddress(database, ...pair) }, "Feature by feature"),
       );

@@ -26,3 +26,13 @@ export function meshFacts({ facesRead, verticesRead, faces, vertices, deviation 
     ["off by", `${((deviation ?? 0) * 100).toFixed(3)} % of its diagonal at most`],
   ];
 }
+
+/**
+ * What says that two shapes are the same shape, if they are copies of each other.
+ * @param {Chunk.Details} details
+ * @param {number} shape
+ * @param {number} other
+ */
+export function copyEvidence({ shapes }, shape, other) {
+  return shapes[shape].copies.find(([copy]) => copy === other)?.[1] ?? null;
+}

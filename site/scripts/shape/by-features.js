@@ -47,7 +47,7 @@ export async function showFeatures(database, state, { links, portrait }) {
   const waiting = document.getElementById("waiting");
   waiting.textContent =
     database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
-  const [data, bytes, selection] = await chunks("workbench", "bins", "selection");
+  const [data, bytes, selection, details] = await chunks("workbench", "bins", "selection", "details");
   const bins = new Bins(data, bytes);
   const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, state);
   const histograms = new Histograms(database, bins, state, {
@@ -56,8 +56,9 @@ export async function showFeatures(database, state, { links, portrait }) {
     card: new ValueCard(bins, kind(database)),
   });
   const similarity = new Similarity(bins);
-  const similar = new SimilarShapes(database, bins, state, { links, comparison, similarity });
-  const beside = new SideBySide(database, bins, state, { links, comparison, similarity, selection });
+  const known = { database, bins, state, links, comparison, similarity, details };
+  const similar = new SimilarShapes(known);
+  const beside = new SideBySide(known, selection);
   waiting.hidden = true;
   section.removeAttribute("aria-busy");
   document.getElementById("featured").hidden = false;

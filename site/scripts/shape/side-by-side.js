@@ -5,32 +5,22 @@ import { figure, shortened } from "../base/words.js";
 import { byFeature, sumOf } from "../bins-kit/difference.js";
 import { Stage } from "../bins-kit/stage.js";
 import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
+import { copyEvidence } from "../database/facts.js";
+import { Comparing, isNone } from "./comparing.js";
 import { whole } from "./similar-shapes.js";
 
-/** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { FeaturePart } from "../bins-kit/difference.js" */
-/** @import { Bins } from "../database/bins.js" */
-/** @import { Database } from "../database/database.js" */
-/** @import { Similarity } from "../database/similarity.js" */
-/** @import { Comparison } from "./comparison.js" */
-/** @import { ShapeLinks } from "./links.js" */
 
 const LONGEST = 40;
 
-export class SideBySide {
+export class SideBySide extends Comparing {
   /**
-   * @param {Database} database
-   * @param {Bins} bins
-   * @param {ShapeState} state
-   * @param {{ links: ShapeLinks, comparison: Comparison, similarity: Similarity, selection: Chunk.Selection }} parts
+   * @param {ConstructorParameters<typeof Comparing>[0]} known
+   * @param {Chunk.Selection} selection
    */
-  constructor(database, bins, state, { links, comparison, similarity, selection }) {
-    this.database = database;
-    this.bins = bins;
-    this.state = state;
-    this.links = links;
-    this.comparison = comparison;
-    this.similarity = similarity;
+  constructor(known, selection) {
+    super(known);
+    const { database, bins, state } = known;
     this.section = document.getElementById("beside");
     this.features = document.getElementById("beside-features");
     /** @param {string} id */
@@ -67,11 +57,11 @@ export class SideBySide {
       for (const stage of this.surfaces.stages) stage.rest();
       return;
     }
-    const parts = this.similarity.differences(...pair, this.comparison.choice);
+    const parts = this.#parts(pair);
     const features = byFeature(parts, this.bins, pair);
     const within =
       features.find(({ feature }) => this.bins.features[feature].name === this.state.get("within")) ?? null;
-    this.#title(pair);
+    this.#title(pair, features.length > 0);
     this.#tell(pair, Math.sqrt(sumOf(parts)), within === null ? features : [within]);
     this.#list(features, within);
     this.surfaces.show(
@@ -81,22 +71,35 @@ export class SideBySide {
     );
   }
 
+  /**
+   * What the two differ in; nothing where their distance is none.
+   * @param {[number, number]} pair
+   */
+  #parts(pair) {
+    const parts = this.similarity.differences(...pair, this.comparison.choice);
+    return isNone(Math.sqrt(sumOf(parts))) ? [] : parts;
+  }
+
   /** Feature by feature, for the tables: `[name, share of the distance, on this shape, on the other]`. */
   rows() {
     const { pair, bins } = this;
     if (pair === null) return [];
-    const parts = this.similarity.differences(...pair, this.comparison.choice);
-    return byFeature(parts, bins, pair).map(({ feature, share, on, beside }) => [
+    return byFeature(this.#parts(pair), bins, pair).map(({ feature, share, on, beside }) => [
       bins.features[feature].name,
       whole(share),
       ...on.map((own) => (beside > 0 ? "–" : whole(own))),
     ]);
   }
 
-  /** @param {[number, number]} pair */
-  #title([own, other]) {
+  /**
+   * @param {[number, number]} pair
+   * @param {boolean} differ
+   */
+  #title([own, other], differ) {
     const title = document.getElementById("beside-title");
-    title.replaceChildren("Where ", this.#name(own), " and ", this.#name(other), " differ");
+    title.replaceChildren(
+      ...[differ && "Where ", this.#name(own), " and ", this.#name(other), differ && " differ"].filter(Boolean),
+    );
     for (const [place, row] of [own, other].entries())
       document
         .getElementById(["beside-own-name", "beside-other-name"][place])
@@ -115,14 +118,20 @@ export class SideBySide {
    */
   #tell([own, other], distance, told) {
     const words = document.getElementById("beside-words");
+    const evidence = copyEvidence(this.details, own, other);
+    const copy =
+      evidence === null
+        ? []
+        : [element("p", {}, this.#name(other), " is a copy of ", this.#name(own), `: ${evidence}.`)];
     if (told.length === 0) {
-      words.replaceChildren(element("p", {}, "Nothing that is compared tells the two apart."));
+      words.replaceChildren(...copy, element("p", {}, "Nothing that is compared tells the two apart."));
       return;
     }
     const [here, there] = [0, 1].map((side) => told.reduce((sum, { on }) => sum + on[side], 0));
     const nowhere = told.reduce((sum, { beside }) => sum + beside, 0);
     const one = told.length === 1 && this.bins.features[told[0].feature];
     words.replaceChildren(
+      ...copy,
       element(
         "p",
         {},

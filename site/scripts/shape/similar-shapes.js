@@ -5,16 +5,12 @@ import { element, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, shortened } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
+import { Comparing, isNone } from "./comparing.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";
 
 /** @import { Child } from "../base/dom.js" */
-/** @import { ShapeState } from "../addresses/shape.js" */
-/** @import { Bins } from "../database/bins.js" */
-/** @import { Database } from "../database/database.js" */
-/** @import { Choice, Similar, Similarity } from "../database/similarity.js" */
-/** @import { Comparison } from "./comparison.js" */
-/** @import { ShapeLinks } from "./links.js" */
+/** @import { Choice, Similar } from "../database/similarity.js" */
 
 /**
  * What can be compared, to choose from, and whether it is.
@@ -28,20 +24,11 @@ const MOST_NAMED = 4;
 /** Nearer than so many of all shapes, two are alike in a feature, even in the one in which they are so least. */
 const ALIKE = 0.9;
 
-export class SimilarShapes {
-  /**
-   * @param {Bins} bins
-   * @param {Database} database
-   * @param {ShapeState} state
-   * @param {{ links: ShapeLinks, comparison: Comparison, similarity: Similarity }} parts
-   */
-  constructor(database, bins, state, { links, comparison, similarity }) {
-    this.database = database;
-    this.bins = bins;
-    this.state = state;
-    this.links = links;
-    this.comparison = comparison;
-    this.similarity = similarity;
+export class SimilarShapes extends Comparing {
+  /** @param {ConstructorParameters<typeof Comparing>[0]} known */
+  constructor(known) {
+    super(known);
+    const { state } = known;
     this.section = document.getElementById("similar");
     this.chips = document.getElementById("compared");
     this.list = document.getElementById("similar-list");
@@ -162,6 +149,7 @@ export class SimilarShapes {
     const { database } = this;
     const [own, group] = [database.groups[shape], database.groups[row]];
     const differ = own >= 0 && group >= 0 && own !== group;
+    const copy = this.copyInWords(shape, row);
     return element(
       "li",
       { class: "similar" },
@@ -177,14 +165,10 @@ export class SimilarShapes {
             swatch(database.symbol(group), database.color(group)),
             element("bdi", {}, shortened(database.className(group), 40)),
           ),
-        element("p", { class: "quiet" }, `distance ${figure(distance)}`),
-        this.#bars(closer),
-        element("p", { class: "why" }, this.#reasons(closer)),
-        element(
-          "button",
-          { type: "button", class: "plain", onclick: () => this.state.set({ beside: row, within: "" }) },
-          "See where they differ",
-        ),
+        copy && element("p", { class: "copy" }, copy),
+        ...(isNone(distance)
+          ? [copy === null && element("p", { class: "why" }, "Nothing that is compared tells the two apart.")]
+          : this.#apart(row, distance, closer)),
         differ &&
           element(
             "p",
@@ -197,6 +181,25 @@ export class SimilarShapes {
           ),
       ),
     );
+  }
+
+  /**
+   * How far another shape is from this one, in what, and where.
+   * @param {number} row
+   * @param {number} distance
+   * @param {number[]} closer
+   */
+  #apart(row, distance, closer) {
+    return [
+      element("p", { class: "quiet" }, `distance ${figure(distance)}`),
+      this.#bars(closer),
+      element("p", { class: "why" }, this.#reasons(closer)),
+      element(
+        "button",
+        { type: "button", class: "plain", onclick: () => this.state.set({ beside: row, within: "" }) },
+        "See where they differ",
+      ),
+    ];
   }
 
   /** @param {number[]} closer */

@@ -55,7 +55,7 @@ def test_words_match_the_columns():
     assert len(data["clauses"]) == len(report.features.columns)
     assert data["clauses"][-1] is None
     assert (
-        data["clauses"][31] == "is on average 0.1 to 0.2 radii from the other points, walking on the surface"
+        data["clauses"][31] == "is on average 0.1 to 0.2 radii from all other points, walking on the surface"
     )
     assert data["whole"] == "the surface"
     assert len(data["weights"]) == len(report.features.blocks)
@@ -63,8 +63,8 @@ def test_words_match_the_columns():
     assert [sides["start"] for sides in data["sides"]] == [0, 10, 20, 30]
     below, above = data["sides"][3]["below"], data["sides"][3]["above"]
     assert len(below) == len(above) == 9
-    assert below[0]["clause"].startswith("is on average less than 0.1 radii from the other points")
-    assert above[8]["trend"] == "there is less near the middle of the shape"
+    assert below[0]["clause"].startswith("is on average less than 0.1 radii from all other points")
+    assert (above[8]["trend"], above[8]["fewer"]) == ("less surface lies near the middle", True)
 
 
 def test_sentences_on_patches_that_nobody_can_picture_have_no_sides():
