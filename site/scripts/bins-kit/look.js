@@ -194,7 +194,7 @@ export class Look {
           "This feature was brought along: it has one value a shape, and none on the surface, so there is nothing to paint.",
         ),
       ];
-    const own = pictured(selection, database, column, this.state.get("group"));
+    const own = pictured(selection, database, bins, column, this.state.get("group"));
     if (own.length === 0) {
       return [
         element(
@@ -240,19 +240,20 @@ export class Look {
 }
 
 /**
- * The pictures of a bin; of one that separates a class, those that show this contrast.
+ * The pictures of a bin, the shape with most of it first; of one that separates a class, those that show this contrast.
  * @param {Chunk.Selection} selection
  * @param {Database} database
+ * @param {Bins} bins
  * @param {number} column
  * @param {number | null} group
  */
-export function pictured({ paintings, minimal }, database, column, group) {
+export function pictured({ paintings, minimal }, database, bins, column, group) {
   const own = paintings.filter((painting) => painting.column === column);
   const other = minimal.find((separated) => separated.group === group)?.other;
-  /** @param {Chunk.PaintedBin} painting */
-  const order = (painting) => [group, other].indexOf(database.groups[painting.shape]);
-  const contrast = own.filter((painting) => order(painting) >= 0).sort((a, b) => order(a) - order(b));
-  return (contrast.length > 0 ? contrast : own).slice(0, MOST_PICTURED);
+  const contrast = own.filter(({ shape }) => [group, other].includes(database.groups[shape]));
+  return (contrast.length > 0 ? contrast : own)
+    .sort((a, b) => bins.share(column, b.shape) - bins.share(column, a.shape) || a.shape - b.shape)
+    .slice(0, MOST_PICTURED);
 }
 
 /**

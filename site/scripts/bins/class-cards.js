@@ -3,15 +3,20 @@
 import { element, swatch } from "../base/dom.js";
 import { styleColor } from "../base/theme.js";
 import { count, figure } from "../base/words.js";
+import { pictured } from "../bins-kit/look.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { mapOf, Plot } from "../map/plot.js";
 
 /** @import { BinsState } from "../addresses/bins.js" */
+/** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { BinChips } from "./bin-chip.js" */
 
 /** The share of what NH_c can be, in the space of the bins and on their map, at which a class counts as separated. */
 const SEPARATED = 0.9;
+
+/** Of the surface, a part by which two pictures must differ for anybody to see it. */
+const SEEN = 0.03;
 
 export class ClassCards {
   /**
@@ -126,21 +131,29 @@ export class ClassCards {
 }
 
 /**
- * The bin to look at first, and its class: one that separates a class alone, if any does, the best of these.
+ * The bin to look at first, and its class: one whose pictures show it, much of it on a shape beside little on another; of
+ * these one that separates a class alone, if any does, the best of them.
  * @param {Chunk.Selection} selection
+ * @param {Database} database
+ * @param {Bins} bins
  * @returns {{ bin: number, group: number | null }}
  */
-export function firstBin({ minimal }) {
-  const found = minimal.map((separated) => ({
-    group: separated.group,
-    highest: separated.highest,
-    ...chooseSet(separated, "fewest"),
-  }));
+export function firstBin(selection, database, bins) {
+  const found = selection.minimal.flatMap((separated) => {
+    const { group, highest } = separated;
+    const { bins: columns, nh } = chooseSet(separated, "fewest");
+    return columns.map((bin) => {
+      const shares = pictured(selection, database, bins, bin, group).map(({ shape }) => bins.share(bin, shape));
+      const seen = shares.length > 1 && shares[0] - /** @type {number} */ (shares.at(-1)) >= SEEN;
+      return { bin, group, rank: [Number(!seen), columns.length, -nh / (highest || 1)] };
+    });
+  });
   if (found.length === 0) return { bin: 0, group: null };
-  const best = found.reduce((a, b) =>
-    (b.bins.length - a.bins.length || a.nh / (a.highest || 1) - b.nh / (b.highest || 1)) < 0 ? b : a,
-  );
-  return { bin: best.bins[0], group: best.group };
+  const best = found.reduce((a, b) => {
+    const apart = a.rank.findIndex((value, place) => value !== b.rank[place]);
+    return apart >= 0 && b.rank[apart] < a.rank[apart] ? b : a;
+  });
+  return { bin: best.bin, group: best.group };
 }
 
 /**

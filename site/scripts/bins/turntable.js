@@ -15,6 +15,9 @@ import { Paint } from "../viewer/paint.js";
 /** @import { Database } from "../database/database.js" */
 /** @import { Pointing } from "../map/pointing.js" */
 
+/** Of the most that any shape has of a bin, the part with which one still shows it. */
+const SHOWS = 0.5;
+
 export class Turntable {
   /**
    * @param {Database} database
@@ -48,9 +51,10 @@ export class Turntable {
     const [shape, bin] = [this.state.get("shape"), this.state.get("bin")];
     if (shape === "least") return this.#extreme(bin, -1);
     if (shape === "most") return this.#extreme(bin, 1);
-    return (
-      shape ?? pictured(this.selection, this.database, bin, this.state.get("group"))[0]?.shape ?? this.#extreme(bin, 1)
-    );
+    if (shape !== null) return shape;
+    const most = this.#extreme(bin, 1);
+    const [first] = pictured(this.selection, this.database, this.bins, bin, this.state.get("group"));
+    return first && this.#share(first.shape) >= SHOWS ? first.shape : most;
   }
 
   /** @type {Plot} */

@@ -24,7 +24,7 @@ async function main() {
   const bins = new Bins(data, bytes);
   const database = new Database(overview, currentTheme);
   const { state, written, announce, ready } = await openPage({
-    address: binsAddress(database, bins, selection, firstBin(selection)),
+    address: binsAddress(database, bins, selection, firstBin(selection, database, bins)),
   });
   const card = new BinCard(bins, database);
   const chips = new BinChips(bins, card, state, {
