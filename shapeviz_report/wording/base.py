@@ -118,8 +118,8 @@ def amount(low: float | None, high: float | None) -> str:
 def say_more(own: str, other: str, reach: float, half: float) -> tuple[str, bool]:
     """What there is more of at one end of a scale; where more than half of it is meant, what there is less of.
 
-    ``own`` and ``other`` say what the surface does there, as they stand after "more surface". The answer is a trend, and
-    whether there is less.
+    ``own`` and ``other`` say what the surface does there, as they stand after "more surface". The answer is a trend,
+    and whether there is less.
     """
     return (f"more surface {own}", False) if reach < half else (f"less surface {other}", True)
 
