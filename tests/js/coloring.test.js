@@ -84,6 +84,13 @@ test("numbers over many powers of ten are told apart by factors", () => {
   assert.deepEqual(coloring.legend.ramp.texts, ["0.1", "10", "1000"]);
 });
 
+test("where half would look alike, numbers are told apart by factors, and else by differences", () => {
+  const texts = (numbers) => fieldColoring(database, field({ numbers })).legend.ramp.texts;
+  assert.deepEqual(texts([100, 200, 400, 800, 10000]), ["100", "1000", "10\u2009000"]);
+  assert.deepEqual(texts([1, 500, 600, 800, 1000]), ["1", "500.5", "1000"]);
+  assert.deepEqual(texts([0, 200, 400, 800, 10000]), ["0", "5000", "10\u2009000"]);
+});
+
 test("dates are dates in the legend and in words", () => {
   const coloring = fieldColoring(database, field({ numbers: [-719162, 0, 365], date: true }));
   assert.equal(coloring.textOf(1), "1970-01-01");

@@ -154,8 +154,8 @@ function choiceColoring({ data, marks }, field) {
 
 /** Steps of a ramp: marks of each have one stamp. */
 const STEPS = 48;
-/** The highest over the lowest from which numbers are told apart by factors and no longer by differences. */
-const WIDE = 200;
+/** Where on a ramp the middle of numbers lies, from 0 to 1, that lie together at its one end. */
+const SKEWED = 0.25;
 const TEXTS = 3;
 
 /**
@@ -167,10 +167,11 @@ const TEXTS = 3;
  */
 function numberColoring(database, title, numbers, textOf) {
   const { data, marks } = database;
-  const known = numbers.filter((number) => number !== null);
-  let [low, high] = [Infinity, -Infinity];
-  for (const number of known) [low, high] = [Math.min(low, number), Math.max(high, number)];
-  const wide = low > 0 && high / low >= WIDE;
+  const known = numbers.filter((number) => number !== null).sort((one, other) => one - other);
+  const [low, middle, high] = [known[0], known[known.length >> 1], known[known.length - 1]];
+  // By factors and no longer by differences, where half of them would have the colours of one end, and then have not.
+  const [differences, factors] = [(middle - low) / (high - low), Math.log(middle / low) / Math.log(high / low)];
+  const wide = low > 0 && differences < SKEWED && factors - 0.5 < 0.5 - differences;
   /** @param {number} number */
   const lengthOf = (number) => (wide ? Math.log(number) : number);
   const span = lengthOf(high) - lengthOf(low) || 1;
