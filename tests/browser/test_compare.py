@@ -225,6 +225,15 @@ class TestTwoGroups:
         page.wait_for_selector("#result:not([hidden])")
         assert title(page) == shown
 
+    def test_groups_go_along_by_the_menu_and_back(self, compare):
+        page = compare(a="class:kind b", b="class:kind e")
+        for name in ("Overview", "Bins", "Compare"):
+            page.locator(".masthead nav a", has_text=name).click()
+            page.wait_for_selector("html[data-ready]", state="attached")
+        eventually(page, lambda: page.locator("#result:not([hidden])").count() == 1)
+        assert "kind b" in title(page)
+        assert "kind e" in title(page)
+
     def test_shapes_of_both_groups_belong_to_the_smaller_one(self, compare, reports):
         report = reports("workbench")
         page = compare(a="shapes", b="class:kind a", **{"a-select": report.shapes[0].id})

@@ -96,6 +96,18 @@ export class OnShapes {
     document
       .getElementById("seen-bin")
       .replaceChildren(element("p", {}, binName(bins, bin)), exactly(bins, bin, meaning(bin, bins)));
+    if (share && !this.asked && !SIDES.some((side) => this.#painting(this.chosen[side])))
+      document
+        .getElementById("seen-bin")
+        .append(
+          element(
+            "p",
+            { class: "quiet" },
+            selection.models === null
+              ? "No pictures of this bin were painted on these two."
+              : "No pictures of this bin were painted on these two: turn both in 3D to see its colours.",
+          ),
+        );
     const dimension = bins.dimensionOf(bin);
     if (dimension !== null) this.legend.show(selection.dimensions[dimension], bins.binOf(bin));
     else this.legend.clear();
@@ -203,6 +215,16 @@ export class OnShapes {
   }
 
   /**
+   * The pictures of the bin that is looked at on a shape, if they were drawn.
+   * @param {number} shape
+   */
+  #painting(shape) {
+    return this.selection?.paintings.find(
+      ({ column, ...painted }) => column === this.view?.bin && painted.shape === shape,
+    );
+  }
+
+  /**
    * @param {Side} side
    * @param {number} shape
    * @param {boolean} share
@@ -212,7 +234,7 @@ export class OnShapes {
     const { [side]: stage } = /** @type {Record<Side, Stage>} */ (this.stages);
     const inside = this.state.get("reading") === "inside";
     if (!this.asked && share) {
-      const painting = this.selection?.paintings.find((painted) => painted.column === bin && painted.shape === shape);
+      const painting = this.#painting(shape);
       stage.rest();
       stage.node.replaceChildren(
         painting === undefined

@@ -62,16 +62,24 @@ export function moreOf({ clause, trend }, more, less, [most, least], { whole }) 
     " than in ",
     called(less),
     ": ",
-    element("b", {}, most),
+    figureOf(most),
     ` of ${whole} ${clause}, against `,
-    element("b", {}, least),
+    figureOf(least),
     ".",
   ];
 }
 
+/**
+ * A figure within a sentence: a number and its unit, in one line.
+ * @param {string} told
+ */
+function figureOf(told) {
+  return element("b", { class: "told" }, told);
+}
+
 /** @param {string[]} told */
 function against([most, least]) {
-  return [": ", element("b", {}, most), ", against ", element("b", {}, least), "."];
+  return [": ", figureOf(most), ", against ", figureOf(least), "."];
 }
 
 /**
@@ -84,8 +92,12 @@ export function inBoth(column, means, { a, b, bins, data }) {
   const [first, second, others] = (bins.isShare(column) ? percents : numbers)(...means);
   const more = (means[0] + means[1]) / 2 > means[2];
   const figures = [
-    ...(first === second ? [`both ${first}`] : [called(a), ` ${first}, `, called(b), ` ${second}`]),
-    `, the others ${others}.`,
+    ...(first === second
+      ? ["both ", figureOf(first)]
+      : [called(a), " ", figureOf(first), ", ", called(b), " ", figureOf(second)]),
+    ", the others ",
+    figureOf(others),
+    ".",
   ];
   if (!bins.isShare(column))
     return [
@@ -94,8 +106,7 @@ export function inBoth(column, means, { a, b, bins, data }) {
       ...figures,
     ];
   return [
-    element("b", {}, more ? "More" : "Less"),
-    ` of ${data.whole} of both than of other shapes ${data.clauses[column]}: `,
+    `${more ? "More" : "Less"} of ${data.whole} of both than of other shapes ${data.clauses[column]}: `,
     ...figures,
   ];
 }
