@@ -319,8 +319,8 @@ def _word_shares(dimension: Dimension, step: int, here: float, there: float, pre
     said = agreed(said, preset.by_area)
     trend = f"{said.trend[0].upper()}{said.trend[1:]}: " if said.trend else ""
     return (
-        f"{trend}{_number(100 * here)} % of {word_whole(preset.by_area)} {said.clause}, "
-        f"in other shapes {_number(100 * there)} %."
+        f"{trend}{_number(100 * here)}\u00a0% of {word_whole(preset.by_area)} {said.clause}, "
+        f"in other shapes {_number(100 * there)}\u00a0%."
     )
 
 
