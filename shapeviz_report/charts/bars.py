@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import altair as alt
 
+#: Pixels that the value of a bar takes beside it.
+LABEL = 44
+
 
 def class_bars() -> alt.LayerChart:
     """One bar a class with its value in three decimals, and a rule where random labels would end.
@@ -46,7 +49,7 @@ def class_bars() -> alt.LayerChart:
         )
         .transform_calculate(
             # Beside the tick where the bar ends at or just before it.
-            ended="datum.highest < 0.9999 && datum.highest - datum.hit < 0.32",
+            ended=f"datum.highest < 0.9999 && datum.highest - datum.hit < {LABEL} / max(width - {LABEL}, 1)",
             anchor="!isValid(datum.hit) ? 0 : datum.ended ? datum.highest : datum.hit",
             label="isValid(datum.hit) ? format(datum.hit, '.3f') : '–'",
         )
@@ -75,4 +78,5 @@ def class_bars() -> alt.LayerChart:
 
 def _unit(field: str) -> alt.X:
     """The range [0, 1], with room on the right for the longest label."""
-    return alt.X(field, axis=None, scale=alt.Scale(domain=[0, 1.32], nice=False, zero=True))
+    room = alt.ExprRef(f"max(width - {LABEL}, 8)")
+    return alt.X(field, axis=None, scale=alt.Scale(domain=[0, 1], range=[0, room], nice=False, zero=True))

@@ -132,7 +132,7 @@ def printed(page) -> str:
             width: document.querySelector("main").offsetWidth,
             scroll: document.documentElement.scrollWidth,
             text: document.body.innerText,
-            pressed: [...document.querySelectorAll("main :is(button.plain, select, input, .choice)")]
+            pressed: [...document.querySelectorAll("main :is(button.plain:not(.pair-of), input, .on-screen)")]
                 .filter((node) => node.checkVisibility()).length,
         })"""
     )
@@ -151,6 +151,45 @@ def test_a_page_on_paper_is_light_and_has_nothing_to_press(open_page, file):
     before = page.evaluate("document.querySelector('main').getBoundingClientRect().width")
     assert "Everything at once" in printed(page)
     assert page.evaluate("document.querySelector('main').getBoundingClientRect().width") == before
+
+
+#: What is drawn on a sheet: how wide it is there, and in which colours.
+DRAWN = """() => {
+    const found = (what) => [...document.querySelectorAll(`main ${what}`)].filter((node) => node.checkVisibility());
+    const painted = found("svg *").map((node) => getComputedStyle(node));
+    return {
+        widths: found(":is(.surface, canvas, svg:not(svg svg))")
+            .map((node) => Math.round(node.getBoundingClientRect().width)),
+        maps: found("svg.on-paper").map((node) => {
+            const { width, height } = node.getBoundingClientRect();
+            return [node.getAttribute("viewBox"), `0 0 ${Math.round(width)} ${Math.round(height)}`];
+        }),
+        colours: [...new Set(painted.flatMap(({ fill, stroke }) => [fill, stroke]))].sort(),
+        text: document.querySelector("main").innerText,
+    };
+}"""
+
+
+@pytest.mark.parametrize("file", PAGES)
+def test_a_sheet_is_the_same_from_a_page_of_any_theme_and_any_width(open_page, file):
+    page = open_page("everything", file, color_scheme="dark")
+    page.wait_for_selector("html[data-ready]")
+    page.evaluate(f"window.addEventListener('beforeprint', () => {{ window.drawn = ({DRAWN})() }})")
+
+    def sheet():
+        page.wait_for_timeout(1200)
+        page.pdf()
+        return page.evaluate("window.drawn")
+
+    dark = sheet()
+    page.emulate_media(color_scheme="light")
+    page.set_viewport_size({"width": 718, "height": 900})
+    light = sheet()
+    assert "Source: " in dark["text"]
+    assert dark["colours"] == light["colours"]
+    assert dark["widths"] == light["widths"]
+    assert dark["maps"] == light["maps"]
+    assert all(drawn == shown for drawn, shown in dark["maps"])
 
 
 def test_the_whole_gallery_is_on_paper(open_page, site):

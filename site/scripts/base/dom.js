@@ -106,6 +106,14 @@ export function calm() {
   return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
+/**
+ * What a page says of itself in its head.
+ * @param {string} name
+ */
+export function said(name) {
+  return document.querySelector(`meta[name="${name}"]`)?.content ?? "";
+}
+
 /** The element that has the focus. */
 export function focused() {
   return /** @type {Found} */ (document.activeElement);

@@ -4,10 +4,10 @@
 // program for drawings can change. Nothing in the file leads out of it.
 
 import { chunk } from "./chunks.js";
-import { element, svg } from "./dom.js";
+import { element, said, svg } from "./dom.js";
 import { onPaper } from "./paper.js";
 import { fileName, saveFile, xmlText } from "./saving.js";
-import { snapshot } from "./snapshot.js";
+import { snapshot, toldOf } from "./snapshot.js";
 
 /** Around a figure, and between its parts, in pixels. */
 const MARGIN = 20;
@@ -75,14 +75,6 @@ async function saveFigure(root, kind) {
   saveFile(name, kind === "SVG" ? drawing : await pixels(drawing, width, height));
 }
 
-/**
- * What a page says of itself in its head.
- * @param {string} name
- */
-function said(name) {
-  return document.querySelector(`meta[name="${name}"]`)?.content ?? "";
-}
-
 /** @param {Found} root */
 async function figureText(root) {
   const pictures = await heldPictures(root);
@@ -91,7 +83,9 @@ async function figureText(root) {
   const wide = Math.max(width, 320) + 2 * MARGIN;
   const source = wrapped(said("source"), (wide - 2 * MARGIN) / 5.6);
   const heading = wrapped(title, (wide - 2 * MARGIN) / 8.6);
-  const top = MARGIN + heading.length * LINE + 8;
+  const told = wrapped(toldOf(root), (wide - 2 * MARGIN) / 6.6);
+  const below = MARGIN + heading.length * LINE + 8;
+  const top = below + (told.length > 0 ? told.length * 16 + 8 : 0);
   const high = top + height + 14 + source.length * 14 + MARGIN;
   node.setAttribute("transform", `translate(${MARGIN} ${top})`);
   const drawing = svg(
@@ -106,6 +100,9 @@ async function figureText(root) {
         { ...FONT, x: MARGIN, y: MARGIN + 13 + LINE * place, "font-size": "15px", "font-weight": "650" },
         line,
       ),
+    ),
+    told.map((line, place) =>
+      svg("text", { ...FONT, x: MARGIN, y: below + 10 + 16 * place, "font-size": "12px" }, line),
     ),
     node,
     source.map((line, place) =>

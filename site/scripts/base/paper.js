@@ -1,8 +1,8 @@
 // A page as on paper: by day, whatever its theme; and, on a sheet, laid out for that.
 
 import { chartsAtRest } from "./chart.js";
-import { remeasure } from "./dom.js";
-import { drawnWithin } from "./snapshot.js";
+import { element, remeasure, said } from "./dom.js";
+import { drawnWithin, toldOf } from "./snapshot.js";
 import { currentTheme, restyle } from "./theme.js";
 
 /**
@@ -26,30 +26,56 @@ export async function onPaper(work) {
   }
 }
 
-/** Lay the page out for a sheet of paper before it is printed. Nothing of it may take time: the browser does not wait. */
+/** What is folded on the screen, for nothing can be unfolded on a sheet; but for what would be too long there. */
+const FOLDED = "main details:not([open], .save-figure, .long)";
+
+/**
+ * Lay the page out for a sheet of paper before it is printed. Nothing of it may take time: the browser waits for no frame
+ * and no file, only for promises that can be kept at once, between one listener and the next.
+ */
 export function watchPaper() {
+  const root = document.documentElement;
   /** @type {Element[]} */
   let drawn = [];
+  /**
+   * @param {Found} below
+   * @param {string} text
+   */
+  const tell = (below, text) => {
+    if (text === "" || below.clientWidth === 0) return;
+    const node = element("p", { class: "told" }, text);
+    below.append(node);
+    drawn.push(node);
+  };
+  /** @type {Found[]} */
+  let unfolded = [];
   window.addEventListener("beforeprint", () => {
-    document.documentElement.dataset.paper = "page";
-    remeasure();
+    root.dataset.paper = "page";
+    unfolded = [...document.querySelectorAll(FOLDED)];
+    for (const part of unfolded) part.open = true;
     for (const picture of document.querySelectorAll("img[loading]")) picture.removeAttribute("loading");
+    restyle();
+  });
+  // Now all has the colours of a sheet.
+  window.addEventListener("beforeprint", () => {
+    remeasure();
     drawn = drawnWithin(document.body).map(({ node, drawing }) => {
       drawing.classList.add("on-paper");
-      if (node instanceof HTMLCanvasElement) {
-        drawing.setAttribute("width", `${node.clientWidth}`);
-        drawing.setAttribute("height", `${node.clientHeight}`);
-        node.after(drawing);
-      } else {
+      if (node instanceof HTMLCanvasElement) node.after(drawing);
+      else {
         drawing.classList.add("whole");
         node.append(drawing);
       }
       return drawing;
     });
+    for (const figure of document.querySelectorAll("[data-figure]")) tell(figure, toldOf(figure));
+    tell(document.getElementById("content"), said("source"));
   });
   window.addEventListener("afterprint", () => {
     for (const drawing of drawn) drawing.remove();
-    delete document.documentElement.dataset.paper;
+    for (const part of unfolded) part.open = false;
+    delete root.dataset.paper;
+    restyle();
     remeasure();
   });
 }

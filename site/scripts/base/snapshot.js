@@ -10,7 +10,7 @@ import { svg } from "./dom.js";
 
 /** What is to be pressed or typed into is no part of a figure, nor is what only some readers perceive. */
 const LEFT_OUT =
-  ".save-figure, details:not([open]), .choice, .zoom, .unseen, .card, .exact, .as-pictures, .plain, input, select, textarea, dialog, script";
+  ".save-figure, .on-screen, details:not([open]), .choice, .zoom, .unseen, .card, .exact, .as-pictures, .plain, input, select, textarea, dialog, script";
 
 /** What a drawing inherits or is given by style sheets, and has to say itself where there are none. */
 const LOOKS = [
@@ -50,6 +50,26 @@ const drawings = new WeakMap();
  */
 export function drawnAs(node, draw) {
   drawings.set(node, draw);
+}
+
+/** @type {WeakMap<Element, () => string>} */
+const tellings = new WeakMap();
+
+/**
+ * Say in a sentence what a figure shows, for who sees it without the page about it: in a file, and on paper.
+ * @param {Element} figure
+ * @param {() => string} tell
+ */
+export function toldAs(figure, tell) {
+  tellings.set(figure, tell);
+}
+
+/**
+ * What a figure shows; nothing where it says that itself.
+ * @param {Element} figure
+ */
+export function toldOf(figure) {
+  return tellings.get(figure)?.() ?? "";
 }
 
 /**

@@ -54,7 +54,7 @@ const colors = new Map();
  * @returns {string}
  */
 export function styleColor(name) {
-  const key = `${name} ${currentTheme()}`;
+  const key = `${name} ${currentTheme()} ${document.documentElement.dataset.paper ?? ""}`;
   return entry(colors, key, () => computedColor(`var(--${name})`));
 }
 

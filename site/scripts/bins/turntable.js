@@ -42,7 +42,9 @@ export class Turntable {
     this.#makePick(pointing);
     state.listen((changed) => {
       if (["bin", "group", "shape", "reading"].some((name) => changed.has(name))) this.render();
-      if (changed.has("theme")) this.pick.draw();
+      if (!changed.has("theme")) return;
+      this.#tellName();
+      this.pick.draw();
     });
   }
 
@@ -89,7 +91,7 @@ export class Turntable {
     this.render();
   }
 
-  async render() {
+  #tellName() {
     const { database, bins, state, shape } = this;
     const bin = state.get("bin");
     this.name.replaceChildren(
@@ -100,6 +102,12 @@ export class Turntable {
         element("bdi", {}, database.labelled ? database.names[shape] : "its page"),
       ),
     );
+  }
+
+  async render() {
+    const { database, bins, state, shape } = this;
+    const bin = state.get("bin");
+    this.#tellName();
     for (const end of ["most", "least"])
       document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
     this.pick.draw();

@@ -75,11 +75,15 @@ export class GroupsView {
       this.#bins();
     });
     state.listen((changed) => {
+      if (changed.has("theme") && this.pair) this.#heads(this.pair);
       if (changed.has("theme") && this.view) this.#render();
       else if (changed.has("a") || changed.has("b") || changed.has("view")) this.compare();
       else if ((changed.has("bin") || changed.has("reading")) && this.view) this.#look();
     });
   }
+
+  /** @type {{ a: Group | null, b: Group | null, common: number } | null} */
+  pair = null;
 
   /** Compare the groups that are chosen, if they are in view. */
   async compare() {
@@ -89,6 +93,7 @@ export class GroupsView {
     const asked = (this.latest = Symbol("asked"));
     const pair = await this.groups.resolve(state.get("a"), state.get("b"));
     if (asked !== this.latest) return;
+    this.pair = pair;
     this.#heads(pair);
     const problem = this.#problem(pair);
     if (problem !== null) {

@@ -53,8 +53,14 @@ export class Panel {
   }
 
   #hint() {
-    if (!this.subsets.labelled) return "Switch a feature on or off to get to another subset.";
-    return ["Switch a feature on or off; beside it stands by how much NH", element("sub", {}, "s"), " would change."];
+    if (!this.subsets.labelled)
+      return element("span", { class: "on-screen" }, "Switch a feature on or off to get to another subset.");
+    return [
+      element("span", { class: "on-screen" }, "Switch a feature on or off. "),
+      "Beside each stands by how much NH",
+      element("sub", {}, "s"),
+      " would change.",
+    ];
   }
 
   /** @param {number} place */

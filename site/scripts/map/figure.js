@@ -2,6 +2,7 @@
 
 import { svg } from "../base/dom.js";
 import { snapshot, styled } from "../base/snapshot.js";
+import { count } from "../base/words.js";
 import { classNaming } from "./coloring.js";
 import { FADED, FULL } from "./marks.js";
 import { CHOSEN, FAINT, NORMAL } from "./scene.js";
@@ -45,6 +46,35 @@ export function mapFigure(view, picture) {
 }
 
 /**
+ * What a map shows, in sentences.
+ * @param {MapView} view
+ */
+export function mapWords({ scene, database, chosenColoring, name }) {
+  const { title, features, neighbours } = database.methods[scene.target];
+  const { subsets, standIn, methods } = database.data;
+  const kind = standIn ? "cluster" : "class";
+  const by = subsets?.bins && scene.target < methods.length ? [count(subsets.bins, "bin")] : features;
+  /** @param {(level: Emphasis) => boolean} is */
+  const shapes = (is) => scene.emphasis.filter(is).length;
+  const [shown, chosen] = [shapes((level) => level >= FAINT), shapes((level) => level === CHOSEN)];
+  const colored =
+    name === "hit"
+      ? `Colour: how many of a shape’s ${count(neighbours, "nearest neighbour")} are of its ${kind}, from none (red) to all (yellow).`
+      : chosenColoring !== null
+        ? `Colour: ${chosenColoring.title}.`
+        : database.labelled && `${name === "thumbnail" ? "Colour" : "Colour and mark"}: ${kind}.`;
+  return [
+    `${title} map of ${count(shown, "shape")}${by.length > 0 ? `, compared by ${by.join(", ")}` : ""}.`,
+    colored,
+    chosen > 0 && `${count(chosen, "shape")} ${chosen === 1 ? "stands" : "stand"} out.`,
+    shown < database.count && `${count(database.count - shown, "shape")} left out.`,
+    scene.camera().zoom > 1 && "Shown is a part of it.",
+  ]
+    .filter(Boolean)
+    .join(" ");
+}
+
+/**
  * Names, rings and lines over the marks.
  * @param {MapView} view
  * @param {Held} picture
@@ -68,6 +98,7 @@ function markOf({ database, coloring, pictured, pictureSize, markRadius }, index
   const [radius, side] = [pictureSize / 2, pictureSize * 0.86];
   const line = Math.max(1.5, pictureSize * 0.035);
   return [
+    svg("circle", { cx: x, cy: y, r: radius, fill: database.marks.ground }),
     svg("circle", { cx: x, cy: y, r: radius, fill: color, "fill-opacity": 0.16 }),
     svg("circle", { cx: x, cy: y, r: radius - line / 2, fill: "none", stroke: color, "stroke-width": line }),
     svg("image", { x: x - side / 2, y: y - side / 2, width: side, height: side, href: held }),

@@ -2,14 +2,16 @@
 
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
-import { drawnAs } from "../base/snapshot.js";
+import { drawnAs, toldAs } from "../base/snapshot.js";
+import { currentTheme } from "../base/theme.js";
 import { classColoring, classNaming, hitColoring, placedGroups } from "./coloring.js";
 import { Dots } from "./dots.js";
-import { mapFigure } from "./figure.js";
+import { mapFigure, mapWords } from "./figure.js";
 import { Labels } from "./labels.js";
 import { animate, CHOSEN, crowded } from "./scene.js";
 import { spread, thinned } from "./spread.js";
 
+/** @import { Theme } from "../base/theme.js" */
 /** @import { Coloring, Naming } from "./coloring.js" */
 /** @import { Camera, Scene } from "./scene.js" */
 
@@ -60,6 +62,7 @@ export class MapView {
     this.brush = this.overlay.appendChild(svg("path", { class: "brush" }));
     this.surface.append(this.node, this.overlay);
     drawnAs(this.surface, (picture) => mapFigure(this, picture));
+    toldAs(figure, () => mapWords(this));
     /** @type {ArrayLike<number>} 1 for a shape that is drawn as a picture */
     this.pictured = [];
     // How far each picture stands from its place, in sizes of a picture.
@@ -68,6 +71,8 @@ export class MapView {
     /** @type {Map<string, any>} */
     this.sent = new Map();
     this.started = false;
+    /** @type {Theme | null} in whose colours it was drawn last */
+    this.theme = null;
     /** @type {Dots | null} */
     this.dots = null;
     /** @type {number[] | null} */
@@ -107,6 +112,7 @@ export class MapView {
 
   /** Draw the map with the colours of the theme in use; called again when the theme changes. */
   async start() {
+    this.theme = currentTheme();
     if (this.#onChart) await this.#startChart();
     this.started = true;
     this.settle();

@@ -46,10 +46,11 @@ export class ClassList {
     this.vega?.finalize();
     this.vega = null;
     const rated = this.asked.open && this.database.labelled;
-    this.list.parentElement.parentElement.toggleAttribute("data-rated", rated);
+    this.render();
     if (rated)
       this.vega = await drawChart(this.node, this.database.data.charts.bars, this.database.marks.config, "svg");
-    this.render();
+    this.list.parentElement.parentElement.toggleAttribute("data-rated", rated);
+    this.#mark();
   }
 
   /** Groups by falling NH on the map in view; shapes without a label come last. */

@@ -2,6 +2,7 @@
 // them beside it where the window is wide, or all of them in its place.
 
 import { watchSize } from "../base/dom.js";
+import { currentTheme } from "../base/theme.js";
 import { Gestures } from "../map/gestures.js";
 import { MapView } from "../map/map.js";
 import { Scene } from "../map/scene.js";
@@ -82,14 +83,13 @@ export class OverviewMaps {
     this.#arrange();
     for (const view of this.scene.views) {
       view.measure();
-      if (view.started) view.settle();
+      if (view.started && view.theme === currentTheme()) view.settle();
       else await view.start();
     }
   }
 
   /** Draw all in the colours of the theme in use. */
   redraw() {
-    for (const view of this.#linked.values()) view.started = false;
     this.#tellReadings();
     this.#show();
   }

@@ -564,7 +564,12 @@ export class BinChart {
       ...(this.separation === null
         ? []
         : ["; the higher, the better it alone separates ", element("b", {}, this.separation)]),
-      touched ? ". Tap one to read it, again to choose it." : ". Click or drag to choose.",
+      ".",
+      element(
+        "span",
+        { class: "on-screen" },
+        touched ? " Tap one to read it, again to choose it." : " Click or drag to choose.",
+      ),
     ];
     this.key.replaceChildren(...sentences);
   }
