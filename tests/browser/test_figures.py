@@ -174,10 +174,13 @@ DRAWN = """() => {
 def test_a_sheet_is_the_same_from_a_page_of_any_theme_and_any_width(open_page, file):
     page = open_page("everything", file, color_scheme="dark")
     page.wait_for_selector("html[data-ready]")
+    page.wait_for_function(
+        "[...document.querySelectorAll('#boxes, #effect-dots')].every((node) => node.querySelector('svg'))"
+    )
     page.evaluate(f"window.addEventListener('beforeprint', () => {{ window.drawn = ({DRAWN})() }})")
 
     def sheet():
-        page.wait_for_timeout(1200)
+        page.wait_for_timeout(800)
         page.pdf()
         return page.evaluate("window.drawn")
 
