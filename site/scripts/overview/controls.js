@@ -100,6 +100,6 @@ function takeBack(state) {
 
 export function trayHint() {
   return coarse()
-    ? "Tap a shape to see what is known of it. With Box or Lasso above the map, draw round shapes to collect them here."
+    ? "Tap a shape to see what is known of it. With Box or Lasso, draw round shapes to collect them here."
     : "Drag a box on a map to collect shapes here; Shift adds, Alt takes away. Click a shape to see what is known of it.";
 }
