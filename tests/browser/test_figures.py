@@ -5,6 +5,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 from PIL import Image
+from waiting import eventually
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -89,6 +90,16 @@ def test_a_map_is_drawn_in_shapes_names_and_pictures_with_a_legend_and_its_sourc
     marks = check(save(page, root, "SVG", tmp_path), root)
     assert not list(marks.iter(f"{SVG}image"))
     assert len(list(marks.iter(f"{SVG}path"))) >= 18
+
+
+@pytest.mark.parametrize("file", ["features.html", "workbench.html"])
+def test_what_colours_a_map_is_told_once_below_it(open_page, tmp_path, file):
+    page = open_page("searched", f"{file}#color=fact:faces")
+    root = page.locator("figure.map").first
+    eventually(page, lambda: page.locator("main[aria-busy=true]").count() == 0)
+    page.wait_for_selector("figure.map .save-figure")
+    text = words(check(save(page, root, "SVG", tmp_path), root))
+    assert text.count(page.locator(".ramp-texts span").last.inner_text()) == 1
 
 
 def test_a_picture_has_three_pixels_for_one_of_the_page(open_page, tmp_path):

@@ -131,7 +131,8 @@ export function markAt(symbol, color, [x, y], radius, outline) {
  */
 function legendOf({ scene, database, coloring, width, name, figure }, picture) {
   const own = document.getElementById(figure.dataset.legend ?? "");
-  if (own?.checkVisibility()) return snapshot(own, picture);
+  // Within the figure it is drawn with it.
+  if (own?.checkVisibility()) return figure.contains(own) ? undefined : snapshot(own, picture);
   const naming = coloring.naming ?? classNaming(database);
   const shown = [...scene.x.keys()].filter((index) => scene.visible(index));
   const groups = [...new Set(shown.map((index) => naming.groupOf(index)))].filter((group) => group >= 0);
