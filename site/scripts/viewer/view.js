@@ -1,5 +1,6 @@
 // A shape that can be turned: WebGL, one light set-up, one colour a vertex.
 
+import { opennessOf } from "./openness.js";
 import { cornersOf } from "./surface.js";
 
 /** @import { Model } from "./model.js" */
@@ -14,6 +15,7 @@ const VERTICES = `#version 300 es
 in vec3 position;
 in vec3 normal;
 in vec3 color;
+in float openness;
 uniform mat3 turn;
 uniform vec3 middle;
 uniform vec2 lens;
@@ -21,21 +23,24 @@ uniform float radius;
 out vec3 facing;
 out vec3 place;
 out vec3 tint;
+out float open;
 void main() {
   place = turn * (position - middle);
   facing = turn * normal;
   tint = color;
+  open = openness;
   float away = ${DISTANCE.toFixed(1)} * radius - place.z;
   // Depth from -1 to 1 between the near and the far side of the ball around the shape.
   gl_Position = vec4(place.xy * lens, (away - ${DISTANCE.toFixed(1)} * radius) / (1.1 * radius) * away, away);
 }`;
 
-// The lights of the pictures (shapeviz_report/render/shading.py), without their soft shadows.
+// The lights of the pictures (shapeviz_report/render/shading.py).
 const FRAGMENTS = `#version 300 es
 precision highp float;
 in vec3 facing;
 in vec3 place;
 in vec3 tint;
+in float open;
 uniform float radius;
 out vec4 shown;
 void main() {
@@ -48,8 +53,9 @@ void main() {
   float fill = max(0.0, dot(normal, vec3(0.80, 0.10, 0.59)));
   float sky = 0.5 + 0.5 * normal.y;
   float rim = pow(1.0 - min(dot(normal, viewer), 1.0), 3.0) * sky;
-  vec3 light = key * vec3(0.93, 0.89, 0.83) + fill * vec3(0.12, 0.14, 0.17)
-    + mix(vec3(0.10, 0.095, 0.09), vec3(0.23, 0.245, 0.27), sky) + rim * vec3(0.12, 0.13, 0.14);
+  // Obscured places lose all light of the sky, but only part of the lamps'.
+  vec3 light = (0.45 + 0.55 * open) * (key * vec3(0.93, 0.89, 0.83) + fill * vec3(0.12, 0.14, 0.17))
+    + open * (mix(vec3(0.10, 0.095, 0.09), vec3(0.23, 0.245, 0.27), sky) + rim * vec3(0.12, 0.13, 0.14));
   vec3 color = min(tint * light, 1.0);
   shown = vec4(mix(12.92 * color, 1.055 * pow(color, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, color)), 1.0);
 }`;
@@ -121,6 +127,12 @@ export class View {
       this.#measure(model.positions);
       this.#fill("position", this.corners.positions);
       this.#fill("normal", this.corners.normals);
+      const openness = opennessOf(model, this.radius);
+      this.#fill(
+        "openness",
+        Float32Array.from(this.corners.source, (vertex) => openness[vertex]),
+        1,
+      );
     }
     this.paint(colors);
     if (!keep) this.reset();
@@ -208,21 +220,23 @@ export class View {
       throw new Error(`the 3D view cannot be set up: ${gl.getProgramInfoLog(this.program)}`);
     }
     this.array = gl.createVertexArray();
-    this.buffers = { position: gl.createBuffer(), normal: gl.createBuffer(), color: gl.createBuffer() };
+    const names = ["position", "normal", "color", "openness"];
+    this.buffers = Object.fromEntries(names.map((name) => [name, gl.createBuffer()]));
   }
 
   /**
    * @param {string} name
    * @param {Float32Array} values
+   * @param {number} [size] numbers a corner
    */
-  #fill(name, values) {
+  #fill(name, values, size = 3) {
     const { gl } = this;
     const place = gl.getAttribLocation(this.program, name);
     gl.bindVertexArray(this.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers[name]);
     gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
     gl.enableVertexAttribArray(place);
-    gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0);
+    gl.vertexAttribPointer(place, size, gl.FLOAT, false, 0, 0);
   }
 
   /**
