@@ -25,6 +25,8 @@ const RIM = 3;
 const FILLED = 0.4;
 const SMALLEST = 36;
 const LARGEST = 110;
+/** The largest beside other maps, whose margins hold half of it: shapes are then at the same places on all. */
+const LARGEST_BESIDE = 60;
 /** The largest when zoomed in. */
 const CLOSEST = 200;
 /** Where pictures stand at their exact places, they may cover each other by half. */
@@ -218,7 +220,7 @@ export class MapView {
   /** Size of a picture when the whole map is shown. */
   get #wholeSize() {
     const room = Math.sqrt((this.width * this.height * FILLED) / this.database.count);
-    return Math.min(Math.max(room, Math.min(SMALLEST, this.width / 13)), LARGEST);
+    return Math.min(Math.max(room, Math.min(SMALLEST, this.width / 13)), this.charted ? LARGEST_BESIDE : LARGEST);
   }
 
   /**
@@ -402,9 +404,11 @@ export class MapView {
         top: -bounds.y * scale - halfHeight,
         bottom: -bounds.y * scale + halfHeight,
       };
-      const found = this.state.get("exact")
-        ? thinned(places[0], places[1], size, EXACT_APART)
-        : spread(places[0], places[1], size, frame);
+      // Beside another map a shape is where it is on that one.
+      const found =
+        this.charted || this.state.get("exact")
+          ? thinned(places[0], places[1], size, EXACT_APART)
+          : spread(places[0], places[1], size, frame);
       for (const [place, index] of rows.entries()) {
         pictured[index] = found.pictured[place];
         shift.x[index] = (found.x[place] - places[0][place]) / this.pictureSize;

@@ -31,7 +31,7 @@ function reading(name, database, state) {
   const meaning = `Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${database.data.standIn ? "cluster" : "class"}`;
   const scale = element("span", { class: "ramp", role: "img", "aria-label": "from red to yellow" });
   scale.style.background = `linear-gradient(to right, ${database.marks.hit.join(", ")})`;
-  return [element("span", { class: "meaning" }, `${meaning}: `), "0 ", scale, " 1"];
+  return [element("span", { class: "meaning" }, `${meaning}: `), element("span", { class: "ends" }, "0 ", scale, " 1")];
 }
 
 /** What pictures that have no room ask of a reader. */
