@@ -35,7 +35,6 @@ export function chosenColors(database, page) {
     const own = OWN_COLORS.includes(color);
     if (!own) last = color;
     for (const input of inputs) input.checked = input.value === (own ? color : ANY);
-    document.getElementById("content").toggleAttribute("data-colored", !own);
   };
   for (const input of inputs)
     input.addEventListener("change", () => state.set({ color: input.value === ANY ? last : input.value }));
