@@ -80,6 +80,8 @@ def test_a_map_is_drawn_in_shapes_names_and_pictures_with_a_legend_and_its_sourc
         assert text.count(name) >= 2
     assert "Vessels" in text
     assert "Licence" in text
+    assert re.search(r"t-SNE map of \d+ shapes, compared by .+ Colour: class\.", text)
+    assert "Zoom in" not in text
     # By day, though the page is dark, which it is again.
     names = [node for node in tree.iter(f"{SVG}text") if "".join(node.itertext()) == "ant"]
     assert names[0].get("fill") == "rgb(28, 29, 31)"

@@ -2,6 +2,7 @@
 
 import { calm, element, svg } from "../base/dom.js";
 import { difference, symbol } from "../base/figures.js";
+import { toldAs } from "../base/snapshot.js";
 import { count, figure } from "../base/words.js";
 import { classNaming } from "../map/coloring.js";
 import { Labels } from "../map/labels.js";
@@ -136,6 +137,11 @@ export class PathPlayer {
       },
     });
     surface.append(this.plot.node, overlay);
+    toldAs(document.querySelector(".step-map"), () => {
+      const compared = this.steps[this.state.get("step")].bins.map((column) => this.bins.names[column]);
+      const shapes = this.selection.rows?.length ?? database.count;
+      return `Map of ${count(shapes, "shape")}, compared by ${count(compared.length, "bin")}: ${compared.join(", ")}. Colour and mark: ${database.data.standIn ? "cluster" : "class"}.`;
+    });
     pointing.watch(surface, this.plot, choose, this.state);
   }
 

@@ -1,6 +1,7 @@
 // Where a shape lies on a map, its nearest neighbours there, and what they say of it.
 
 import { element } from "../base/dom.js";
+import { toldAs } from "../base/snapshot.js";
 import { pageAddress } from "../base/place.js";
 import { styleColor } from "../base/theme.js";
 import { count, figure } from "../base/words.js";
@@ -39,6 +40,11 @@ export class Surroundings {
     });
     const surface = document.getElementById("place-surface");
     surface.append(this.plot.node);
+    toldAs(this.section, () => {
+      const { title, neighbours } = database.methods[state.get("method")];
+      const shape = database.names[state.get("shape") ?? 0];
+      return `${title} map of ${count(database.count, "shape")}: ${shape}, ringed, and its ${count(neighbours, "nearest neighbour")}, in full colour.`;
+    });
     pointing.watch(surface, this.plot, go);
     state.listen((changed) => {
       if (["shape", "method"].some((name) => changed.has(name))) this.render();

@@ -1,6 +1,7 @@
 // The bins with their scores, as the chart, the card and the line of the work's status show them.
 
 import { watchSize } from "../base/dom.js";
+import { toldAs } from "../base/snapshot.js";
 import { figure } from "../base/words.js";
 import { BinCard } from "../bins-kit/bin-card.js";
 import { BinChart } from "./bin-chart.js";
@@ -38,6 +39,10 @@ export class BinSection {
       onFind: database.separable ? () => desk.findBins() : null,
       onPoint: (column, box) => (column === null || box === null ? this.card.hide() : this.card.show(column, box)),
       announce,
+    });
+    toldAs(document.querySelector(".workbench .bins"), () => {
+      const scorer = data.scorers.find(({ key }) => key === state.get("scorer"));
+      return scorer && database.separable ? `Bins as ${scorer.title} scores them, the best first.` : "";
     });
     const status = document.getElementById("scores-status");
     // Over the bars, which are out of date meanwhile, and over no words.
