@@ -139,18 +139,15 @@ export class Look {
       return [`Of each class, the middle shape has the same of it: ${told(most.median)}.`];
     const next = rest.slice(0, -1).slice(0, 2);
     return [
-      "Most of it has ",
+      "Most of it is on ",
       name(most),
-      `: its middle shape has ${told(most.median)}. `,
-      ...(next.length > 0
-        ? [
-            "Next ",
-            next.length > 1 ? "come " : "comes ",
-            ...next.flatMap((row, place) => [place > 0 ? " and " : "", name(row), ` with ${told(row.median)}`]),
-            ". ",
-          ]
-        : []),
-      "Least of it has ",
+      `: its middle shape has ${told(most.median)}`,
+      ...next.flatMap((row, place) => [
+        place > 0 ? " and " : `; next ${next.length > 1 ? "come" : "comes"} `,
+        name(row),
+        ` with ${told(row.median)}`,
+      ]),
+      ". Least is on ",
       name(least),
       `, with ${told(least.median)}.`,
     ];
@@ -179,7 +176,7 @@ export class Look {
       ` has ${share}${place}; that of `,
       name(rival),
       `, its nearest class on the Overview, has ${share === other ? "as much" : other}.`,
-      ...(rank > 0 ? [" Most of it has ", name(rows[0]), `, with ${told(rows[0].median)}.`] : []),
+      ...(rank > 0 ? [" Most of it is on ", name(rows[0]), `, with ${told(rows[0].median)}.`] : []),
     ];
   }
 
