@@ -19,7 +19,7 @@ from threadpoolctl import threadpool_limits
 
 from benchmarks.sites import load_features
 from shapeviz_report.bins import features_of, scale_bins
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import PROJECTIONS, project, squared_distances
 from shapeviz_report.quality import score
 from shapeviz_report.search.bins import (

@@ -26,7 +26,7 @@ from threadpoolctl import threadpool_limits
 
 from benchmarks.sites import load_features
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.features import PRESETS, compared_values, scale
+from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import TSNE_METHOD, UMAP_METHOD, project
 from shapeviz_report.quality import NEIGHBOURS, neighbour_weights, neighbourhood_hits
 from shapeviz_report.types import FeatureTable, FloatArray

@@ -13,7 +13,7 @@ from sklearn.metrics import adjusted_rand_score, normalized_mutual_info_score
 
 from benchmarks.sites import load_features
 from shapeviz_report.clusters import part
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 
 SEEDS = 3
 

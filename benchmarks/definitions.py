@@ -13,7 +13,8 @@ import numpy as np
 from benchmarks import peers
 from benchmarks.shapes import parser_of_meshes, prepared_shapes
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
-from shapeviz_report.features import BINS, PRESETS, scale
+from shapeviz_report.features import BINS
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.quality import score
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, Mesh

@@ -21,7 +21,7 @@ from scipy.stats import spearmanr
 from threadpoolctl import threadpool_limits
 
 from benchmarks.sites import load_features
-from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.quality import NEIGHBOURS, neighbour_weights, neighbourhood_hits
 from shapeviz_report.scorers import SCORERS, Scorer, as_one_group, score_separation

@@ -16,7 +16,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from benchmarks.sites import load_features
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import tsne
 from shapeviz_report.quality import NEIGHBOURS, neighbour_weights, neighbourhood_hits
 from shapeviz_report.search import make_space, map_subsets

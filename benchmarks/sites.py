@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from shapeviz_report.features import BLOCKS, PRESETS, scale
+from shapeviz_report.features import BLOCKS
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.types import FeatureTable, FloatArray
 
 

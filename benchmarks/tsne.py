@@ -20,7 +20,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from benchmarks.sites import load_features
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import squared_distances, tsne
 from shapeviz_report.projections.base import principal_components
 from shapeviz_report.projections.kernels import exact_tsne

@@ -16,8 +16,8 @@ import numpy as np
 
 from shapeviz_report.cells import read_cell
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.features import Preset, compared_values
 from shapeviz_report.files import read_regular
+from shapeviz_report.presets import Preset, compared_values
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 
 MOST_BYTES = 1024**2
@@ -99,7 +99,7 @@ def _missing(name: str, blocks: Sequence[FeatureBlock]) -> str:
 def scale_bins(table: FeatureTable, preset: Preset, bins: Sequence[str]) -> FloatArray:
     """The values that maps of a choice of bins compare, by Euclidean distance; (n, len(bins)).
 
-    Balanced: each bin of :func:`~shapeviz_report.features.compared_values` is divided by its standard deviation
+    Balanced: each bin of :func:`~shapeviz_report.presets.compared_values` is divided by its standard deviation
     over all shapes, so that every chosen bin counts the same, however little surface it holds. A bin that is the
     same for all shapes becomes zero. Otherwise the plain values.
     """

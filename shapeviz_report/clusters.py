@@ -14,7 +14,7 @@ from scipy.sparse import csr_matrix
 from scipy.spatial.distance import cdist, pdist, squareform
 from threadpoolctl import threadpool_limits
 
-from shapeviz_report.features import Preset
+from shapeviz_report.presets import Preset
 from shapeviz_report.projections import canonical_order
 from shapeviz_report.types import (
     Cluster,

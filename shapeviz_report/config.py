@@ -29,7 +29,7 @@ MOST_BYTES = 16 * 1024
 MOST_LETTERS = 5_000
 """Letters of a text, which may stand on every page."""
 
-PRESETS = ("default", "paper")
+PRESETS = ("default", "local", "paper")
 PUBLICATION = (
     "title", "description", "introduction", "creator", "licence", "citation", "url", "logo", "accent",
 )  # fmt: skip
@@ -88,7 +88,8 @@ class Config:
     )
     preset: str = _option(
         "default",
-        "how descriptor values become features: 'default', or 'paper' for the reading closest to the publication",
+        "which features there are, and how they are compared: 'default', 'local' for the paper's eight alone, or "
+        "'paper' for the reading closest to the publication",
         "NAME",
     )
     external: tuple[Path, ...] = _option(

@@ -1,10 +1,9 @@
-"""From values at vertices to one row of features a shape (paper, 3.4), and their scaling for projections."""
+"""From values at vertices to one row of features a shape (paper, 3.4); and features that are brought along."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from zipfile import BadZipFile
@@ -16,7 +15,7 @@ from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
 from shapeviz_report.descriptors.kernels.histograms import add_up
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
-from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray, Mesh
+from shapeviz_report.types import FeatureBlock, FloatArray, Mesh
 
 MOST_EXTERNAL_BYTES = 256 * 1024**2
 """Size of the largest file of a user's own feature."""
@@ -41,52 +40,6 @@ LEAST = 1e-3
 
 BLOCKS = tuple(FeatureBlock(d.name, d.dimensions, BINS) for d in DESCRIPTORS)
 """The features of Table 1: a histogram of ``BINS`` columns for each of the D dimensions of all descriptors."""
-
-
-@dataclass(frozen=True)
-class Preset:
-    """How descriptor values become features.
-
-    Attributes
-    ----------
-    name : str
-    explanation : str
-    fixed_ranges : bool
-        Whether histogram ranges come from the descriptors' definitions, or from quantiles of all shapes.
-    by_area : bool
-        Whether a vertex counts with its area, or as one.
-    balanced : bool
-        Whether projections see square roots with equal weight a feature, or the plain fractions.
-    """
-
-    name: str
-    explanation: str
-    fixed_ranges: bool
-    by_area: bool
-    balanced: bool
-
-
-PRESETS = {
-    preset.name: preset
-    for preset in (
-        Preset(
-            "default",
-            "Histogram ranges come from each descriptor's definition, vertices count with their area, and "
-            "projections compare square roots (Hellinger distance) with equal weight for each feature.",
-            fixed_ranges=True,
-            by_area=True,
-            balanced=True,
-        ),
-        Preset(
-            "paper",
-            "Histogram ranges run from the 1st to the 99th percentile of all shapes, vertices count equally, "
-            "and projections compare the plain fractions.",
-            fixed_ranges=False,
-            by_area=False,
-            balanced=False,
-        ),
-    )
-}
 
 
 def fixed_edges() -> FloatArray:
@@ -279,37 +232,3 @@ def load_external(path: Path, shape_count: int) -> FloatArray:
     if values.shape[1] == 0 or not np.isfinite(values).all():
         raise ConfigError(f"the feature file {path} must hold finite numbers only")
     return values
-
-
-def compared_values(table: FeatureTable, preset: Preset) -> FloatArray:
-    """The values of a table before any weight; (n, w).
-
-    Balanced: square roots of the fractions, whose Euclidean distance is the Hellinger distance of the histograms;
-    external features as they are. Otherwise the plain values.
-    """
-    if not preset.balanced:
-        return table.values
-    is_fraction = np.repeat(
-        [block.bins > 1 for block in table.blocks], [block.width for block in table.blocks]
-    )
-    return np.sqrt(table.values, where=is_fraction, out=table.values.copy())
-
-
-def scale(table: FeatureTable, preset: Preset) -> FloatArray:
-    """The values that projections compare, by Euclidean distance; (n, w).
-
-    Balanced: every feature of :func:`compared_values` is centred and divided by its root mean square norm over the
-    database, so that every feature contributes equally to the mean squared distance. A feature that is the same for
-    all shapes becomes zero.
-    """
-    compared = compared_values(table, preset)
-    if not preset.balanced:
-        return compared
-    scaled = np.empty_like(compared)
-    for block in table.blocks:
-        columns = table.slice_of(block.name)
-        values = compared[:, columns]
-        centred = values - values.mean(axis=0)
-        size = np.sqrt((centred**2).sum(axis=1).mean())
-        scaled[:, columns] = centred / size if size > 1e-12 else 0.0
-    return scaled

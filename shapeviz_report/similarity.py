@@ -1,7 +1,7 @@
 """Which shapes are most similar to one, and which features make them so.
 
 The distance of two shapes is the Euclidean distance of the values that projections compare:
-:func:`shapeviz_report.features.scale` for a choice of features, :func:`shapeviz_report.bins.scale_bins` for a choice of
+:func:`shapeviz_report.presets.scale` for a choice of features, :func:`shapeviz_report.bins.scale_bins` for a choice of
 bins. Both only shift and stretch columns by what the whole database is like, so a shape that is not in the database is
 compared by the same stretches. ``docs/method/retrieval.md`` says more; ``site/scripts/database/similarity.js`` does the
 same in the browser.
@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.features import Preset, compared_values
-from shapeviz_report.types import FeatureTable, FloatArray
+from shapeviz_report.presets import Preset, compared_values
+from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 
 TIE = 1e-9
 """Distances that differ by less than this fraction are equal."""
@@ -124,9 +124,11 @@ def typical_distance(
         values = compared[:, [place[name] for name in bins]]
         spread = float(values.var(axis=0) @ bin_weights(preset, values))
     else:
-        names = [block.name for block in table.blocks] if features is None else features
-        blocks = (compared[:, table.slice_of(name)] for name in names)
-        spread = sum(float(values.var(axis=0).sum()) * feature_weight(preset, values) for values in blocks)
+        spread = 0.0
+        for block in table.blocks:
+            if features is None or block.name in features:
+                values = compared[:, table.slice_of(block.name)]
+                spread += float(values.var(axis=0).sum()) * feature_weight(block, preset, values)
     # The mean over pairs of different shapes: the spread over all pairs without the pairs of a shape with itself.
     return float(np.sqrt(2 * spread * len(compared) / max(len(compared) - 1, 1)))
 
@@ -143,7 +145,7 @@ def squared_by_feature(
     table : FeatureTable
     preset : Preset
     compared : (n, w) float array
-        Its :func:`~shapeviz_report.features.compared_values`.
+        Its :func:`~shapeviz_report.presets.compared_values`.
     wanted : (w,) float array
         The same of one shape.
     """
@@ -152,17 +154,17 @@ def squared_by_feature(
         columns = table.slice_of(block.name)
         differences = compared[:, columns] - wanted[columns]
         squared[:, number] = np.einsum("ij,ij->i", differences, differences)
-        squared[:, number] *= feature_weight(preset, compared[:, columns])
+        squared[:, number] *= feature_weight(block, preset, compared[:, columns])
     return squared
 
 
-def feature_weight(preset: Preset, compared: FloatArray) -> float:
+def feature_weight(block: FeatureBlock, preset: Preset, compared: FloatArray) -> float:
     """What a squared difference in the compared values (n, w) of a feature counts, as
-    :func:`~shapeviz_report.features.scale` has it."""
+    :func:`~shapeviz_report.presets.scale` has it."""
     if not preset.balanced:
         return 1.0
     size = float(compared.var(axis=0).sum())
-    return 1 / size if size > NOTHING**2 else 0.0
+    return block.weight / size if size > NOTHING**2 else 0.0
 
 
 def bin_weights(preset: Preset, compared: FloatArray) -> FloatArray:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.search.bins import BinSpace, make_bin_space
 from shapeviz_report.types import FeatureBlock, FeatureTable
 

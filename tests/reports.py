@@ -18,9 +18,9 @@ from shapeviz_report.bins import features_of, scale_bins
 from shapeviz_report.clusters import describe_clusters, part
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.exemplars import choose_exemplars
-from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.order import classes_of
+from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.retrieval import query_classes, rate, rate_chance, rate_subsets
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.similarity import rank_similar
 from shapeviz_report.types import Report
 

@@ -15,7 +15,7 @@ from shapeviz_report.building.stages import EXAMINE
 from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
-from shapeviz_report.features import BLOCKS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import read_publication
 from shapeviz_report.types import Copy, Database, Failure
 
@@ -51,7 +51,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         database = read_published(database_path, config, read_publication(config))
         external = load_all_external(config.external, len(database.shapes))
         if config.bins is not None:
-            read_bins(config.bins, (*BLOCKS, *(block for block, _ in external)))
+            read_bins(config.bins, (*PRESETS[config.preset].blocks, *(block for block, _ in external)))
     failures = list(database.failures)
     cache = Cache(root)
     with open_workers(config, config.worker_count) as executor:

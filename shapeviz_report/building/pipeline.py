@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from shapeviz_report.agreement import weigh
 from shapeviz_report.bins import read_bins, scale_bins
 from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_meshes, check_places
@@ -33,8 +34,9 @@ from shapeviz_report.config import Config
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.exemplars import choose_exemplars
-from shapeviz_report.features import BLOCKS, PRESETS, compared_values, fixed_edges, quantile_edges, scale
+from shapeviz_report.features import fixed_edges, quantile_edges
 from shapeviz_report.mesh import collect_files
+from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.publication import read_publication
 from shapeviz_report.quality import score
@@ -94,11 +96,11 @@ def build_report(
         database = read_published(database_path, config, publication)
         check_meshes(destination, database)
         external = load_all_external(config.external, len(database.shapes))
-        blocks = (*BLOCKS, *(block for block, _ in external))
+        preset = PRESETS[config.preset]
+        blocks = (*preset.blocks, *(block for block, _ in external))
         bins = None if config.bins is None else read_bins(config.bins, blocks)
     cache = Cache(root)
     failures = list(database.failures)
-    preset = PRESETS[config.preset]
 
     with open_executor(config) as executor:
         run = Runner(executor, clock, cache, database, failures, config)
@@ -135,20 +137,28 @@ def build_report(
             return plan(stages.DESCRIBE, shape, views[shape], edges, preset.by_area)
 
         described = run.each(stages.DESCRIBE, pictures, plan_describing)
-        shapes = tuple(s for s in database.shapes if s.id in described)
+        measured = {shape: [result.value] for shape, result in described.items()}
+        if preset.whole:
+            whole = run.each(stages.DESCRIBE_WHOLE, described, lambda s: plan(stages.DESCRIBE_WHOLE, s))
+            measured = {shape: [*measured[shape], result.value] for shape, result in whole.items()}
+        shapes = tuple(s for s in database.shapes if s.id in measured)
         if not shapes:
             raise DatabaseError(*_nothing_usable(database_path, failures))
-        examined = run.each(stages.EXAMINE, described, plan_examining(paths, within))
+        examined = run.each(stages.EXAMINE, measured, plan_examining(paths, within))
         copies = find_copies(run, paths, within, examined)
         groups = group_copies(copies, [s.id for s in shapes])
-        rows = [i for i, s in enumerate(database.shapes) if s.id in described]
+        rows = [i for i, s in enumerate(database.shapes) if s.id in measured]
         features = FeatureTable(
             tuple(s.id for s in shapes),
             blocks,
             np.column_stack(
-                [[described[s.id].value for s in shapes], *(values[rows] for _, values in external)]
+                [
+                    [np.concatenate(measured[s.id]) for s in shapes],
+                    *(values[rows] for _, values in external),
+                ]
             ),
         )
+        features = weigh(features, preset)
         scaled = scale(features, preset)
         labeling = database.labelings[0] if database.labelings else None
         labels = tuple(s.labels.get(labeling) if labeling is not None else None for s in shapes)

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from shapeviz_report.bins import read_bins
 from shapeviz_report.building import stages
 from shapeviz_report.building.guard import check_cache
@@ -213,17 +215,22 @@ def _measure(
         files = collect_files(mesh)
         edge_length = float(site.summary["parameters"]["edge_length"])
         with progress.stage(stages.PREPARE.doing, 0):
-            key = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
-            prepared = _compute(executor, cache, stages.PREPARE, key, lambda: (files, edge_length))
+            source = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
+            prepared = _compute(executor, cache, stages.PREPARE, source, lambda: (files, edge_length))
         facts = stages.PREPARE.read(prepared)
         with progress.stage(stages.MEASURE.doing, 0):
             by_area = site.preset.by_area
-            key = stages.MEASURE.key(key, site.edges.tobytes(), by_area)
+            key = stages.MEASURE.key(source, site.edges.tobytes(), by_area)
             measured = _compute(executor, cache, stages.MEASURE, key, lambda: (prepared, site.edges, by_area))
+            values = [stages.MEASURE.read(measured)]
+            if site.preset.whole:
+                key = stages.DESCRIBE_WHOLE.key(source)
+                measured = _compute(executor, cache, stages.DESCRIBE_WHOLE, key, lambda: (prepared,))
+                values.append(stages.DESCRIBE_WHOLE.read(measured))
     except MeshError as error:
         raise MeshError(f"the mesh {mesh} cannot be used: {error}") from error
     cache.tell()
-    return facts, stages.MEASURE.read(measured)
+    return facts, np.concatenate(values)
 
 
 def _compute(

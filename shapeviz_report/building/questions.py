@@ -28,9 +28,10 @@ from shapeviz_report.building.stages import (
 from shapeviz_report.clusters import describe_clusters
 from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline, join_copies, pair_outlines
-from shapeviz_report.features import BINS, PRESETS
+from shapeviz_report.features import BINS
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.order import classes_of
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import PROJECTIONS, align, squared_distances
 from shapeviz_report.retrieval import query_classes, rate_chance
 from shapeviz_report.scorers import SCORERS

@@ -13,6 +13,7 @@ from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import BLOCKS, load_external
 from shapeviz_report.mesh import collect_files
+from shapeviz_report.presets import GLOBAL_BLOCKS
 from shapeviz_report.publication import licence_warning
 from shapeviz_report.types import Database, FeatureBlock, FloatArray, Publication
 
@@ -28,7 +29,7 @@ def read_published(path: Path, config: Config, publication: Publication) -> Data
 
 def load_all_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:
     """Features from files of the owner's own, each a block of its name. Raises ``ConfigError``."""
-    taken = {block.name for block in BLOCKS}
+    taken = {block.name for block in (*BLOCKS, *GLOBAL_BLOCKS)}
     result = []
     for path in paths:
         name = path.stem

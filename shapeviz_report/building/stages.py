@@ -22,7 +22,14 @@ from shapeviz_report.cache import make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.copies import Outline, compare, outline
 from shapeviz_report.errors import MeshError
-from shapeviz_report.features import compute_histograms, describe, find_bins, measure, sample_values
+from shapeviz_report.features import (
+    compute_histograms,
+    describe,
+    find_bins,
+    measure,
+    sample_values,
+)
+from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, PosedShape
 from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
 from shapeviz_report.mesh.clean import bounding_diagonal
 from shapeviz_report.models import pack_model, simplify
@@ -135,6 +142,13 @@ def describe_shape(prepared: bytes, view: FloatArray, edges: FloatArray, by_area
     return _pack_arrays(features=features, model=np.frombuffer(packed, np.uint8))
 
 
+def describe_whole_shape(prepared: bytes) -> bytes:
+    """The features of a prepared shape as a whole, for :func:`read_array`."""
+    with threadpool_limits(limits=1):
+        shape = PosedShape(_unpack(prepared))
+        return _pack_array(np.concatenate([descriptor.compute(shape) for descriptor in GLOBAL_DESCRIPTORS]))
+
+
 def measure_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
     """The features of a prepared shape alone, for :func:`read_array`."""
     return _pack_array(compute_histograms(_unpack(prepared), edges, by_area=by_area))
@@ -151,8 +165,8 @@ def read_model(described: bytes) -> bytes:
 
 
 def read_array(content: bytes) -> npt.NDArray[Any]:
-    """The array in a result of :func:`sample_shape`, :func:`measure_shape`, :func:`project_features` or
-    :func:`score_bins`."""
+    """The array in a result of :func:`sample_shape`, :func:`measure_shape`, :func:`describe_whole_shape`,
+    :func:`project_features` or :func:`score_bins`."""
     return np.load(io.BytesIO(content), allow_pickle=False)
 
 
@@ -359,6 +373,9 @@ PREPARE = Stage("prepare", "Preparing meshes", "prepared", prepare_shape, read_f
 SAMPLE = Stage("sample", "Finding value ranges", "sampled", sample_shape, read_array)
 DESCRIBE = Stage("describe", "Describing shapes", "described", describe_shape, read_features)
 MEASURE = Stage("describe", "Describing shapes", "measured", measure_shape, read_array)
+DESCRIBE_WHOLE = Stage(
+    "describe", "Describing whole shapes", "described-whole", describe_whole_shape, read_array
+)
 RENDER = Stage("render", "Drawing thumbnails", "rendered", render_shape, read_picture)
 GENERATE = Stage(
     "generate", "Generating shapes", "generated", generate_shape, bytes,

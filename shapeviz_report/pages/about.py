@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from collections import Counter
 
-from shapeviz_report.features import PRESETS
 from shapeviz_report.pages.base import METHODS, PageContent, class_names
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import has_licence, licence_warning
 from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
 from shapeviz_report.types import FeatureSearch, Report

@@ -6,10 +6,10 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
 from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
 from shapeviz_report.pages.chunks import Comparison, Side, Sides
+from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.similarity import feature_weight
 from shapeviz_report.types import FloatArray, Report
 from shapeviz_report.wording import Said, agreed, dimensions_of, say_bins, word_whole
@@ -88,7 +88,7 @@ def _compare(
         "rival": fits.rival.tolist(),
         # What a squared difference in a feature's compared values counts.
         "weights": [
-            feature_weight(preset, compared[:, report.features.slice_of(block.name)])
+            feature_weight(block, preset, compared[:, report.features.slice_of(block.name)])
             for block in report.features.blocks
         ],
         "whole": word_whole(preset.by_area),

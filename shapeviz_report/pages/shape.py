@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from shapeviz_report.features import PRESETS
 from shapeviz_report.pages.base import PageContent
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.types import Report
 from shapeviz_report.wording import word_whole
 

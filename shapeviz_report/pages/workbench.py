@@ -6,7 +6,6 @@ import numpy as np
 
 from shapeviz_report import charts, quality
 from shapeviz_report.descriptors import DESCRIPTORS
-from shapeviz_report.features import PRESETS, Preset, compared_values
 from shapeviz_report.pages.base import PageContent, class_names, feature_marks
 from shapeviz_report.pages.bins import SCORE_DECIMALS, all_features, mean_over_folds
 from shapeviz_report.pages.chunks import (
@@ -19,6 +18,7 @@ from shapeviz_report.pages.chunks import (
     Workbench,
 )
 from shapeviz_report.pages.fields import color_choices
+from shapeviz_report.presets import PRESETS, Preset, compared_values
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
 from shapeviz_report.wording import WORDINGS, explain_bins, say_bins

@@ -12,12 +12,20 @@ from shapeviz_report.types.arrays import FloatArray
 class FeatureBlock:
     """The columns of one feature: ``dimensions`` histograms of ``bins`` bins, dimension by dimension.
 
-    An external feature without histograms has ``bins == 1``.
+    A feature without histograms, of whole shapes or external, has ``bins == 1``.
+
+    Attributes
+    ----------
+    name : str
+    dimensions, bins : int
+    weight : float
+        What its squared distances count beside those of other features, where features are balanced.
     """
 
     name: str
     dimensions: int
     bins: int
+    weight: float = 1.0
 
     @property
     def width(self) -> int:

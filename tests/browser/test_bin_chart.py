@@ -10,7 +10,7 @@ from PIL import Image
 from reports import make_report
 from waiting import drawn_again, eventually
 
-from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.writing import write_site
 from shapeviz_report.writing.joiner import join

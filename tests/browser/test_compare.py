@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from waiting import drawn_again, eventually
 
-from shapeviz_report.features import PRESETS, compared_values, scale
 from shapeviz_report.neighbours import find_fits, find_nearest
+from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.wording import WORDINGS, say_bins
 
 ROWS = 12

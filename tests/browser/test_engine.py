@@ -6,7 +6,7 @@ from engine_page import make_table
 
 from shapeviz_report import quality
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.features import PRESETS, compared_values, scale
+from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import TSNE_METHOD, UMAP_METHOD, project, squared_distances
 from shapeviz_report.search.bins.automatic import grow
 from shapeviz_report.search.bins.bin_space import BinSpace

@@ -12,7 +12,7 @@ from reports import make_report, with_copies, with_external
 from similar_cases import similar_cases
 from waiting import drawn_again, eventually
 
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.similarity import rank_similar, typical_distance
 from shapeviz_report.wording import WORDINGS
 from shapeviz_report.writing import write_site

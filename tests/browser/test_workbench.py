@@ -8,7 +8,7 @@ from reports import make_report
 from waiting import drawn_again, eventually
 
 from shapeviz_report.bins import read_bins
-from shapeviz_report.features import PRESETS, compared_values
+from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 
 FEATURES = ("Gc", "Sc", "PFH")

@@ -15,7 +15,7 @@ from shapeviz_report.config import SEARCHES
 from shapeviz_report.database import LAYOUTS
 from shapeviz_report.demo import CLASSES
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.wording import WORDINGS
 

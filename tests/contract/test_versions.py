@@ -126,7 +126,8 @@ def test_what_runs_is_reached() -> None:
         from shapeviz_report.building import stages
         from shapeviz_report.features import fixed_edges
         from shapeviz_report.search.bins import make_bin_space
-        from shapeviz_report.features import PRESETS, FeatureTable, BLOCKS
+        from shapeviz_report.features import FeatureTable, BLOCKS
+        from shapeviz_report.presets import PRESETS
 
         ran = {}
         def call(name, *arguments):

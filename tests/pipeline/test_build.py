@@ -24,7 +24,8 @@ from small_database import OPTIONS, WITH_SEARCH, make_shape, read_site, write_da
 import shapeviz_report
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
-from shapeviz_report.features import BINS, PRESETS, compared_values
+from shapeviz_report.features import BINS
+from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search.bins import affordable_deals, find_minimal_bins, make_bin_space
 

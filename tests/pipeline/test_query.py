@@ -15,7 +15,7 @@ from small_database import OPTIONS, make_shape, write_database
 import shapeviz_report
 from shapeviz_report.cli import main
 from shapeviz_report.errors import ConfigError, MeshError, SiteError
-from shapeviz_report.features import PRESETS, scale
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.types import Report
 from shapeviz_report.writing import write_site
 

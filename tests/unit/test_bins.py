@@ -9,7 +9,8 @@ import pytest
 
 from shapeviz_report.bins import features_of, read_bins, scale_bins
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.features import BLOCKS, PRESETS, fixed_edges
+from shapeviz_report.features import BLOCKS, fixed_edges
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.types import FeatureBlock, FeatureTable
 
 BLOCKS_AND_OWN = (*BLOCKS, FeatureBlock("deep one", 3, 1))

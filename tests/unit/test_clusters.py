@@ -12,7 +12,7 @@ from scipy.sparse import csr_matrix
 from sklearn.metrics import adjusted_rand_score, silhouette_samples
 
 from shapeviz_report.clusters import STEADY, describe_clusters, find_communities, part, silhouettes
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.types import FeatureBlock, FeatureTable, ShapeEntry
 
 PRESET = PRESETS["default"]

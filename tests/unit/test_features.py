@@ -12,7 +12,6 @@ from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import (
     BINS,
     BLOCKS,
-    PRESETS,
     clear_edges,
     compute_histograms,
     describe,
@@ -22,8 +21,8 @@ from shapeviz_report.features import (
     measure,
     quantile_edges,
     sample_values,
-    scale,
 )
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.types import FeatureBlock, FeatureTable
 
 

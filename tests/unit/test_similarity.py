@@ -10,7 +10,7 @@ from reports import make_report, with_external
 from similar_cases import similar_cases
 
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.features import PRESETS, scale
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.similarity import rank_similar
 
 REPORT = with_external(make_report(["ant", "bird"], 9, features=("Gc", "Sc", "PFH")))

@@ -15,8 +15,8 @@ import numpy.typing as npt
 from threadpoolctl import threadpool_limits
 
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.features import Preset
 from shapeviz_report.order import classes_of
+from shapeviz_report.presets import Preset
 from shapeviz_report.projections import MAIN_PROJECTION, arrange, canonical_order
 from shapeviz_report.quality import neighbour_weights, neighbourhood_hits
 from shapeviz_report.search.bins.kernels.neighbour_hits import hits_with_each

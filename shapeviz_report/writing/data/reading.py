@@ -9,7 +9,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -18,8 +18,8 @@ import numpy as np
 
 from shapeviz_report.config import Config
 from shapeviz_report.errors import ConfigError, SiteError
-from shapeviz_report.features import BLOCKS, PRESETS, Preset
 from shapeviz_report.files import read_regular
+from shapeviz_report.presets import PRESETS, Preset
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 from shapeviz_report.writing.data.encoding import GENERATOR, read_archive, read_csv
 
@@ -99,7 +99,8 @@ def read_site(folder: Path) -> SiteData:
             )
             dimensions = sum(block.dimensions for block in blocks if block.bins > 1)
             _require(edges.shape == (dimensions, 11), "its features do not fit the edges")
-            PRESETS[summary["parameters"]["preset"]]
+            own = PRESETS[summary["parameters"]["preset"]].blocks
+            _require(all(0 <= block.weight < np.inf for block in blocks), "a feature has no weight")
             edge_length = summary["parameters"]["edge_length"]
             _require(isinstance(edge_length, float), "the length of an edge is no number")
             Config(edge_length=edge_length)
@@ -108,11 +109,12 @@ def read_site(folder: Path) -> SiteData:
             _require(bins is None or (bool(bins) and {*bins} <= {*columns}), "its bins are not there")
     except ValueError as error:
         raise SiteError(f"the site {folder} is not complete, build it again: {error}") from error
-    if blocks[: len(BLOCKS)] != BLOCKS:
+    there = blocks[: len(own)]
+    if tuple(replace(block, weight=1.0) for block in there) != own:
         raise SiteError(f"the site {folder} has other features than this version measures: build it again")
-    width = sum(block.width for block in BLOCKS)
-    table = FeatureTable(ids, BLOCKS, values[:, :width])
-    return SiteData(folder, summary, shapes, table, blocks[len(BLOCKS) :], edges)
+    width = sum(block.width for block in own)
+    table = FeatureTable(ids, there, values[:, :width])
+    return SiteData(folder, summary, shapes, table, blocks[len(own) :], edges)
 
 
 @contextmanager

@@ -39,7 +39,12 @@ def summary(report: Report, version: str) -> dict[str, object]:
         "classes": len(classes),
         "unlabelled": sum(label is None for label in report.labels),
         "features": [
-            {"name": block.name, "dimensions": block.dimensions, "bins": block.bins}
+            {
+                "name": block.name,
+                "dimensions": block.dimensions,
+                "bins": block.bins,
+                "weight": block.weight,
+            }
             for block in report.features.blocks
         ],
         "failures": [

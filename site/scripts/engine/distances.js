@@ -14,7 +14,7 @@ const NO_SPREAD = 1e-12;
 /**
  * The chosen rows and columns, scaled.
  *
- * For a choice of features, each is divided by its root mean square norm, as shapeviz_report/features.py does, so that
+ * For a choice of features, each is divided by its root mean square norm, as shapeviz_report/presets.py does, so that
  * all contribute equally; for a choice of bins each column is divided by its standard deviation. Both are taken over
  * all rows of the table, so that leaving out classes does not change what near means. "plain" tables stay as they are.
  *

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from reports import make_report, with_bins, with_external
 
-from shapeviz_report.features import PRESETS, scale
 from shapeviz_report.neighbours import find_nearest
 from shapeviz_report.pages.compare import ComparePage
+from shapeviz_report.presets import PRESETS, scale
 
 REPORT = make_report(["ant", "bird", "cup", None], 6, features=("Gc", "Sc", "Agd"))
 

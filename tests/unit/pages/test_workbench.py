@@ -9,8 +9,8 @@ import pytest
 from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_scores, with_search
 
 from shapeviz_report import quality
-from shapeviz_report.features import PRESETS, compared_values
 from shapeviz_report.pages.workbench import WorkbenchPage
+from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import FeatureBlock, FeatureTable, Projection
 from shapeviz_report.wording import explain_bins

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from planted_bins import PLANTED, make_table
 
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.quality import score
 from shapeviz_report.search.bins import make_bin_space, select_bins
 from shapeviz_report.types import BinSelection

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.quality import score
 from shapeviz_report.search.bins import encode, make_bin_space

@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from shapeviz_report.features import PRESETS, scale
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.search.bins import encode, hold_out, shuffle_labels
 from shapeviz_report.search.bins.bin_space import hits_on, lay_out

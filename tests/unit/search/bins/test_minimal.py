@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from planted_bins import CLASSES, PLANTED, make_table
 
-from shapeviz_report.features import PRESETS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.search.bins import find_minimal_bins, make_bin_space
 
 
