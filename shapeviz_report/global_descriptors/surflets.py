@@ -27,7 +27,8 @@ def compute(shape: PosedShape) -> FloatArray:
 
     Ten distances up to 4 units, the last taking what is beyond; four ranges of :math:`|n_1 \cdot n_2|`; and the ten
     unordered pairs of four ranges of :math:`|n_1 \cdot d|` and :math:`|n_2 \cdot d|`. Which way faces are oriented
-    plays no part, so that soups can be compared; Euclidean distance of the roots is the Hellinger distance of the shares.
+    plays no part, so that soups can be compared; Euclidean distance of the roots is the Hellinger distance of the
+    shares.
 
     Returns
     -------

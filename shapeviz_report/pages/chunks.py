@@ -450,6 +450,7 @@ class Feature(FeatureWords):
     start: int
     dimensions: int
     bins: int
+    weight: float
     hue: int
     low: float
     high: float

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from shapeviz_report import charts, quality
-from shapeviz_report.descriptors import DESCRIPTORS
+from shapeviz_report.descriptors import DESCRIPTORS, Descriptor
+from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor
 from shapeviz_report.pages.base import PageContent, class_names, feature_marks
 from shapeviz_report.pages.bins import SCORE_DECIMALS, all_features, mean_over_folds
 from shapeviz_report.pages.chunks import (
@@ -21,12 +22,15 @@ from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.presets import PRESETS, Preset, compared_values
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
-from shapeviz_report.wording import WORDINGS, explain_bins, say_bins
+from shapeviz_report.wording import GLOBAL_WORDINGS, WORDINGS, call_bins, explain_bins
 
 #: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
 STEPS = 65535
 
-_DESCRIPTORS = {descriptor.name: descriptor for descriptor in DESCRIPTORS}
+_DESCRIPTORS: dict[str, Descriptor | GlobalDescriptor] = {
+    **{descriptor.name: descriptor for descriptor in DESCRIPTORS},
+    **{descriptor.name: descriptor for descriptor in GLOBAL_DESCRIPTORS},
+}
 
 
 class WorkbenchPage:
@@ -64,10 +68,7 @@ def _workbench(report: Report, preset: Preset, compared: FloatArray, classes: tu
     return {
         "features": _features(report, compared),
         # In few plain words; empty for features that were brought along.
-        "called": [
-            "" if said is None else said.name
-            for said in say_bins(report.features, report.edges, by_area=preset.by_area)
-        ],
+        "called": list(call_bins(report.features, report.edges)),
         "sentences": list(explain_bins(report.features, report.edges, by_area=preset.by_area)),
         "scaling": "balanced" if preset.balanced else "plain",
         "neighbours": hits.k,
@@ -96,6 +97,7 @@ def _features(report: Report, compared: FloatArray) -> list[Feature]:
                 "start": columns.start,
                 "dimensions": block.dimensions,
                 "bins": block.bins,
+                "weight": block.weight,
                 "hue": hue,
                 "low": low,
                 "high": high,
@@ -118,7 +120,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
             "sought": [("", "")] * block.dimensions,
             "ease": 1,
         }
-    wording = WORDINGS[block.name]
+    wording = WORDINGS.get(block.name) or GLOBAL_WORDINGS[block.name]
     return {
         "title": descriptor.title,
         "aspect": wording.aspect,

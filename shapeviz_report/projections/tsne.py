@@ -8,7 +8,7 @@ from shapeviz_report.projections.base import Method, classical_scaling, principa
 from shapeviz_report.types import FloatArray
 
 PERPLEXITY = 30.0
-"""Effective number of neighbours; a third of the other shapes where there are fewer than 91."""
+"""Most effective neighbours; see :func:`perplexity_of`."""
 
 ALL_PAIRS = 300
 """Up to this many rows all pairs have an affinity, as in the original paper. With more, each row has one with the
@@ -32,7 +32,7 @@ def arrange(squared: FloatArray, seed: int) -> FloatArray:
     from shapeviz_report.projections.kernels import exact_tsne
 
     count = len(squared)
-    perplexity = _perplexity(count)
+    perplexity = perplexity_of(count)
     if count <= ALL_PAIRS:
         neighbours, exaggeration = count - 1, EXAGGERATION
     else:
@@ -49,12 +49,16 @@ def embed(values: FloatArray, seed: int) -> FloatArray:
     from sklearn.manifold import TSNE
 
     start = _start(principal_components(values), seed)
-    tsne = TSNE(perplexity=_perplexity(len(values)), init=start, random_state=seed, n_jobs=1)
+    tsne = TSNE(perplexity=perplexity_of(len(values)), init=start, random_state=seed, n_jobs=1)
     return tsne.fit_transform(values)
 
 
-def _perplexity(count: int) -> float:
-    return min(PERPLEXITY, (count - 1) / 3)
+def perplexity_of(count: int) -> float:
+    """Effective number of neighbours on a map of so many shapes: the square root of their number, up to 30.
+
+    Up to a third of the other shapes, where there are few. docs/notes/features.md has what other rules give.
+    """
+    return min(PERPLEXITY, count**0.5, (count - 1) / 3)
 
 
 def _start(components: FloatArray, seed: int) -> FloatArray:

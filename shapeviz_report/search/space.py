@@ -36,6 +36,8 @@ class SearchSpace:
         The shapes that take part, as rows of the feature table.
     shape_count : int
         Of the table.
+    local : int
+        How many of the features, the first, are histograms of local descriptors: those of the paper.
     squared : (f, m, m) float32 array
         Squared distances by each feature: 4 f m^2 bytes, 2.5 MB for eight features of 280 shapes, 32 MB at
         ``SAMPLE_LIMIT``.
@@ -46,6 +48,7 @@ class SearchSpace:
     features: tuple[str, ...]
     rows: IntArray
     shape_count: int
+    local: int
     squared: npt.NDArray[np.float32]
 
     @cached_property
@@ -110,7 +113,8 @@ def make_space(
             [squared_distances(chosen[:, table.slice_of(b.name)]).astype(np.float32) for b in table.blocks]
         )
     names = tuple(block.name for block in table.blocks)
-    return SearchSpace(names, order.astype(np.int32), len(scaled), squared)
+    local = sum(block.bins > 1 for block in table.blocks)
+    return SearchSpace(names, order.astype(np.int32), len(scaled), local, squared)
 
 
 def stratified_sample(labels: Sequence[str | None], size: int, seed: int) -> npt.NDArray[np.intp]:

@@ -9,15 +9,20 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
-from shapeviz_report.wording.base import Said, Wording, span
+from shapeviz_report.wording.base import GlobalWording, Said, Wording, span
+from shapeviz_report.wording.depth_views import DEPTH_VIEWS
 from shapeviz_report.wording.fast_point_feature_histogram import FAST_POINT_FEATURE_HISTOGRAM
 from shapeviz_report.wording.gaussian_curvature import GAUSSIAN_CURVATURE
 from shapeviz_report.wording.geodesic_distance import GEODESIC_DISTANCE
 from shapeviz_report.wording.normal_angle import NORMAL_ANGLE
 from shapeviz_report.wording.normal_diameter import NORMAL_DIAMETER
+from shapeviz_report.wording.panorama import PANORAMA
+from shapeviz_report.wording.panorama_slant import PANORAMA_SLANT
 from shapeviz_report.wording.point_angle import POINT_ANGLE
 from shapeviz_report.wording.point_feature_histogram import POINT_FEATURE_HISTOGRAM
 from shapeviz_report.wording.shape_context import SHAPE_CONTEXT
+from shapeviz_report.wording.silhouettes import SILHOUETTES
+from shapeviz_report.wording.surflets import SURFLETS
 
 WORDINGS: Mapping[str, Wording] = {
     "Gc": GAUSSIAN_CURVATURE,
@@ -30,6 +35,15 @@ WORDINGS: Mapping[str, Wording] = {
     "FPFH": FAST_POINT_FEATURE_HISTOGRAM,
 }
 """By the names of the descriptors."""
+
+GLOBAL_WORDINGS: Mapping[str, GlobalWording] = {
+    "Pan": PANORAMA,
+    "PanS": PANORAMA_SLANT,
+    "Dep": DEPTH_VIEWS,
+    "Sil": SILHOUETTES,
+    "Sfl": SURFLETS,
+}
+"""By the names of the global descriptors."""
 
 
 class Dimension(NamedTuple):
@@ -100,6 +114,9 @@ def dimensions_of(table: FeatureTable, edges: FloatArray) -> Iterator[Dimension]
 def explain_bins(table: FeatureTable, edges: FloatArray, *, by_area: bool) -> tuple[str, ...]:
     """What the value of every column is exactly, a sentence each; parameters as for :func:`say_bins`."""
     sentences = [f"The value of {column}, a feature that was brought along." for column in table.columns]
+    for block, start in _whole(table):
+        for place, quantity in enumerate(GLOBAL_WORDINGS[block.name].quantities):
+            sentences[start + place] = f"The value is {quantity}."
     for dimension, start in _placed(table, edges):
         for place in range(dimension.block.bins):
             sentences[start + place] = (
@@ -108,8 +125,19 @@ def explain_bins(table: FeatureTable, edges: FloatArray, *, by_area: bool) -> tu
     return tuple(sentences)
 
 
+def call_bins(table: FeatureTable, edges: FloatArray) -> tuple[str, ...]:
+    """Every column in few plain words; empty for external features."""
+    called = [""] * len(table.columns)
+    for dimension, start in _placed(table, edges):
+        for place in range(dimension.block.bins):
+            called[start + place] = dimension.say_bin(place).name
+    for block, start in _whole(table):
+        called[start : start + block.width] = GLOBAL_WORDINGS[block.name].names
+    return tuple(called)
+
+
 def say_bins(table: FeatureTable, edges: FloatArray, *, by_area: bool) -> tuple[Said | None, ...]:
-    """Every column in plain words; None for external features.
+    """Every share of the surface in plain words; None for columns that are none.
 
     Parameters
     ----------
@@ -131,6 +159,13 @@ def _placed(table: FeatureTable, edges: FloatArray) -> Iterator[tuple[Dimension,
     for dimension in dimensions_of(table, edges):
         first = table.slice_of(dimension.block.name).start
         yield dimension, first + dimension.number * dimension.block.bins
+
+
+def _whole(table: FeatureTable) -> Iterator[tuple[FeatureBlock, int]]:
+    """The features of whole shapes with their first columns."""
+    for block in table.blocks:
+        if block.name in GLOBAL_WORDINGS:
+            yield block, table.slice_of(block.name).start
 
 
 def word_whole(by_area: bool) -> str:

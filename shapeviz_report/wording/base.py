@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -70,6 +70,73 @@ class Wording:
     sought: tuple[tuple[str, str], ...]
     ease: float
     say: Callable[[int, float | None, float | None], Said]
+
+
+@dataclass(frozen=True)
+class GlobalWording:
+    """The words for the values of a global descriptor.
+
+    Attributes
+    ----------
+    aspect : str
+        What it looks at, as it stands in "alike in ... and ...".
+    names : tuple of str
+        What each value is, in few words.
+    quantities : tuple of str
+        What it is exactly, as it stands after "The value is".
+    """
+
+    aspect: str
+    names: tuple[str, ...]
+    quantities: tuple[str, ...]
+
+    low = ""
+    high = ""
+    ease = 1.0
+
+
+AXES = ("longest", "middle", "shortest")
+"""The axes of a shape."""
+
+
+def count_waves(number: int) -> str:
+    """ "1 wave", "2 waves"."""
+    return f"{number} wave" if number == 1 else f"{number} waves"
+
+
+def name_waves_around(waves: tuple[int, int]) -> Iterator[str]:
+    """What the values of a panorama count, in few words: "longest axis: 2 waves around, 1 along"."""
+    for axis in AXES:
+        for along in range(waves[0]):
+            for around in range(waves[1]):
+                parts = [f"{count_waves(around)} around"] if around else []
+                parts += [f"{count_waves(along) if not around else along} along"] if along else []
+                yield f"{axis} axis: {', '.join(parts) or 'mean'}"
+
+
+def place_waves_around(waves: tuple[int, int]) -> Iterator[str]:
+    """The same, exactly."""
+    for axis in AXES:
+        for along in range(waves[0]):
+            for around in range(waves[1]):
+                yield f"{count_waves(around)} around the {axis} axis and {along} along it"
+
+
+def name_waves_across(waves: tuple[int, int]) -> Iterator[str]:
+    """What the values of an image along an axis count, in few words: "2 waves across, 1 up"."""
+    for up in range(waves[0]):
+        for across in range(waves[1]):
+            parts = [f"{count_waves(across)} across"] if across else []
+            parts += [f"{count_waves(up) if not across else up} up"] if up else []
+            yield ", ".join(parts) or "mean"
+
+
+def place_waves_across(axis: int, waves: tuple[int, int]) -> Iterator[str]:
+    """The same, exactly: across is along the axis that follows, up along the one after it."""
+    across_axis, up_axis = AXES[(axis + 1) % 3], AXES[(axis + 2) % 3]
+    for up in range(waves[0]):
+        for across in range(waves[1]):
+            yield f"{count_waves(across)} along the {across_axis} axis and {up} along the {up_axis} one"
 
 
 def as_degrees(radians: FloatArray) -> FloatArray:

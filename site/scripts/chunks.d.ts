@@ -297,6 +297,7 @@ declare namespace Chunk {
     start: number;
     dimensions: number;
     bins: number;
+    weight: number;
     hue: number;
     low: number;
     high: number;

@@ -76,12 +76,13 @@ interface Attributes extends Handlers {
   [name: string]: string | number | boolean | null | undefined | ((event: any) => unknown);
 }
 
-/** The values that the engine works on: one column after the other, and the feature of each column. */
+/** The values that the engine works on: one column after the other, the feature of each column, and what features count. */
 interface FeatureValues {
   rows: number;
   columns: number;
   values: Float32Array;
   blocks: Int32Array;
+  weights: number[];
   scaling: "balanced" | "plain";
 }
 

@@ -70,3 +70,11 @@ export function percents(...shares) {
 export function listed(words) {
   return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
 }
+
+/**
+ * Words as a sentence begins.
+ * @param {string} words
+ */
+export function capitalised(words) {
+  return words.slice(0, 1).toUpperCase() + words.slice(1);
+}

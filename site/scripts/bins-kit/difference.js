@@ -4,7 +4,7 @@
 // surfaces: to a shape with the share a of its surface in the bin, beside another with b, goes a / (a + b) of it. Where
 // the values compared are square roots of shares, each point of a surface then bears at most its own weight: a bin that
 // only one shape has is all difference, one that both have alike is none. The sum over both surfaces, and over the
-// features that were brought along and lie on no surface, is the squared distance.
+// features of whole shapes, which lie on no surface, is the squared distance.
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Model } from "../viewer/model.js" */

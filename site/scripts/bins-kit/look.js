@@ -188,7 +188,7 @@ export class Look {
         element(
           "p",
           { class: "notice" },
-          "This feature was brought along: it has one value a shape, and none on the surface, so there is nothing to paint.",
+          "This is a value of the shape as a whole, which no part of its surface has for itself, so there is nothing to paint.",
         ),
       ];
     const own = pictured(selection, database, bins, column, this.state.get("group"));

@@ -302,7 +302,7 @@ export class Outliers {
     const [itself, usual] = (share ? percents : numbers)(own, means[0]);
     const words = share
       ? [element("b", {}, itself), ` of its ${data.whole.replace("the ", "")} ${data.clauses[column]}`]
-      : ["Its ", element("bdi", {}, bins.names[column]), " is ", element("b", {}, itself)];
+      : ["Its ", element("bdi", {}, bins.called[column] || bins.names[column]), " is ", element("b", {}, itself)];
     const hue = element("i", { class: "hued" });
     hue.style.background = bins.color(column);
     return element(

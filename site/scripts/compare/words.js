@@ -1,7 +1,7 @@
 // What a comparison says, in sentences a stranger understands. Names of groups come in elements of their own.
 
 import { element } from "../base/dom.js";
-import { grouped, percents } from "../base/words.js";
+import { capitalised, grouped, percents } from "../base/words.js";
 import { mean, toldAs } from "./distribution.js";
 
 /** @import { Bins } from "../database/bins.js" */
@@ -36,7 +36,7 @@ export function statement(column, contrast, a, b, data) {
   return bins.isShare(column)
     ? moreOf({ clause: /** @type {string} */ (data.clauses[column]), trend: "", fewer: false }, more, less, told, data)
     : [
-        element("bdi", {}, bins.names[column]),
+        element("bdi", {}, capitalised(bins.called[column]) || bins.names[column]),
         " is higher in ",
         called(more),
         " than in ",
@@ -101,7 +101,7 @@ export function inBoth(column, means, { a, b, bins, data }) {
   ];
   if (!bins.isShare(column))
     return [
-      element("bdi", {}, bins.names[column]),
+      element("bdi", {}, capitalised(bins.called[column]) || bins.names[column]),
       ` is ${more ? "higher" : "lower"} in both than in other shapes: `,
       ...figures,
     ];

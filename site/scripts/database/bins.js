@@ -61,7 +61,7 @@ export class Bins {
   }
 
   /**
-   * Whether a column is a share of the surface; an external feature holds values of its own.
+   * Whether a column is a share of the surface; features of whole shapes and external ones hold values of their own.
    * @param {number} column
    */
   isShare(column) {
@@ -69,7 +69,7 @@ export class Bins {
   }
 
   /**
-   * The number of a column's dimension among those of the descriptors; null for a feature that was brought along.
+   * The number of a column's dimension among those of the local descriptors; null for all other features.
    * @param {number} column
    */
   dimensionOf(column) {

@@ -1,7 +1,8 @@
 // Which shapes are most similar to one, and which features make them so: what shapeviz_report/similarity.py is in Python.
 //
 // The distance of two shapes is the Euclidean distance of the values that projections compare: every feature divided by
-// its root mean square norm over the database, or every chosen bin by its standard deviation; "plain" tables as they are.
+// its root mean square norm over the database, times its weight, or every chosen bin by its standard deviation; "plain"
+// tables as they are.
 
 import { entry } from "../base/entry.js";
 
@@ -169,7 +170,7 @@ export class Similarity {
     if (!this.bins.balanced) return 1;
     return entry(this.#featureWeights, feature, () => {
       const size = this.#size(feature);
-      return size > NOTHING ** 2 ? 1 / size : 0;
+      return size > NOTHING ** 2 ? this.bins.features[feature].weight / size : 0;
     });
   }
 

@@ -15,7 +15,7 @@ const NO_SPREAD = 1e-12;
  * The chosen rows and columns, scaled.
  *
  * For a choice of features, each is divided by its root mean square norm, as shapeviz_report/presets.py does, so that
- * all contribute equally; for a choice of bins each column is divided by its standard deviation. Both are taken over
+ * each contributes its weight; for a choice of bins each column is divided by its standard deviation. Both are taken over
  * all rows of the table, so that leaving out classes does not change what near means. "plain" tables stay as they are.
  *
  * @param {FeatureValues} table
@@ -53,7 +53,11 @@ function factorsOf(table, columns, by) {
     });
     columns.forEach((column, place) => (variances[place] = totals.get(table.blocks[column]) ?? 0));
   }
-  return variances.map((value) => (Math.sqrt(value) > NO_SPREAD ? 1 / Math.sqrt(value) : 0));
+  return variances.map((value, place) =>
+    Math.sqrt(value) > NO_SPREAD
+      ? Math.sqrt((by === "features" ? table.weights[table.blocks[columns[place]]] : 1) / value)
+      : 0,
+  );
 }
 
 /**

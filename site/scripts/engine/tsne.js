@@ -7,7 +7,7 @@ import { Quadtree } from "./quadtree.js";
 import { Random } from "./random.js";
 import { part } from "./steps.js";
 
-/** Effective number of neighbours; a third of the other rows where there are fewer than 91. */
+/** Most effective neighbours: else the square root of the number of rows, and of few rows a third of the others. */
 const PERPLEXITY = 30;
 
 /** Factor on the affinities at first, for all pairs and for the nearest. */
@@ -72,7 +72,7 @@ export function* layOutByTsne(points, start, seed) {
 
 /** @param {number} count */
 function perplexityOf(count) {
-  return Math.min(PERPLEXITY, (count - 1) / 3);
+  return Math.min(PERPLEXITY, Math.sqrt(count), (count - 1) / 3);
 }
 
 /**

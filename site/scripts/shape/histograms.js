@@ -212,7 +212,9 @@ export class Histograms {
   #quantity(feature, dimension) {
     const { start, bins: width } = this.bins.features[feature];
     const place = this.bins.dimensionOf(start + dimension * width);
-    return place === null ? "a value that was brought along" : this.dimensions[place].quantity;
+    return place === null
+      ? this.bins.called[start + dimension * width] || "a value that was brought along"
+      : this.dimensions[place].quantity;
   }
 
   /**
@@ -275,7 +277,7 @@ export class Histograms {
   }
 
   /**
-   * A value that was brought along, on the range that all shapes have.
+   * A value of the whole shape, on the range that all shapes have.
    * @param {number} column
    * @param {number} shape
    */
@@ -318,7 +320,8 @@ export class Histograms {
       element(
         "p",
         { class: "quantity" },
-        "A feature that was brought along: its value, from the least to the most of all shapes",
+        bins.called[column] ? capitalised(bins.called[column]) : "A feature that was brought along",
+        ": its value, from the least to the most of all shapes",
       ),
     ];
   }

@@ -87,6 +87,7 @@ export class Answers {
       columns: bins.count,
       values: bins.values(),
       blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
+      weights: bins.features.map(({ weight }) => weight),
       scaling: data.scaling,
     });
   }

@@ -1,0 +1,15 @@
+"""How far a shape reaches from its axes."""
+
+from __future__ import annotations
+
+from shapeviz_report.global_descriptors.posed_shape import WAVES_AROUND
+from shapeviz_report.wording.base import GlobalWording, name_waves_around, place_waves_around
+
+PANORAMA = GlobalWording(
+    aspect="how far they reach from their axes",
+    names=tuple(f"reach from the {waves}" for waves in name_waves_around(WAVES_AROUND)),
+    quantities=tuple(
+        f"the strength of {waves}, in how far the surface reaches from it"
+        for waves in place_waves_around(WAVES_AROUND)
+    ),
+)
