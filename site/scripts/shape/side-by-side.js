@@ -144,7 +144,11 @@ export class SideBySide extends Comparing {
         element("b", {}, whole(there)),
         " on ",
         this.#name(other),
-        nowhere > 0 && [", and ", element("b", {}, whole(nowhere)), " lies in what is measured of whole shapes, not of a place on them"],
+        nowhere > 0 && [
+          ", and ",
+          element("b", {}, whole(nowhere)),
+          " lies in what is measured of whole shapes, not of a place on them",
+        ],
         ". What one has and the other lacks is coloured; what both have as much of is not.",
       ),
       element(
