@@ -144,10 +144,10 @@ class _Search:
         whole = count
         if count > EXHAUSTIVE_LIMIT:
             whole = local if local <= EXHAUSTIVE_LIMIT else 0
-            evaluated = f"all {2**whole - 1:,} of the {whole} of the paper, and of the rest " if whole else ""
+            evaluated = f"all {2**whole - 1:,} of the paper's {whole}, and of the others " if whole else ""
             refusal = (
-                f"{count} features have {2**count - 1:,} subsets; all are evaluated up to {EXHAUSTIVE_LIMIT} features. "
-                f"Here it is {evaluated}those that the greedy search asks for."
+                f"{count} features have {2**count - 1:,} subsets. Evaluated are {evaluated}those that the greedy search "
+                f"asks for; up to {EXHAUSTIVE_LIMIT} features it would be all."
             )
         alone = [1 << i for i in range(count)]
         self.need(self.seed, [self.space.everything, *range(1, 1 << whole), *alone])

@@ -124,10 +124,10 @@ def test_what_runs_is_reached() -> None:
         import numpy as np
         import trimesh
         from shapeviz_report.building import stages
-        from shapeviz_report.features import fixed_edges
-        from shapeviz_report.search.bins import make_bin_space
-        from shapeviz_report.features import FeatureTable, BLOCKS
+        from shapeviz_report.features import BLOCKS, fixed_edges
         from shapeviz_report.presets import PRESETS
+        from shapeviz_report.search.bins import make_bin_space
+        from shapeviz_report.types import FeatureTable
 
         ran = {}
         def call(name, *arguments):
@@ -154,6 +154,7 @@ def test_what_runs_is_reached() -> None:
         edges = fixed_edges()
         call("SAMPLE", prepared, 20)
         call("DESCRIBE", prepared, view, edges, True)
+        call("DESCRIBE_WHOLE", prepared)
         call("MEASURE", prepared, edges, True)
         call("PAINT", prepared, view, edges, [(0, 1)], 64)
         random = np.random.default_rng(0)

@@ -73,7 +73,7 @@ def test_a_query_reads_names_as_they_were(tmp_path, monkeypatch) -> None:
     (tmp_path / "data").mkdir()
     for name, content in data_files(report, __version__).items():
         (tmp_path / "data" / name).write_bytes(content)
-    monkeypatch.setattr("shapeviz_report.writing.data.reading.BLOCKS", report.features.blocks)
+    monkeypatch.setattr("shapeviz_report.presets.Preset.blocks", report.features.blocks)
     site = read_site(tmp_path)
     assert [shape["id"] for shape in site.shapes] == list(ids)
     assert {shape["class"] for shape in site.shapes} == {"=kind", "+other"}

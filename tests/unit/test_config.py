@@ -157,7 +157,7 @@ def test_the_file_lies_beside_a_table(database) -> None:
         ('edge_length = "small"', "edge_length must be a number"),
         ("edge_length = 0.5", r"edge_length must be from 0\.002 to 0\.1"),
         ("edge_length = nan", "edge_length must be from"),
-        ('preset = "best"', "preset must be one of default, paper"),
+        ('preset = "best"', "preset must be one of default, local, paper"),
         ("external = [1]", "external must be a list of file names"),
         ('up = "x"', "up must be y or z"),
         ("meshes = 1", "meshes must be true or false"),

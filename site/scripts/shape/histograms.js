@@ -320,7 +320,9 @@ export class Histograms {
       element(
         "p",
         { class: "quantity" },
-        bins.called[column] ? capitalised(bins.called[column]) : "A feature that was brought along",
+        bins.called[column]
+          ? bins.called[column][0].toUpperCase() + bins.called[column].slice(1)
+          : "A feature that was brought along",
         ": its value, from the least to the most of all shapes",
       ),
     ];

@@ -58,11 +58,12 @@ def test_affinities_by_bisection(groups, perplexity) -> None:
 @pytest.mark.slow
 def test_as_good_as_scikit_learn(groups) -> None:
     values, labels = groups
-    shares = shares_of(values, tsne.PERPLEXITY)
+    perplexity = tsne.perplexity_of(len(values))
+    shares = shares_of(values, perplexity)
     squared = squared_distances(values)
     ours = [tsne.arrange(squared, seed) for seed in SEEDS]
     with threadpool_limits(limits=1):
-        theirs = [TSNE(perplexity=30, init="random", random_state=s).fit_transform(values) for s in SEEDS]
+        theirs = [TSNE(perplexity=perplexity, init="random", random_state=s).fit_transform(values) for s in SEEDS]
     our_kl, their_kl = ([divergence(shares, xy) for xy in maps] for maps in (ours, theirs))
     our_nh, their_nh = ([score(xy, labels).nh_s for xy in maps] for maps in (ours, theirs))
     assert np.mean(our_kl) < np.mean(their_kl) + 0.02
@@ -70,7 +71,7 @@ def test_as_good_as_scikit_learn(groups) -> None:
 
 
 def test_the_gradient_has_vanished(groups) -> None:
-    shares = shares_of(groups[0], tsne.PERPLEXITY)
+    shares = shares_of(groups[0], tsne.perplexity_of(len(groups[0])))
     xy = tsne.arrange(squared_distances(groups[0]), 0).astype(np.float64)
     apart = xy[:, None] - xy[None]
     kernel = 1 / (1 + (apart**2).sum(axis=2))
