@@ -9,11 +9,11 @@ function floats(base64) {
 }
 
 window.engine = {
-  async start(text, { rows, columns, values, blocks }) {
+  async start(text, { rows, columns, values, blocks, weights }) {
     const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
     window.shapeviz = { startWorker: async () => new Worker(address) };
     engine?.close();
-    const table = { rows, columns, values: floats(values), blocks: Int32Array.from(blocks), scaling: "balanced" };
+    const table = { rows, columns, values: floats(values), blocks: Int32Array.from(blocks), weights, scaling: "balanced" };
     engine = await startEngine(table);
   },
 

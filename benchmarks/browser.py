@@ -65,7 +65,8 @@ class Engine:
         """Start on compared values (n, d); ``blocks`` has the feature of each column."""
         count, width = compared.shape
         text = base64.b64encode(compared.T.astype(np.float32).tobytes()).decode()
-        self.call("start", self.text, {"rows": count, "columns": width, "values": text, "blocks": blocks})
+        table = {"rows": count, "columns": width, "values": text, "blocks": blocks}
+        self.call("start", self.text, {**table, "weights": [1.0] * (max(blocks) + 1)})
         self.count = count
 
     def lay_out(

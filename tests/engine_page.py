@@ -51,6 +51,7 @@ def make_table(
         "columns": columns,
         "values": values.T.astype(np.float32).ravel(),
         "blocks": np.zeros(columns, np.int32) if blocks is None else blocks.astype(np.int32),
+        "weights": [1.0] * (1 if blocks is None else int(blocks.max()) + 1),
         "scaling": scaling,
     }
 

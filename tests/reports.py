@@ -331,10 +331,13 @@ def with_models(report: Report) -> Report:
 
 
 def with_external(report: Report) -> Report:
-    """The report with a feature of two values a shape that was brought along, and that no search has seen."""
+    """The report with a feature of two values a shape that was brought along, and that no search has seen.
+
+    It counts more than the others.
+    """
     table = report.features
     values = np.random.default_rng(0).normal(0, 1, (len(table.values), 2))
-    blocks = (*table.blocks, FeatureBlock("own", 2, 1))
+    blocks = (*table.blocks, FeatureBlock("own", 2, 1, weight=1.5))
     return replace(report, features=FeatureTable(table.shape_ids, blocks, np.hstack([table.values, values])))
 
 

@@ -146,8 +146,8 @@ class _Search:
             whole = local if local <= EXHAUSTIVE_LIMIT else 0
             evaluated = f"all {2**whole - 1:,} of the paper's {whole}, and of the others " if whole else ""
             refusal = (
-                f"{count} features have {2**count - 1:,} subsets. Evaluated are {evaluated}those that the greedy search "
-                f"asks for; up to {EXHAUSTIVE_LIMIT} features it would be all."
+                f"{count} features have {2**count - 1:,} subsets. Evaluated are {evaluated}those that the greedy "
+                f"search asks for; up to {EXHAUSTIVE_LIMIT} features it would be all."
             )
         alone = [1 << i for i in range(count)]
         self.need(self.seed, [self.space.everything, *range(1, 1 << whole), *alone])

@@ -94,6 +94,11 @@ class GlobalWording:
     high = ""
     ease = 1.0
 
+    @property
+    def sought(self) -> tuple[tuple[str, str], ...]:
+        """Other words for small and for large values of each: there are none."""
+        return (("", ""),) * len(self.names)
+
 
 AXES = ("longest", "middle", "shortest")
 """The axes of a shape."""

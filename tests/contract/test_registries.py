@@ -10,14 +10,15 @@ from pathlib import Path
 import pytest
 from solids import lump
 
-from shapeviz_report import database, demo, descriptors, projections
+from shapeviz_report import database, demo, descriptors, global_descriptors, projections
 from shapeviz_report.config import SEARCHES
 from shapeviz_report.database import LAYOUTS
 from shapeviz_report.demo import CLASSES
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
+from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, PosedShape
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import PROJECTIONS
-from shapeviz_report.wording import WORDINGS
+from shapeviz_report.wording import GLOBAL_WORDINGS, WORDINGS
 
 ROOT = Path(__file__).parents[2]
 METHOD = (ROOT / "docs" / "method" / "method.md").read_text(encoding="utf-8")
@@ -57,6 +58,41 @@ def test_one_file_a_descriptor() -> None:
     assert len(files) == len(set(names)) == len(names), "two of DESCRIPTORS share a file or a name"
     left = modules_of(descriptors) - {"base", "surface"} - files
     assert not left, f"name {sorted(left)} in DESCRIPTORS of descriptors/__init__.py, or remove the file"
+
+
+@pytest.mark.parametrize("descriptor", GLOBAL_DESCRIPTORS, ids=lambda d: d.name)
+def test_global_descriptor(descriptor) -> None:
+    source = inspect.getmodule(descriptor.compute)
+    where = Path(inspect.getfile(descriptor.compute)).relative_to(ROOT)
+    head = f"{descriptor.title} ({descriptor.name})"
+    assert (source.__doc__ or "").startswith(head), f"{where}: begin its docstring with {head!r}"
+    text = inspect.getdoc(descriptor.compute) or ""
+    for part in ("Returns", f"({descriptor.width},)"):
+        assert part in text, f"{where}: its function's docstring needs {part!r}"
+    assert descriptor.measures.endswith("."), (
+        f"{where}: `measures` is a sentence, which ends with a full stop"
+    )
+    values = descriptor.compute(PosedShape(lump()))
+    assert values.shape == (descriptor.width,), (
+        f"{where}: `width` is not the {values.size} values it computes"
+    )
+    assert descriptor.name in GLOBAL_WORDINGS, (
+        f"say in shapeviz_report/wording/, and name in its GLOBAL_WORDINGS, what values of {descriptor.name} mean"
+    )
+    assert f"**{descriptor.name}**" in METHOD, (
+        f"say in docs/method/method.md, in the table of global descriptors, how **{descriptor.name}** is read"
+    )
+
+
+def test_one_file_a_global_descriptor() -> None:
+    files = {inspect.getmodule(d.compute).__name__.rpartition(".")[2] for d in GLOBAL_DESCRIPTORS}
+    names = [d.name for d in (*DESCRIPTORS, *GLOBAL_DESCRIPTORS)]
+    assert len(files) == len(GLOBAL_DESCRIPTORS), "two of GLOBAL_DESCRIPTORS share a file"
+    assert len(set(names)) == len(names), "two descriptors share a name"
+    left = modules_of(global_descriptors) - {"base", "posed_shape"} - files
+    assert not left, (
+        f"name {sorted(left)} in GLOBAL_DESCRIPTORS of global_descriptors/__init__.py, or remove the file"
+    )
 
 
 @pytest.mark.parametrize("method", PROJECTIONS, ids=lambda m: m.name)

@@ -41,9 +41,9 @@ function twoShapes() {
     solidOf(random, [(next) => 1 + Math.floor(2 * next()), (next) => Math.floor(2 * next())]),
   ];
   const features = [
-    { name: "A", start: 0, dimensions: 1, bins: 3, low: 0, high: 1 },
-    { name: "own", start: 3, dimensions: 1, bins: 1, low: -1, high: 3 },
-    { name: "B", start: 4, dimensions: 1, bins: 4, low: 0, high: 1 },
+    { name: "A", start: 0, dimensions: 1, bins: 3, weight: 0.5, low: 0, high: 1 },
+    { name: "own", start: 3, dimensions: 1, bins: 1, weight: 2, low: -1, high: 3 },
+    { name: "B", start: 4, dimensions: 1, bins: 4, weight: 1, low: 0, high: 1 },
   ];
   const rows = solids.map((solid, row) => [
     ...sharesOf(solid, 0, 3).map(Math.sqrt),

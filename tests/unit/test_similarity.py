@@ -96,7 +96,7 @@ def test_a_query_does_not_change_how_the_database_is_compared():
     far[TABLE.slice_of("own")] = 1000.0
     found = rank_similar(TABLE, PRESETS["default"], far, features=["own"], count=1)[0]
     own = TABLE.values[:, TABLE.slice_of("own")]
-    size = np.sqrt(((own - own.mean(axis=0)) ** 2).sum(axis=1).mean())
+    size = np.sqrt(((own - own.mean(axis=0)) ** 2).sum(axis=1).mean() / TABLE.blocks[-1].weight)
     assert found.distance == pytest.approx(np.linalg.norm(own - 1000, axis=1).min() / size)
 
 

@@ -63,7 +63,9 @@ def test_as_good_as_scikit_learn(groups) -> None:
     squared = squared_distances(values)
     ours = [tsne.arrange(squared, seed) for seed in SEEDS]
     with threadpool_limits(limits=1):
-        theirs = [TSNE(perplexity=perplexity, init="random", random_state=s).fit_transform(values) for s in SEEDS]
+        theirs = [
+            TSNE(perplexity=perplexity, init="random", random_state=s).fit_transform(values) for s in SEEDS
+        ]
     our_kl, their_kl = ([divergence(shares, xy) for xy in maps] for maps in (ours, theirs))
     our_nh, their_nh = ([score(xy, labels).nh_s for xy in maps] for maps in (ours, theirs))
     assert np.mean(our_kl) < np.mean(their_kl) + 0.02

@@ -9,8 +9,17 @@ import pytest
 
 from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.features import BLOCKS, fixed_edges
+from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.types import FeatureBlock, FeatureTable
-from shapeviz_report.wording import WORDINGS, dimensions_of, explain_bins, say_bins
+from shapeviz_report.wording import (
+    GLOBAL_WORDINGS,
+    WORDINGS,
+    call_bins,
+    dimensions_of,
+    explain_bins,
+    say_bins,
+)
 
 #: A table of all our features, and of one that was brought along.
 HISTOGRAMS = sum(block.width for block in BLOCKS)
@@ -137,3 +146,32 @@ class TestExact:
         assert explain_bins(TABLE, fixed_edges(), by_area=False)[0].startswith(
             "What share of the vertices lies"
         )
+
+
+@pytest.mark.parametrize("descriptor", GLOBAL_DESCRIPTORS, ids=lambda d: d.name)
+def test_every_global_descriptor_has_its_words(descriptor) -> None:
+    wording = GLOBAL_WORDINGS[descriptor.name]
+    for texts in (wording.names, wording.quantities):
+        assert len(texts) == len(set(texts)) == descriptor.width, "different words, one a value"
+    assert max(len(name) for name in wording.names) <= 70
+    assert not any(text.endswith(".") for text in (wording.aspect, *wording.names, *wording.quantities))
+    assert not FORMULAS.search(" ".join((wording.aspect, *wording.names, *wording.quantities)))
+
+
+def test_columns_are_called_and_explained_in_their_order() -> None:
+    blocks = (*PRESETS["default"].blocks, FeatureBlock("deep one", 3, 1))
+    table = FeatureTable(("a",), blocks, np.zeros((1, sum(block.width for block in blocks))))
+    called = dict(zip(table.columns, call_bins(table, fixed_edges()), strict=True))
+    exact = dict(zip(table.columns, explain_bins(table, fixed_edges(), by_area=True), strict=True))
+    assert called["Pan[0]"] == "reach from the longest axis: mean"
+    assert called["Pan[9]"] == "reach from the longest axis: 2 waves around, 1 along"
+    assert called["PanS[37]"] == "slant to the middle axis: 2 waves around"
+    assert called["Dep[26]"] == "front against back along the longest axis, 1 wave across"
+    assert called["Sil[55]"] == "shadow along the shortest axis, 1 wave up"
+    assert called["Sfl[0]"] == "pairs 0 to 0.4 apart, turned 76–90°, facing at 76–90° and 76–90°"
+    assert called["deep one[2]"] == ""
+    assert exact["Dep[26]"].startswith(
+        "The value is the strength of 1 wave along the middle axis and 0 along the shortest"
+    )
+    assert exact["deep one[2]"] == "The value of deep one[2], a feature that was brought along."
+    assert called["Agd:6"] == SAID["Agd:6"].name
