@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from shapeviz_report.features import BLOCKS
 from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.types import FeatureTable, FloatArray
 
@@ -21,5 +20,5 @@ def load_features(file: Path, preset: str) -> tuple[FeatureTable, FloatArray, li
         The one that the site was built with.
     """
     with np.load(file) as archive:
-        table = FeatureTable(tuple(archive["shape_ids"].tolist()), BLOCKS, archive["values"])
+        table = FeatureTable(tuple(archive["shape_ids"].tolist()), PRESETS[preset].blocks, archive["values"])
     return table, scale(table, PRESETS[preset]), [name.rpartition("/")[0] for name in table.shape_ids]

@@ -338,13 +338,18 @@ class _Search:
         return climb(len(self.space.features), 1, scores_of)
 
     def weigh_features(self, exhaustive: bool) -> tuple[FeatureEffect, ...]:
-        """What each feature adds or spoils."""
-        effects = []
+        """What each feature adds or spoils: over all subsets, or, of too many features, to all others."""
+        effects, everything = [], self.space.everything
+        if not exhaustive:
+            self.need(self.seed, [everything ^ 1 << i for i in range(len(self.space.features))])
         for i, feature in enumerate(self.space.features):
             own = 1 << i
             alone = self.score(self.seed, own)
             with_, without, added = None, None, None
-            if exhaustive:
+            if not exhaustive:
+                with_, without = self.score(self.seed, everything), self.score(self.seed, everything ^ own)
+                added = with_ - without
+            else:
                 scores = {subset: self.score(self.seed, subset) for subset in self.maps}
                 with_ = float(np.mean([value for subset, value in scores.items() if subset & own]))
                 others = [subset for subset in scores if not subset & own]

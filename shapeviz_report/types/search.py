@@ -209,10 +209,10 @@ class FeatureEffect:
     alone : float
         NH_s of the map of this feature only.
     mean_with, mean_without : float or None
-        Mean NH_s over all subsets with it and without it; None unless the search was exhaustive.
+        Mean NH_s over all subsets with it and without it. Where not all were evaluated, NH_s of all features, and of
+        all but this one. None for the only feature.
     added : float or None
-        Mean change of NH_s when it joins a subset; negative if it spoils. None unless exhaustive, and for the
-        only feature.
+        Mean change of NH_s when it joins a subset, or all others; negative if it spoils. None for the only feature.
     """
 
     feature: str

@@ -2,7 +2,7 @@
 
 import { joinNames } from "../addresses/names.js";
 import { element, focused } from "../base/dom.js";
-import { percent, shortened } from "../base/words.js";
+import { capitalised, percent, shortened } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { quantityInWords } from "../bins-kit/legend.js";
 import { hue } from "./hue.js";
@@ -320,9 +320,7 @@ export class Histograms {
       element(
         "p",
         { class: "quantity" },
-        bins.called[column]
-          ? bins.called[column][0].toUpperCase() + bins.called[column].slice(1)
-          : "A feature that was brought along",
+        bins.called[column] ? capitalised(bins.called[column]) : "A feature that was brought along",
         ": its value, from the least to the most of all shapes",
       ),
     ];

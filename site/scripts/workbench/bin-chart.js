@@ -560,7 +560,7 @@ export class BinChart {
     }
     const touched = window.matchMedia("(pointer: coarse)").matches;
     const sentences = [
-      "A bar a bin: a share of the surface in a small range of a feature",
+      "A bar a bin: a share of the surface in a small range of a feature, or a value of the whole shape",
       ...(this.separation === null
         ? []
         : ["; the higher, the better it alone separates ", element("b", {}, this.separation)]),
