@@ -2,21 +2,24 @@
 
 Run as ``python -m benchmarks.stability MESHES...``. Two histograms are compared by the share of the surface that is
 in another bin: half the sum of the absolute differences. Beside it stands the noise of a histogram: the share
-expected between two histograms of as many vertices drawn independently. Tables give the ratio.
+expected between two histograms of as many vertices drawn independently. The first table gives the ratio. Values of
+whole shapes are compared by their distance; the second table has it as a fraction of the mean distance of two meshes.
 """
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial.distance import pdist
 
 from benchmarks.shapes import parser_of_meshes
 from shapeviz_report import demo
 from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.features import BINS, compute_histograms, fixed_edges
+from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, PosedShape
 from shapeviz_report.mesh import collect_files, normalise, prepare, read_mesh
 from shapeviz_report.types import FloatArray, Mesh
 
@@ -90,30 +93,68 @@ def write(mesh: Mesh, path: Path) -> Path:
     return path
 
 
-def measure(path: Path, edge_length: float, folder: Path) -> dict[str, FloatArray]:
-    """Move a mesh file in every way: name of the way -> (8,) differences; and ``noise``."""
+def move_all(path: Path, edge_length: float, folder: Path) -> Iterator[tuple[str, Mesh]]:
+    """A mesh file moved in every way, by the name of the way; first as it is."""
     original = read_mesh(path)
     mesh = prepare(collect_files(path), edge_length)[0]
-    before = describe(mesh)
-    rows = {"noise": noise(mesh, before)}
+    yield "as it is", mesh
     ways: dict[str, Callable[[Mesh], Mesh]] = {"rotated": rotate, "scaled": scale, "renumbered": renumber}
     for name, move in ways.items():
-        rows[f"prepared mesh, {name}"] = difference(before, describe(normalise(move(mesh))))
-    rows["prepared mesh, denser"] = difference(
-        before, describe(prepare(collect_files(path), edge_length * DENSER)[0])
-    )
+        yield f"prepared mesh, {name}", normalise(move(mesh))
+    yield "prepared mesh, denser", prepare(collect_files(path), edge_length * DENSER)[0]
     for name, move in (ways | {"denser": refine}).items():
         moved = write(move(original), folder / f"{name}.off")
-        rows[f"file, {name}"] = difference(before, describe(prepare(collect_files(moved), edge_length)[0]))
-    return rows
+        yield f"file, {name}", prepare(collect_files(moved), edge_length)[0]
+
+
+def describe_whole(mesh: Mesh) -> list[FloatArray]:
+    """The values of each global descriptor."""
+    shape = PosedShape(mesh)
+    return [descriptor.compute(shape) for descriptor in GLOBAL_DESCRIPTORS]
+
+
+def measure(
+    path: Path, edge_length: float, folder: Path
+) -> tuple[dict[str, FloatArray], dict[str, list[FloatArray]]]:
+    """Name of the way -> (8,) differences, and ``noise``; and name of the way -> values of whole shapes."""
+    rows: dict[str, FloatArray] = {}
+    whole: dict[str, list[FloatArray]] = {}
+    before = np.empty(0)
+    for name, mesh in move_all(path, edge_length, folder):
+        own = describe(mesh)
+        whole[name] = describe_whole(mesh)
+        if not rows:
+            before, rows["noise"] = own, noise(mesh, own)
+        else:
+            rows[name] = difference(before, own)
+    return rows, whole
+
+
+def print_whole(shapes: Sequence[dict[str, list[FloatArray]]]) -> None:
+    """The second table."""
+    print("\n| |", " | ".join(d.name for d in GLOBAL_DESCRIPTORS), "|")
+    print("|---|" + "---|" * len(GLOBAL_DESCRIPTORS))
+    apart = []
+    for number in range(len(GLOBAL_DESCRIPTORS)):
+        values = np.array([shape["as it is"][number] for shape in shapes])
+        apart.append(pdist(values).mean())
+    for name in list(shapes[0])[1:]:
+        cells = []
+        for number, mean in enumerate(apart):
+            moves = [
+                np.linalg.norm(shape[name][number] - shape["as it is"][number]) / mean for shape in shapes
+            ]
+            cells.append(f"{np.median(moves):.3f} ({max(moves):.3f})")
+        print(f"| {name} |", " | ".join(cells), "|", flush=True)
 
 
 def main() -> None:
-    """Print a table: median and largest ratio to the noise over the meshes, for every descriptor and way."""
+    """Print two tables: median and largest movement over the meshes, for every descriptor and way."""
     arguments = parser_of_meshes(__doc__).parse_args()
     with tempfile.TemporaryDirectory() as folder:
         paths = arguments.meshes or [demo.write_shape(Path(folder), c.name, 0) for c in demo.CLASSES]
-        shapes = [measure(path, arguments.edge_length, Path(folder)) for path in paths]
+        measured = [measure(path, arguments.edge_length, Path(folder)) for path in paths]
+    shapes = [rows for rows, _ in measured]
     print("| |", " | ".join(d.name for d in DESCRIPTORS), "|")
     print("|---|" + "---|" * len(DESCRIPTORS))
     levels = np.median([shape["noise"] for shape in shapes], axis=0)
@@ -122,6 +163,7 @@ def main() -> None:
         ratios = np.array([shape[name] / np.maximum(shape["noise"], 1e-12) for shape in shapes])
         cells = [f"{np.median(column):.2f} ({column.max():.2f})" for column in ratios.T]
         print(f"| {name} |", " | ".join(cells), "|", flush=True)
+    print_whole([whole for _, whole in measured])
 
 
 if __name__ == "__main__":

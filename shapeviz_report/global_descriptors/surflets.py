@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from shapeviz_report.global_descriptors.base import GlobalDescriptor
 from shapeviz_report.global_descriptors.kernels.surflets import count_pairs
 from shapeviz_report.global_descriptors.posed_shape import POINTS, PosedShape
-from shapeviz_report.types import FloatArray
+from shapeviz_report.types import FloatArray, IntArray
 
 EVERY = 4
 """Of so many points, one takes part."""
@@ -15,11 +17,20 @@ EVERY = 4
 SHIFTS = np.arange(38, 446, 37, dtype=np.int32)
 """Each point pairs with those so many places on: twelve partners."""
 
-FARTHEST, DISTANCES, ANGLES = 4.0, 10, 4
-"""The largest distance, in units of the posed shape; its bins; and the bins of each angle."""
+FARTHEST = 4.0
+"""The largest distance, in units of the posed shape."""
 
-ORDER = np.random.default_rng(0).permutation(POINTS // EVERY)
-"""A fixed shuffle: points follow each other along the faces, and partners are to lie anywhere."""
+DISTANCES = 10
+"""Its bins."""
+
+ANGLES = 4
+"""Bins of each angle."""
+
+
+@cache
+def shuffle() -> IntArray:
+    """A fixed order of the points: they follow each other along the faces, and partners are to lie anywhere."""
+    return np.random.default_rng(0).permutation(POINTS // EVERY).astype(np.int32)
 
 
 def compute(shape: PosedShape) -> FloatArray:
@@ -35,7 +46,8 @@ def compute(shape: PosedShape) -> FloatArray:
     (400,) float64 array
         In [0, 1]; the squares add up to 1.
     """
-    points, normals = shape.points[::EVERY][ORDER], shape.normals[::EVERY][ORDER]
+    order = EVERY * shuffle()
+    points, normals = shape.points[order], shape.normals[order]
     return np.sqrt(count_pairs(points, normals, SHIFTS, FARTHEST, DISTANCES, ANGLES)).ravel()
 
 

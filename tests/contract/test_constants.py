@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import shapeviz_report
-from shapeviz_report import descriptors
+from shapeviz_report import descriptors, global_descriptors
 from shapeviz_report.features import BLOCKS
 
 ROOT = Path(__file__).parents[2]
@@ -28,10 +28,12 @@ ROW = re.compile(r"^\| `([\w.]+)` \| `(\w+)` \| ([^|`]+) \|", re.MULTILINE)
 def constants() -> dict[tuple[str, str], np.ndarray]:
     """The numbers that modules of the method bind to names in capitals where they are defined, by module and name."""
     modules = [
-        found.name for found in pkgutil.walk_packages(descriptors.__path__, f"{descriptors.__name__}.")
+        found.name
+        for package in (descriptors, global_descriptors)
+        for found in pkgutil.walk_packages(package.__path__, f"{package.__name__}.")
     ]
     found = {}
-    for name in (*modules, "shapeviz_report.features", "shapeviz_report.quality"):
+    for name in (*modules, *(f"shapeviz_report.{one}" for one in ("features", "agreement", "quality"))):
         module = importlib.import_module(name)
         for statement in ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8")).body:
             targets = statement.targets if isinstance(statement, ast.Assign) else []

@@ -5,8 +5,11 @@ import numpy as np
 from shapeviz_report.compilation import kernel
 from shapeviz_report.types import FloatArray, IntArray
 
-STEP_U, STEP_V = 0.7548776662466927, 0.5698402909980532
-"""Steps of the sequence R2 (Roberts 2018): 1 / g and 1 / g^2 of the real root g of g^3 = g + 1."""
+STEP_U = 0.7548776662466927
+"""Step of the sequence R2 (Roberts 2018): 1 / g of the real root g of g^3 = g + 1."""
+
+STEP_V = STEP_U**2
+"""The other one."""
 
 
 @kernel(error_model="numpy")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -120,9 +122,34 @@ def test_many_features_are_searched_greedily(values, monkeypatch) -> None:
     # The 66 subsets that s = 2 looks at are too many for the limit set here.
     assert {(row.method, row.s) for row in result.table} == {("greedy", 1)}
     assert len(set(evaluate.asked)) == len(evaluate.asked)
-    assert result.effects[0].mean_with is None
+    # What a feature adds, it adds to all others.
+    everything = result.subsets.nh_s[result.subsets.members.all(axis=1)][0]
+    for i, effect in enumerate(result.effects):
+        without = ~np.eye(11, dtype=bool)[i]
+        assert effect.mean_with == everything
+        assert effect.mean_without == result.subsets.nh_s[(result.subsets.members == without).all(axis=1)][0]
+        assert effect.added == effect.mean_with - effect.mean_without
     assert result.effects[0].alone == result.subsets.nh_s[result.subsets.members.sum(axis=1) == 1][0]
     assert planned_runs(11, "tsne") is None
+
+
+def test_of_many_features_all_subsets_of_the_papers_are_evaluated(values, monkeypatch) -> None:
+    monkeypatch.setattr("shapeviz_report.search.run.GREEDY_SIZES", (1,))
+    wide = np.concatenate([values, np.random.default_rng(1).normal(size=(36, 7))], axis=1)
+    table = table_of(wide, (1,) * 13)
+    blocks = (*(FeatureBlock(f"h{i}", 1, 2) for i in range(3)), *table.blocks[6:])
+    space = make_space(replace(table, blocks=blocks), wide, LABELS)
+    assert space.local == 3
+    result = search_features(space, LABELS, "tsne", rounds=1)
+    assert result.exhaustive
+    more = (*blocks, *(FeatureBlock(f"more{i}", 1, 1) for i in range(4)))
+    wider = np.concatenate([wide, np.random.default_rng(2).normal(size=(36, 4))], axis=1)
+    space = make_space(replace(table, blocks=more, values=wider), wider, LABELS)
+    result = search_features(space, LABELS, "tsne", rounds=1)
+    assert not result.exhaustive
+    assert "14 features have 16,383 subsets. Evaluated are all 7 of the paper's 3" in result.refusal
+    of_paper = result.subsets.members[~result.subsets.members[:, 3:].any(axis=1)]
+    assert len(of_paper) == 7
 
 
 def test_without_labels_there_are_maps_only(values) -> None:
