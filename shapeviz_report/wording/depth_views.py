@@ -11,7 +11,7 @@ _PARTS = (
 )
 
 DEPTH_VIEWS = GlobalWording(
-    aspect="their relief seen along their axes",
+    aspect="relief",
     names=tuple(
         f"{part} along the {axis} axis, {waves}"
         for number, axis in enumerate(AXES)

@@ -6,7 +6,7 @@ from shapeviz_report.global_descriptors.posed_shape import WAVES_AROUND
 from shapeviz_report.wording.base import GlobalWording, name_waves_around, place_waves_around
 
 PANORAMA = GlobalWording(
-    aspect="how far they reach from their axes",
+    aspect="girth",
     names=tuple(f"reach from the {waves}" for waves in name_waves_around(WAVES_AROUND)),
     quantities=tuple(
         f"the strength of {waves}, in how far the surface reaches from it"

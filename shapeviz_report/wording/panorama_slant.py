@@ -6,7 +6,7 @@ from shapeviz_report.global_descriptors.posed_shape import WAVES_AROUND
 from shapeviz_report.wording.base import GlobalWording, name_waves_around, place_waves_around
 
 PANORAMA_SLANT = GlobalWording(
-    aspect="how their outside faces their axes",
+    aspect="slant of the outside",
     names=tuple(f"slant to the {waves}" for waves in name_waves_around(WAVES_AROUND)),
     quantities=tuple(
         f"the strength of {waves}, in how squarely the outer surface faces away from it"

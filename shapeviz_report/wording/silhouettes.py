@@ -6,7 +6,7 @@ from shapeviz_report.global_descriptors.posed_shape import WAVES_ACROSS
 from shapeviz_report.wording.base import AXES, GlobalWording, name_waves_across, place_waves_across
 
 SILHOUETTES = GlobalWording(
-    aspect="their silhouettes",
+    aspect="silhouette",
     names=tuple(
         f"shadow along the {axis} axis, {waves}"
         for number, axis in enumerate(AXES)

@@ -28,7 +28,7 @@ _KINDS = tuple(
 )
 
 SURFLETS = GlobalWording(
-    aspect="how any two of their places lie to each other",
+    aspect="lie of the parts",
     names=tuple(
         f"pairs {apart} apart, turned {turned}, facing at {one} and {other}"
         for apart, turned, one, other in _KINDS
