@@ -390,7 +390,9 @@ class TestStates:
         # Not every neighbour was evaluated.
         chips = page.locator(".chip")
         assert chips.count() == 11
-        assert "by itself" in page.locator(".effects").inner_text()
+        effects = page.locator(".effects").inner_text()
+        assert "all features but one" in effects
+        assert "the map of all others" in effects
 
     def test_a_sample_is_said_and_shown(self, open_page):
         page = open_page("sampled", "features.html")

@@ -58,11 +58,14 @@ def test_a_site_is_complete(built) -> None:
         assert len(list(csv.DictReader(file))) == 15
 
 
-def test_the_search_goes_over_all_subsets(built) -> None:
+def test_the_search_goes_over_all_subsets_of_the_papers_features(built) -> None:
     _, report = built
     search = report.search
-    assert search.exhaustive
-    assert len(search.subsets.members) == 255
+    assert search.features == tuple(block.name for block in report.features.blocks)
+    local = sum(block.bins > 1 for block in report.features.blocks)
+    whole = search.subsets.members[:, local:]
+    assert (~whole.any(axis=1)).sum() == 2**local - 1
+    assert set(whole[search.subsets.members.sum(axis=1) == 1].sum(axis=1)) == {0, 1}
     everything = search.subsets.nh_s[search.subsets.members.all(axis=1)]
     assert everything == pytest.approx(report.projections["tsne"][1].nh_s)
     assert search.subsets.nh_s.max() >= everything
