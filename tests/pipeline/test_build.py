@@ -376,7 +376,7 @@ def test_models_are_of_their_shapes(built) -> None:
         assert bins.shape == (len(report.edges), len(vertices))
         # Of its ten bins, the one with most vertices is one of the fullest of the whole surface.
         fullest = np.stack([np.bincount(row, minlength=10) for row in bins]).argmax(axis=1)
-        shares = report.features.values[row].reshape(-1, BINS)
+        shares = report.features.values[row, : len(report.edges) * BINS].reshape(-1, BINS)
         held = shares[np.arange(len(shares)), fullest]
         assert (held > shares.max(axis=1) - 0.2).mean() > 0.9
 
@@ -436,7 +436,20 @@ def test_bins_that_are_not_there_stop_a_build_before_any_work(tmp_path, database
 def test_the_papers_preset(tmp_path, database, cache, built) -> None:
     report = shapeviz_report.build(database, tmp_path / "site", cache=cache, preset="paper", **OPTIONS)
     assert report.features.values.reshape(15, -1, BINS).sum(axis=2) == pytest.approx(1)
-    assert not np.allclose(report.features.values, built[1].features.values)
+    assert not np.allclose(
+        report.features.values, built[1].features.values[:, : len(report.features.columns)]
+    )
+
+
+def test_the_papers_features_alone(tmp_path, database, cache, built) -> None:
+    report = shapeviz_report.build(database, tmp_path / "site", cache=cache, preset="local", **OPTIONS)
+    np.testing.assert_array_equal(
+        report.features.values, built[1].features.values[:, : len(report.features.columns)]
+    )
+    assert {block.weight for block in report.features.blocks} == {1.0}
+    weights = [block.weight for block in built[1].features.blocks]
+    assert np.mean(weights) == pytest.approx(1)
+    assert np.std(weights) > 0.05
 
 
 def test_a_folder_that_is_not_ours_is_never_replaced(tmp_path, database) -> None:

@@ -74,7 +74,7 @@ def test_typical_is_the_mean_over_pairs(ask, built, database) -> None:
 def test_features_and_bins_are_chosen(ask, database, tmp_path) -> None:
     mesh = database / "ball" / "0.off"
     everything = ask(mesh, count=5)
-    assert everything.features == ("Gc", "Agd", "Nd", "Na", "Pa", "Sc", "PFH", "FPFH")
+    assert everything.features == tuple(block.name for block in PRESETS["default"].blocks)
     one = ask(mesh, features=["Nd"], count=5)
     assert (one.features, one.bins) == (("Nd",), None)
     bins = tmp_path / "bins.txt"
