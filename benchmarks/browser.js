@@ -13,7 +13,14 @@ window.engine = {
     const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
     window.shapeviz = { startWorker: async () => new Worker(address) };
     engine?.close();
-    const table = { rows, columns, values: floats(values), blocks: Int32Array.from(blocks), weights, scaling: "balanced" };
+    const table = {
+      rows,
+      columns,
+      values: floats(values),
+      blocks: Int32Array.from(blocks),
+      weights,
+      scaling: "balanced",
+    };
     engine = await startEngine(table);
   },
 

@@ -17,6 +17,7 @@ from shapeviz_report.cli import main
 from shapeviz_report.errors import ConfigError, MeshError, SiteError
 from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.types import Report
+from shapeviz_report.writing import write_site
 
 
 @pytest.fixture
