@@ -34,6 +34,7 @@ from shapeviz_report.config import Config
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.exemplars import choose_exemplars
+from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import fixed_edges, quantile_edges
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.presets import PRESETS, compared_values, scale
@@ -201,13 +202,15 @@ def build_report(
             name: (projection, score(projection.xy, labels, k=config.neighbours, seed=config.seed))
             for name, projection in projections.items()
         }
+        shown = {name: projection.xy for name, projection in projections.items()}
+        faithfulness = rate_maps(mapped, shown, config.neighbours)
         distances = {"everything": space.squared.sum(axis=0, dtype=np.float64)}
         if by_bins is not None:
             distances["bins"] = squared_distances(by_bins[space.rows])
         without_copies = rate_without_copies(
             groups,
             labels,
-            {name: projection.xy for name, projection in projections.items()},
+            shown,
             config.neighbours,
             space.rows,
             distances,
@@ -240,6 +243,7 @@ def build_report(
         publication=publication,
         copies=copies,
         without_copies=without_copies,
+        faithfulness=faithfulness,
     )
     with clock.stage("write", "Writing the site"):
         write_site(report, destination, single_file=config.single_file)

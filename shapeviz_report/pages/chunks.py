@@ -30,6 +30,17 @@ class WithoutCopies(TypedDict):
     highest: float | None
 
 
+class Faith(TypedDict):
+    """How far a map shows who is like whom: the share of true neighbours kept, of each shape, of all, and by chance."""
+
+    kept: list[float | None]
+    mean: float
+    chance: float
+    trustworthiness: float | None
+    continuity: float | None
+    random: float | None
+
+
 class Method(TypedDict):
     """A map of all shapes, with its quality; a class or a shape without a score has None."""
 
@@ -46,6 +57,7 @@ class Method(TypedDict):
     withoutCopies: WithoutCopies | None
     chance: float | None
     chanceSpread: float | None
+    faith: Faith | None
 
 
 class SubsetChoice(TypedDict):

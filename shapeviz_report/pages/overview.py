@@ -15,10 +15,10 @@ from shapeviz_report.pages.base import (
     clusters_chunk,
     rounded,
 )
-from shapeviz_report.pages.chunks import Details, Marks, Method, ShapeList, SubsetChoice
+from shapeviz_report.pages.chunks import Details, Faith, Marks, Method, ShapeList, SubsetChoice
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.render import ramp_codes
-from shapeviz_report.types import Projection, Quality, Report, WithoutCopies, copies_of
+from shapeviz_report.types import Faithfulness, Projection, Quality, Report, WithoutCopies, copies_of
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
@@ -44,7 +44,13 @@ class OverviewPage:
     def content(self, report: Report) -> PageContent:
         classes = class_names(report)
         methods = [
-            _method(projection, quality, classes, report.without_copies)
+            _method(
+                projection,
+                quality,
+                classes,
+                report.without_copies,
+                report.faithfulness.get(projection.method),
+            )
             for projection, quality in report.projections.values()
         ]
         return PageContent(
@@ -97,7 +103,11 @@ def _shapes(report: Report, classes: tuple[str, ...]) -> ShapeList:
 
 
 def _method(
-    projection: Projection, quality: Quality, classes: tuple[str, ...], without_copies: WithoutCopies | None
+    projection: Projection,
+    quality: Quality,
+    classes: tuple[str, ...],
+    without_copies: WithoutCopies | None,
+    faithfulness: Faithfulness | None,
 ) -> Method:
     """One projection with its quality; missing values are None."""
     # Adding zero turns -0.0 into 0.0, which would otherwise differ between equal builds.
@@ -124,6 +134,18 @@ def _method(
         },
         "chance": quality.null_mean,
         "chanceSpread": quality.null_std,
+        "faith": None if faithfulness is None else _faith(faithfulness),
+    }
+
+
+def _faith(found: Faithfulness) -> Faith:
+    return {
+        "kept": rounded(found.kept, COORDINATE_DECIMALS),
+        "mean": float(found.kept.mean()),
+        "chance": found.chance,
+        "trustworthiness": found.trustworthiness,
+        "continuity": found.continuity,
+        "random": found.random,
     }
 
 

@@ -27,7 +27,7 @@ from shapeviz_report.types.copies import (
 )
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
-from shapeviz_report.types.maps import HitRange, Projection, Quality
+from shapeviz_report.types.maps import Faithfulness, HitRange, Projection, Quality
 from shapeviz_report.types.mesh import Mesh, ShapeFacts, UpAxis
 from shapeviz_report.types.publication import Accent, Licence, Logo, Publication
 from shapeviz_report.types.report import Report
@@ -56,6 +56,7 @@ __all__ = [
     "Copy",
     "Database",
     "Failure",
+    "Faithfulness",
     "FeatureBlock",
     "FeatureEffect",
     "FeatureSearch",

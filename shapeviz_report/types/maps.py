@@ -54,6 +54,33 @@ class HitRange:
 
 
 @dataclass(frozen=True)
+class Faithfulness:
+    """How far a map shows who is like whom; needs no labels.
+
+    Attributes
+    ----------
+    k : int
+        Number of neighbours.
+    kept : (n,) float64 array
+        Of the k shapes nearest by the features, the share that is among the k nearest on the map; in [0, 1].
+    chance : float
+        What a map at random keeps.
+    trustworthiness, continuity : float or None
+        Near 1 where what is near on the map is near by the features, and the other way round; None where k is half
+        of the shapes or more.
+    random : float or None
+        What both are on a map at random.
+    """
+
+    k: int
+    kept: FloatArray
+    chance: float
+    trustworthiness: float | None
+    continuity: float | None
+    random: float | None
+
+
+@dataclass(frozen=True)
 class Quality:
     """Neighbourhood hit of a projection (paper, Eq. 7 and 8), in [0, 1], higher is better separated.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from shapeviz_report.types.clusters import Clusters
 from shapeviz_report.types.copies import Copy, WithoutCopies
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureTable
-from shapeviz_report.types.maps import Projection, Quality
+from shapeviz_report.types.maps import Faithfulness, Projection, Quality
 from shapeviz_report.types.mesh import ShapeFacts
 from shapeviz_report.types.publication import Publication
 from shapeviz_report.types.retrieval import Retrieval
@@ -68,6 +68,8 @@ class Report:
         Pairs of shapes that are the same shape again, in the order of the shapes.
     without_copies : WithoutCopies or None
         None where there are no copies.
+    faithfulness : mapping of str to Faithfulness
+        By projection; empty for one shape.
     """
 
     database: Database
@@ -94,6 +96,7 @@ class Report:
     publication: Publication = Publication()
     copies: tuple[Copy, ...] = ()
     without_copies: WithoutCopies | None = None
+    faithfulness: Mapping[str, Faithfulness] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Check what templates and scripts take for granted; a ``ValueError`` is an error of the caller."""

@@ -14,6 +14,15 @@ declare namespace Chunk {
     hitOfAll: number | null;
     highest: number | null;
   }
+  /** How far a map shows who is like whom: the share of true neighbours kept, of each shape, of all, and by chance. */
+  interface Faith {
+    kept: (number | null)[];
+    mean: number;
+    chance: number;
+    trustworthiness: number | null;
+    continuity: number | null;
+    random: number | null;
+  }
   /** A map of all shapes, with its quality; a class or a shape without a score has None. */
   interface Method {
     key: string;
@@ -29,6 +38,7 @@ declare namespace Chunk {
     withoutCopies: WithoutCopies | null;
     chance: number | null;
     chanceSpread: number | null;
+    faith: Faith | null;
   }
   /** Whose maps the Overview can show beside its own. */
   interface SubsetChoice {

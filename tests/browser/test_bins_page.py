@@ -249,7 +249,7 @@ def test_what_cannot_be_shown_is_said(bins, site, tmp_path):
     folder = tmp_path / "moved"
     shutil.copytree(site("bins"), folder, ignore=shutil.ignore_patterns("models"))
     page = bins(address=f"{folder.as_uri()}/bins.html#bin=own[1]")
-    assert "brought along" in page.locator("#paintings").inner_text()
+    assert "the shape as a whole" in page.locator("#paintings").inner_text()
     assert page.locator("#stage .empty").inner_text() == "This feature has no values on the surface."
     assert page.locator("#legend .ten").count() == 0
     find(page, "#bin-search", "Gc:1")

@@ -12,6 +12,7 @@ from shapeviz_report.search.certainty import measure_distinct_gain, measure_gain
 from shapeviz_report.types import (
     BinSearch,
     Clusters,
+    Faithfulness,
     FeatureSearch,
     Gain,
     HeldOutBins,
@@ -67,6 +68,7 @@ def summary(report: Report, version: str) -> dict[str, object]:
                 "nh_c": {name: finite(value) for name, value in quality.nh_c.items()},
                 **_range(quality.range, quality.nh_s, quality.null_mean),
                 "null": {"mean": finite(quality.null_mean), "std": finite(quality.null_std)},
+                "faithfulness": _faithfulness(report.faithfulness.get(method)),
             }
             for method, (projection, quality) in report.projections.items()
         },
@@ -109,6 +111,18 @@ def _clusters(report: Report, found: Clusters) -> dict[str, object]:
             }
             for cluster in found.clusters
         ],
+    }
+
+
+def _faithfulness(found: Faithfulness | None) -> dict[str, object] | None:
+    if found is None:
+        return None
+    return {
+        "k": found.k,
+        "kept": float(found.kept.mean()),
+        "trustworthiness": found.trustworthiness,
+        "continuity": found.continuity,
+        "chance": {"kept": found.chance, "trustworthiness": found.random, "continuity": found.random},
     }
 
 

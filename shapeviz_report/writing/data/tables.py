@@ -26,6 +26,7 @@ def shape_rows(report: Report) -> list[list[str]]:
             *(f"metadata:{column}" for column in columns),
             *(f"nh:{method}" for method in methods),
             "nh_max",
+            *(f"kept:{method}" for method in report.faithfulness),
             *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
             *("area", "volume", "extent_x", "extent_y", "extent_z"),
             *("repairs", "sha256"),
@@ -49,6 +50,7 @@ def shape_rows(report: Report) -> list[list[str]]:
                 *(shape.metadata.get(column, "") for column in columns),
                 *(number(report.projections[method][1].nh[index]) for method in methods),
                 number(None if label is None else highest.get(label)),
+                *(number(found.kept[index]) for found in report.faithfulness.values()),
                 *map(
                     str,
                     (facts.faces_read, facts.vertices_read, facts.faces, facts.vertices, facts.components),

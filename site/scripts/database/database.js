@@ -22,6 +22,7 @@ import { reachOf } from "./hit-range.js";
  * @property {Chunk.WithoutCopies | null} [withoutCopies]
  * @property {number | null} chance
  * @property {number | null} chanceSpread
+ * @property {Chunk.Faith | null} [faith] of the maps of projections
  *
  * @typedef {ShapeMap & { base: number }} Method one that belongs to a projection of all features: itself, or the one it is set beside
  * @typedef {{ x: number, y: number, width: number, height: number }} Bounds the middle and the size of a rectangle

@@ -52,7 +52,7 @@ export class Fields {
     const measured = own.filter(({ key }) => key.startsWith("fact:"));
     const given = own.filter((field) => !measured.includes(field));
     /** @type {Field[]} */
-    this.all = [...given, ...folders, ...hits(database), ...measured];
+    this.all = [...given, ...folders, ...hits(database), ...kept(database), ...measured];
     this.byKey = new Map(this.all.map((field) => [field.key, field]));
     this.active = this.all.find(({ active }) => active) ?? null;
     // Classes stand in the order that people sort by, and the database numbers them in another.
@@ -107,6 +107,27 @@ function hits(database) {
     hit: true,
     highest: (row) => highestOf(database, method, row),
   }));
+}
+
+/**
+ * Of each map, the share of a shape's true neighbours that are near it there.
+ * @param {Database} database
+ * @returns {Field[]}
+ */
+function kept(database) {
+  return database.methods.flatMap(({ key, title, faith }) =>
+    !faith
+      ? []
+      : [
+          {
+            ...NOTHING,
+            key: `kept:${key}`,
+            title: `Neighbours kept on the ${title} map`,
+            numbers: faith.kept,
+            edges: HIT_EDGES,
+          },
+        ],
+  );
 }
 
 /**

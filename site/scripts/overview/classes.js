@@ -171,6 +171,7 @@ export class ClassList {
           "This database has no labels, so there is no neighbourhood hit to tell how well classes keep together. ",
         ),
         element("p", {}, "The map needs none: it places shapes by their surfaces alone."),
+        faithful(method),
       ];
     }
     const headline = element(
@@ -220,6 +221,27 @@ export class ClassList {
           this.#chosen(features),
         ],
       ),
+      faithful(method),
     ];
   }
+}
+
+/**
+ * How far a map shows who is like whom, whatever the labels say.
+ * @param {Method} method
+ */
+function faithful({ faith, neighbours, title }) {
+  if (!faith) return "";
+  const { mean, chance, trustworthiness, continuity, random } = faith;
+  /** @param {number} share */
+  const many = (share) => (share * neighbours).toFixed(1);
+  return element(
+    "p",
+    {},
+    `Who is like whom: of the ${count(neighbours, "shape")} most alike by what it compares, the ${title} map has `,
+    element("b", {}, many(mean)),
+    ` among the ${neighbours} nearest on average; a map at random, ${many(chance)}. `,
+    trustworthiness !== null &&
+      `Trustworthiness ${figure(trustworthiness)}, continuity ${figure(continuity)}; at random ${figure(random)}.`,
+  );
 }

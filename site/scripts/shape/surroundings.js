@@ -112,9 +112,17 @@ export class Surroundings {
    */
   #tell(shape, near, method) {
     const { database } = this;
-    const { title, hit, hitOfClass } = method;
+    const { title, hit, hitOfClass, faith } = method;
+    const kept = Math.round((faith?.kept[shape] ?? 0) * near.length);
     /** @type {(string | Node)[]} */
-    const words = [`Near on the ${title} map means alike in features. `];
+    const words = [
+      `Near on the ${title} map means alike in features. `,
+      faith
+        ? kept === near.length
+          ? `All of the ${count(near.length, "shape")} most alike are near it here. `
+          : `Of the ${count(near.length, "shape")} most alike, ${near.length - kept} ${near.length - kept === 1 ? "is" : "are"} elsewhere on the map. `
+        : "",
+    ];
     if (!database.labelled) return [...words, `These ${count(near.length, "shape")} are nearest.`];
     const census = database.census(near);
     const own = database.groups[shape];
