@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 
-from shapeviz_report.pages.base import METHODS, PageContent, class_names
+from shapeviz_report.pages.base import MEASURED, METHODS, PageContent, class_names
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import has_licence, licence_warning
 from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
@@ -49,14 +49,27 @@ class AboutPage:
                 "repaired": sum(bool(facts.repairs) for facts in report.facts),
                 "repairs": _repairs(report),
                 "open": sum(not facts.watertight for facts in report.facts),
-                "feature_blocks": [
-                    {"name": block.name, "dimensions": block.dimensions, "columns": block.width}
-                    for block in report.features.blocks
-                ],
+                "features": _features(report),
+                "whole": PRESETS[str(report.parameters["preset"])].whole,
                 "feature_columns": sum(block.width for block in report.features.blocks),
                 "downloads": _downloads(report),
             }
         )
+
+
+def _features(report: Report) -> list[dict[str, object]]:
+    """What is measured, or was brought along, and how much it counts."""
+    measured = ((block, MEASURED.get(block.name)) for block in report.features.blocks)
+    return [
+        {
+            "name": block.name,
+            "title": block.name if descriptor is None else descriptor.title,
+            "measures": "A feature that was brought along." if descriptor is None else descriptor.measures,
+            "values": block.width,
+            "weight": block.weight,
+        }
+        for block, descriptor in measured
+    ]
 
 
 def _database(report: Report) -> dict[str, object]:

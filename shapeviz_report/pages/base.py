@@ -10,6 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report import charts
+from shapeviz_report.descriptors import DESCRIPTORS, Descriptor
+from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor
 from shapeviz_report.order import classes_of
 from shapeviz_report.pages.chunks import Chunks, Clusters, FeatureMarks, ThemeName
 from shapeviz_report.projections import PROJECTIONS
@@ -21,6 +23,12 @@ COORDINATE_STEPS = 32767
 
 #: The projections by name.
 METHODS = {method.name: method for method in PROJECTIONS}
+
+#: The descriptors by name: what is measured, beside features that were brought along.
+MEASURED: Mapping[str, Descriptor | GlobalDescriptor] = {
+    **{descriptor.name: descriptor for descriptor in DESCRIPTORS},
+    **{descriptor.name: descriptor for descriptor in GLOBAL_DESCRIPTORS},
+}
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from shapeviz_report import charts, quality
-from shapeviz_report.descriptors import DESCRIPTORS, Descriptor
-from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor
-from shapeviz_report.pages.base import PageContent, class_names, feature_marks
+from shapeviz_report.pages.base import MEASURED, PageContent, class_names, feature_marks
 from shapeviz_report.pages.bins import SCORE_DECIMALS, all_features, mean_over_folds
 from shapeviz_report.pages.chunks import (
     Chunks,
@@ -26,11 +24,6 @@ from shapeviz_report.wording import GLOBAL_WORDINGS, WORDINGS, call_bins, explai
 
 #: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
 STEPS = 65535
-
-_DESCRIPTORS: dict[str, Descriptor | GlobalDescriptor] = {
-    **{descriptor.name: descriptor for descriptor in DESCRIPTORS},
-    **{descriptor.name: descriptor for descriptor in GLOBAL_DESCRIPTORS},
-}
 
 
 class WorkbenchPage:
@@ -109,7 +102,7 @@ def _features(report: Report, compared: FloatArray) -> list[Feature]:
 
 def _words(block: FeatureBlock) -> FeatureWords:
     """What a feature is: from its descriptor, or plain for one that was brought along."""
-    descriptor = _DESCRIPTORS.get(block.name)
+    descriptor = MEASURED.get(block.name)
     if descriptor is None:
         return {
             "title": block.name,
