@@ -10,6 +10,8 @@ from typing import Literal, TypeVar
 
 import altair as alt
 
+from shapeviz_report.charts.palette import LIGHT
+
 Framed = TypeVar("Framed", alt.Chart, alt.LayerChart)
 
 
@@ -19,15 +21,25 @@ def subset_bars() -> alt.Chart:
     Data ``subsets``: rows of ``place`` from 0, ``hit`` in [0, 1], and ``feature``, the index of the only feature or
     -1. Parameter ``count`` is the number of places, ``fill`` the share of a place that its bar takes.
     """
-    return _by_place(
+    return _framed(
         alt.Chart(alt.NamedData("subsets"))
+        .transform_calculate(end="datum.place + fill")
         .mark_rect()
         .encode(
+            x=alt.X(
+                "place:Q",
+                axis=None,
+                scale=alt.Scale(domainMin=0, domainMax=alt.ExprRef("count"), nice=False, zero=False),
+            ),
+            x2="end:Q",
             y=alt.Y("hit:Q", axis=None, scale=alt.Scale(domain=[0, 1], nice=False)),
             y2=alt.datum(0),
             color=alt.condition("datum.feature >= 0", _hue(), alt.value(alt.ExprRef("bar"))),
         ),
         "Neighbourhood hit of every subset of features, best first",
+        "none",
+        count=1,
+        fill=1,
         bar="#888888",
     )
 
@@ -35,24 +47,16 @@ def subset_bars() -> alt.Chart:
 def feature_matrix() -> alt.Chart:
     """Fig. 4, below: a row a feature, a cell where the subset above has it.
 
-    Data ``cells``: rows of ``place``, ``row`` (0 on top) and ``feature``. Parameters as in :func:`subset_bars`, and
-    ``features``, the number of rows.
+    Data ``rows``: GeoJSON features in pixels from the top left, each all cells of a row, with ``feature``. A mark a
+    cell would keep a browser busy for a quarter of a second.
     """
-    return _by_place(
-        alt.Chart(alt.NamedData("cells"))
-        .transform_calculate(foot="datum.row + 0.86")
-        .mark_rect()
-        .encode(
-            y=alt.Y(
-                "row:Q",
-                axis=None,
-                scale=alt.Scale(domainMin=0, domainMax=alt.ExprRef("features"), reverse=True, nice=False),
-            ),
-            y2="foot:Q",
-            color=_hue(),
-        ),
+    return _framed(
+        alt.Chart(alt.NamedData("rows"))
+        .mark_geoshape()
+        .encode(color=_hue())
+        .project(type="identity", scale=1, translate=[0, 0]),
         "The features of every subset",
-        features=1,
+        "none",
     )
 
 
@@ -150,7 +154,9 @@ def seed_dots() -> alt.LayerChart:
 
 def _hue() -> alt.Color:
     """The colour of a feature."""
-    return alt.Color("feature:N", legend=None, scale=alt.Scale(domain=list(range(10)), range="ordinal"))
+    return alt.Color(
+        "feature:N", legend=None, scale=alt.Scale(domain=list(range(len(LIGHT.features))), range="ordinal")
+    )
 
 
 def _names(field: str, limit: float | alt.ExprRef) -> alt.Y:
@@ -171,19 +177,6 @@ def _scored(field: str) -> alt.X:
         axis=alt.Axis(title="NHₛ", format=".2f", tickCount=5, domain=False, ticks=False),
         scale=alt.Scale(zero=False, nice=True, padding=8),
     )
-
-
-def _by_place(chart: alt.Chart, description: str, **parameters: object) -> alt.Chart:
-    """Lay rows out from left to right, one place each."""
-    placed = chart.transform_calculate(end="datum.place + fill").encode(
-        x=alt.X(
-            "place:Q",
-            axis=None,
-            scale=alt.Scale(domainMin=0, domainMax=alt.ExprRef("count"), nice=False, zero=False),
-        ),
-        x2="end:Q",
-    )
-    return _framed(placed, description, "none", count=1, fill=1, **parameters)
 
 
 def _framed(

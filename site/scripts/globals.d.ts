@@ -105,7 +105,5 @@ interface Window {
     modules?: { define(modules: object): void; use(name: string): object };
   };
   vega: any;
-  vegaLite: any;
-  vegaEmbed: any;
   trustedTypes?: any;
 }

@@ -70,4 +70,4 @@ def test_one_name_is_added_to_the_window_beside_vega(open_page, browser, tmp_pat
     names = "() => Object.getOwnPropertyNames(window)"
     added = set(page.evaluate(names)) - set(plain.evaluate(names))
     plain.close()
-    assert {name for name in added if not re.fullmatch(r"\d+", name)} <= {"shapeviz", "vegaEmbed"}
+    assert {name for name in added if not re.fullmatch(r"\d+", name)} <= {"shapeviz", "vega"}

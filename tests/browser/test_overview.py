@@ -118,7 +118,7 @@ class TestFirstLook:
     def test_the_shapes_themselves_are_seen_first_and_no_chart_is_waited_for(self, open_page):
         page = open_page("plain")
         assert page.evaluate("performance.getEntriesByName('drawn: thumbnail').length") == 1
-        assert page.evaluate("window.vegaEmbed === undefined")
+        assert page.evaluate("window.vega === undefined")
         assert page.evaluate("document.querySelector('#views :checked').value") == "thumbnail"
         places = page.eval_on_selector_all(
             f"{LARGE} .pictured",

@@ -1,6 +1,7 @@
 // One Vega-Lite chart, drawn by Vega under a policy without eval: hence the expression interpreter.
 
 import { addScript } from "./chunks.js";
+import { pause } from "./dom.js";
 
 const loader = {
   load: () => Promise.reject(new Error("charts load nothing")),
@@ -15,13 +16,14 @@ const loader = {
 let vega = null;
 
 /** Vega is most of what a page loads: it comes with the first chart, when what the page says can be read. */
-function loadVega() {
+async function loadVega() {
   vega ??= addScript(document.getElementById("content").dataset.vega ?? "");
-  return vega;
+  await vega;
+  return window.vega;
 }
 
 /**
- * Draw a chart into an element; the result is its Vega view.
+ * Make a chart in an element; the result is its Vega view, which draws when it runs.
  * @param {HTMLElement} node
  * @param {Record<string, any>} spec
  * @param {Record<string, any>} config
@@ -54,16 +56,12 @@ export async function chartsAtRest() {
  * @param {"svg" | "canvas"} renderer
  */
 async function embed(node, spec, config, renderer) {
-  await loadVega();
-  const { view } = await window.vegaEmbed(node, spec, {
-    actions: false,
-    ast: true,
-    config,
-    defaultStyle: false,
-    loader,
-    logLevel: 1,
-    renderer,
-    tooltip: false,
-  });
-  return view;
+  const { compile, parse, View, expressionInterpreter } = await loadVega();
+  // Each step takes as long as a page may keep its reader waiting.
+  await pause();
+  const { spec: compiled } = compile(spec, { config });
+  await pause();
+  const runtime = parse(compiled, {}, { ast: true });
+  await pause();
+  return new View(runtime, { expr: expressionInterpreter, loader, logLevel: 1, renderer }).initialize(node);
 }

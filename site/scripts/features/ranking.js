@@ -1,7 +1,7 @@
 // Fig. 4: a bar a subset, its features below it; the greedy path and what is chosen above them.
 
 import { drawChart } from "../base/chart.js";
-import { element, svg } from "../base/dom.js";
+import { element, pause, svg } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 
@@ -10,6 +10,8 @@ import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 
 const BARS = 150;
 const ROW = 15;
+/** Of the height of its row, how much a cell takes. */
+const CELL = 0.86;
 const WIDEST = 36;
 const TOUCHABLE = 3;
 const LEAP = 10;
@@ -21,8 +23,10 @@ const CLOSEST = 10;
  */
 
 export class Ranking {
-  /** @type {any[]} Vega's views */
-  vegas = [];
+  /** @type {any} Vega's view of the features of the subsets, once it is there */
+  matrix = null;
+  /** @type {any} and of their bars, where there are any */
+  bars = null;
   width = 0;
   step = 0;
 
@@ -75,32 +79,19 @@ export class Ranking {
   async start() {
     const { subsets } = this;
     const { charts } = subsets.data;
-    for (const vega of this.vegas) vega.finalize();
-    this.vegas = [];
     const matrix = await drawChart(
       document.getElementById("feature-matrix"),
       charts.matrix,
       this.marks().config,
       "svg",
     );
-    const row = new Map(subsets.data.order.map((feature, place) => [feature, place]));
-    const cells = [];
-    for (let place = 0; place < subsets.count; place += 1) {
-      for (const feature of row.keys()) {
-        if (subsets.has(place, feature))
-          cells.push({ place, row: row.get(feature), feature: subsets.data.hues[feature] });
-      }
-    }
-    matrix
-      .signal("features", row.size)
-      .height(ROW * row.size)
-      .data("cells", cells);
-    this.vegas.push(matrix);
+    this.matrix?.finalize();
+    this.matrix = matrix.height(ROW * subsets.data.order.length);
     if (subsets.labelled) {
       const bars = await drawChart(document.getElementById("subset-bars"), charts.bars, this.marks().config, "svg");
       const rows = subsets.data.hit.map((hit, place) => ({ place, hit, feature: this.#hue(place) }));
-      bars.signal("bar", this.marks().bar).height(BARS).data("subsets", rows);
-      this.vegas.push(bars);
+      this.bars?.finalize();
+      this.bars = bars.signal("bar", this.marks().bar).height(BARS).data("subsets", rows);
     }
     document
       .getElementById("rows")
@@ -124,7 +115,7 @@ export class Ranking {
     const room = this.scroll.clientWidth;
     const least = room < 600 ? TOUCHABLE : 1;
     const step = Math.min(Math.max(Math.floor(room / this.subsets.count), least), WIDEST);
-    if (step === this.step || this.vegas.length === 0) return;
+    if (step === this.step || this.matrix === null) return;
     this.step = step;
     this.width = step * this.subsets.count;
     this.surface.style.width = `${this.width}px`;
@@ -132,13 +123,41 @@ export class Ranking {
     this.#level();
     this.#point();
     this.#trace();
-    for (const vega of this.vegas) {
-      vega
-        .width(this.width)
-        .signal("count", this.subsets.count)
-        .signal("fill", step > 2 ? (step - 1) / step : 1);
-    }
-    await Promise.all(this.vegas.map((vega) => vega.runAsync()));
+    const wide = step > 2 ? step - 1 : step;
+    await this.matrix.width(this.width).data("rows", this.#cells(wide)).runAsync();
+    await pause();
+    await this.bars
+      ?.width(this.width)
+      .signal("count", this.subsets.count)
+      .signal("fill", wide / step)
+      .runAsync();
+  }
+
+  /**
+   * The cells of each feature, as one shape: Vega takes little longer for it than for one cell.
+   * @param {number} wide
+   */
+  #cells(wide) {
+    const { subsets, step } = this;
+    const places = Array.from({ length: subsets.count }, (_, place) => place);
+    return subsets.data.order.map((feature, row) => {
+      const [top, foot] = [row * ROW, (row + CELL) * ROW];
+      const coordinates = places
+        .filter((place) => subsets.has(place, feature))
+        .map((place) => {
+          const [left, right] = [place * step, place * step + wide];
+          return [
+            [
+              [left, top],
+              [right, top],
+              [right, foot],
+              [left, foot],
+              [left, top],
+            ],
+          ];
+        });
+      return { type: "Feature", feature: subsets.data.hues[feature], geometry: { type: "MultiPolygon", coordinates } };
+    });
   }
 
   #level() {

@@ -124,12 +124,17 @@ export class MapView {
   async #startChart() {
     this.vega?.finalize();
     this.vega = null;
-    this.sent.clear();
-    const spec = this.database.data.charts[/** @type {"class" | "hit" | "thumbnail"} */ (this.name)];
+    const { name } = this;
+    const spec = this.database.data.charts[/** @type {"class" | "hit" | "thumbnail"} */ (name)];
     // Browsers scale SVG pictures down better than canvas does, and many dots are quicker on canvas.
-    const renderer = this.name === "thumbnail" ? "svg" : "canvas";
+    const renderer = name === "thumbnail" ? "svg" : "canvas";
     const vega = await drawChart(this.node, spec, this.database.marks.config, renderer);
+    // Meanwhile the map may have been drawn once more, or be asked to tell something else.
+    this.vega?.finalize();
+    this.vega = null;
+    if (this.name !== name) return;
     this.vega = vega;
+    this.sent.clear();
     this.#choosePictures();
     this.#send();
     await vega.runAsync();

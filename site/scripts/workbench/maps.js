@@ -82,6 +82,7 @@ export class WorkMaps {
   async redraw() {
     if (!(await this.colors.make())) return;
     for (const view of this.views) {
+      await pause();
       view.colorBy(this.state.get("color"), this.state.get("coloring") ?? null);
       await view.start();
     }
