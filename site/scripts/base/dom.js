@@ -154,10 +154,11 @@ export function watchSize(nodes, work) {
   for (const node of nodes) observer.observe(node);
 }
 
-/** Let the browser draw, and hear its reader, between two pieces of work. */
+/** Let the browser draw, and hear its reader, between two pieces of work; a sheet of paper waits for nothing. */
 export function pause() {
   return new Promise((resolve) => {
-    setTimeout(resolve);
+    if (document.documentElement.dataset.paper === "page") resolve(undefined);
+    else setTimeout(resolve);
   });
 }
 

@@ -12,6 +12,7 @@ const MOST = 12;
  * @property {(text: string) => Value[]} find best first
  * @property {(value: Value) => Children} label the content of a line
  * @property {(value: Value) => void} choose is told of the chosen one
+ * @property {() => unknown} [prepare] is told when the reader comes to the field
  */
 
 /** @template Value */
@@ -21,7 +22,7 @@ export class Finder {
    * @param {string} list id of the list below it
    * @param {Finding<Value>} finding
    */
-  constructor(field, list, { find, label, choose }) {
+  constructor(field, list, { find, label, choose, prepare = () => {} }) {
     this.find = find;
     this.label = label;
     this.choose = choose;
@@ -40,7 +41,10 @@ export class Finder {
       this.field.setAttribute(key, value);
     }
     this.field.addEventListener("input", () => this.#look());
-    this.field.addEventListener("focus", () => this.#look());
+    this.field.addEventListener("focus", () => {
+      prepare();
+      this.#look();
+    });
     this.field.addEventListener("blur", () => this.#close());
     this.field.addEventListener("keydown", (event) => this.#key(event));
     // A press would take the focus, and with it the list.

@@ -39,6 +39,7 @@ export class Look {
     });
     new Finder("bin-search", "bin-found", {
       find: (text) => bins.find(text),
+      prepare: () => bins.prepareToFind(),
       label: (column) => binName(bins, column),
       choose: (column) => state.set({ bin: column, group: null }),
     });

@@ -109,6 +109,7 @@ export class Colors {
     const { bins } = await loadBins();
     this.#finder ??= new Finder("color-search", "color-found", {
       find: (text) => bins.find(text),
+      prepare: () => bins.prepareToFind(),
       label: (column) => binName(bins, column),
       choose: (column) => this.choose(BIN + bins.names[column]),
     });

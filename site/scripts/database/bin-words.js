@@ -2,6 +2,7 @@
 // their definitions. What says it plainly goes before what says it exactly, and the end of a scale that is asked for
 // before the rest of it.
 
+import { pause } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 
 /**
@@ -24,12 +25,25 @@ export class BinWords {
   /** @type {Map<string, Map<number, number>>} */
   #said = new Map();
 
+  /** @type {Generator<void>} */
+  #learning;
+
   /** @param {Told} told */
-  constructor({ features, called, sentences }) {
-    this.features = features;
-    this.ease = features.flatMap(({ dimensions, bins, ease }) => Array(dimensions * bins).fill(ease));
-    for (const [column, text] of called.entries()) this.#say(column, wordsOf(text), NAME);
-    for (const [column, text] of sentences.entries()) this.#say(column, wordsOf(text), DEFINITION);
+  constructor(told) {
+    this.ease = told.features.flatMap(({ dimensions, bins, ease }) => Array(dimensions * bins).fill(ease));
+    this.#learning = this.#learn(told);
+  }
+
+  /** Learn what is said of the bins before it is asked for, in steps between which the page answers. */
+  async prepare() {
+    while (!this.#learning.next().done) await pause();
+  }
+
+  /**
+   * A dimension at a time.
+   * @param {Told} told
+   */
+  *#learn({ features, called, sentences }) {
     for (const feature of features) {
       const { start, dimensions, bins } = feature;
       const own = wordsOf(`${feature.title} ${feature.aspect} ${feature.measures}`);
@@ -38,11 +52,14 @@ export class BinWords {
         const ends = [wordsOf(`${feature.lowMeans} ${low}`), wordsOf(`${feature.highMeans} ${high}`)];
         for (let place = 0; place < bins; place += 1) {
           const column = start + dimension * bins + place;
+          this.#say(column, wordsOf(called[column]), NAME);
+          this.#say(column, wordsOf(sentences[column]), DEFINITION);
           this.#say(column, own, FEATURE);
           // From -1 at the low end to 1 at the high one.
           const height = bins > 1 ? (2 * place) / (bins - 1) - 1 : 0;
           if (height !== 0) this.#say(column, ends[Number(height > 0)], END * (1 + Math.abs(height)));
         }
+        yield;
       }
     }
   }
@@ -65,24 +82,25 @@ export class BinWords {
    * @returns {number[]}
    */
   find(text) {
-    const [first, ...rest] = wordsOf(text).map((word) => this.#saidBy(word));
-    if (first === undefined) return [];
-    /** @type {Map<number, number>} */
-    const found = new Map();
-    for (const [column, worth] of first) {
-      const all = rest.map((said) => said.get(column) ?? 0);
-      if (all.every(Boolean)) found.set(column, this.ease[column] * all.reduce((a, b) => a + b, worth));
-    }
-    return [...found].sort(([one, a], [other, b]) => b - a || one - other).map(([column]) => column);
+    while (!this.#learning.next().done);
+    const words = wordsOf(text).map((word) => this.#saidBy(word));
+    if (words.length === 0) return [];
+    const worth = this.ease.map((ease, column) =>
+      words.every((said) => said[column] > 0) ? ease * words.reduce((sum, said) => sum + said[column], 0) : 0,
+    );
+    const found = [...worth.keys()].filter((column) => worth[column] > 0);
+    return found.sort((one, other) => worth[other] - worth[one] || one - other);
   }
 
-  /** @param {string} word */
+  /**
+   * What a word says of each column.
+   * @param {string} word
+   */
   #saidBy(word) {
-    /** @type {Map<number, number>} */
-    const all = new Map();
+    const all = new Float64Array(this.ease.length);
     for (const [known, said] of this.#said) {
       if (!isMeant(word, known)) continue;
-      for (const [column, worth] of said) all.set(column, Math.max(all.get(column) ?? 0, worth));
+      for (const [column, worth] of said) if (worth > all[column]) all[column] = worth;
     }
     return all;
   }

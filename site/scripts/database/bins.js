@@ -21,6 +21,7 @@ export class Bins {
     this.marks = data.marks;
     this.balanced = data.scaling === "balanced";
     this.names = this.features.flatMap(namesOf);
+    this.#words = new BinWords(this);
     this.count = this.names.length;
     this.steps = new Uint16Array(bytes);
     this.rows = this.steps.length / this.count;
@@ -141,19 +142,21 @@ export class Bins {
     const named = this.#named(wanted);
     if (named.length > 0) return named;
     const found = new Set(this.#where((name) => name.includes(wanted)));
-    if (!OF_NAMES.test(wanted)) {
-      this.#words ??= new BinWords(this);
-      for (const column of this.#words.find(wanted)) found.add(column);
-    }
+    if (!OF_NAMES.test(wanted)) for (const column of this.#words.find(wanted)) found.add(column);
     if (found.size > 0) return [...found];
     const names = wanted.split(/[\s,;]+/).filter(Boolean);
     return [...new Set(names.flatMap((name) => this.#named(name)))].sort((a, b) => a - b);
   }
 
+  /** Get ready to find: the first letter would else wait for it. */
+  prepareToFind() {
+    return this.#words.prepare();
+  }
+
   /** @type {string[] | null} */
   #searched = null;
-  /** @type {BinWords | null} */
-  #words = null;
+  /** @type {BinWords} */
+  #words;
 
   /** @param {string} wanted */
   #named(wanted) {

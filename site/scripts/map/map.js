@@ -146,10 +146,11 @@ export class MapView {
     this.overlay.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
   }
 
-  /** The size of the surface changed. */
+  /** The size of the surface may have changed. */
   resize() {
+    const { width, height } = this;
     this.measure();
-    this.settle();
+    if (width !== this.width || height !== this.height) this.settle();
   }
 
   // Plane and screen

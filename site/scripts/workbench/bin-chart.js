@@ -162,6 +162,7 @@ export class BinChart {
       "aria-label": "Find bins by name",
       autocomplete: "off",
       spellcheck: "false",
+      onfocus: () => bins.prepareToFind(),
       oninput: () => this.#search(),
       onkeydown: (event) => this.#searchKey(event),
       onblur: () => this.point(null),
