@@ -24,7 +24,7 @@ from shapeviz_report.types import (
     IntArray,
     ShapeEntry,
 )
-from shapeviz_report.wording import Dimension, agreed, dimensions_of, word_whole
+from shapeviz_report.wording import Dimension, agreed, call_bins, dimensions_of, word_whole
 
 SMALLEST = 8
 """Fewer shapes are seen at a glance, and no number of groups among them could be told from chance."""
@@ -276,7 +276,7 @@ def _word_typical(
     Of a feature it is the share of the surface above some value, or the value of an external one, whose means within
     and without the group are farthest apart in standard deviations within the two.
     """
-    dimensions = tuple(dimensions_of(table, edges))
+    dimensions, calls = tuple(dimensions_of(table, edges)), call_bins(table, edges)
     found: list[list[tuple[bool, float, str]]] = [[] for _ in rows]
     for block in table.blocks:
         own_dimensions = [dimension for dimension in dimensions if dimension.block == block]
@@ -302,7 +302,8 @@ def _word_typical(
                 number, step = divmod(best, block.bins - 1)
                 sentence = _word_shares(own_dimensions[number], step, here[best], there[best], preset)
             else:
-                sentence = _word_values(block.columns[best], here[best], there[best])
+                called = calls[table.slice_of(block.name).start + best]
+                sentence = _word_values(called or block.columns[best], here[best], there[best])
             hard = block.dimensions > 1 or effects[best] < CLEAR
             candidates.append((hard, -effects[best], sentence))
     return [tuple(sentence for _, _, sentence in sorted(candidates)[:TYPICAL]) for candidates in found]
@@ -324,10 +325,10 @@ def _word_shares(dimension: Dimension, step: int, here: float, there: float, pre
     )
 
 
-def _word_values(column: str, here: float, there: float) -> str:
-    """That an external feature is larger or smaller."""
-    side = "larger" if here > there else "smaller"
-    return f"{column} is {side} than in other shapes: {_number(here)} against {_number(there)}."
+def _word_values(called: str, here: float, there: float) -> str:
+    """That a value of the whole shape, or one that was brought along, is larger or smaller."""
+    side = "higher" if here > there else "lower"
+    return f"{called[:1].upper()}{called[1:]} is {side} than in other shapes: {_number(here)} against {_number(there)}."
 
 
 def _number(value: float) -> str:

@@ -153,7 +153,7 @@ def test_what_is_typical_is_said_with_the_right_figures() -> None:
         "Bodies are thicker: 90\u00a0% of the surface is thicker than 0.8 radii, in other shapes 20\u00a0%."
     )
     assert all("of the shape" not in sentence for sentence in thick)
-    assert "own is smaller than in other shapes: −3 against 5." in found.clusters[1].typical
+    assert "Own is lower than in other shapes: −3 against 5." in found.clusters[1].typical
     assert any(sentence.startswith("Bodies are thinner: ") for sentence in found.clusters[2].typical)
 
 

@@ -193,7 +193,9 @@ class Taker {
     const place = this.#placeOf(rect);
     const ramp = [...style.backgroundImage.matchAll(/(?:rgba?|color)\([^)]*\)/g)].map(([color]) => color);
     let fill = style.backgroundColor;
-    if (style.backgroundImage.startsWith("linear-gradient") && ramp.length > 1) {
+    // One gradient over all of it is a ramp; several are the shades of what scrolls.
+    const gradients = style.backgroundImage.match(/gradient\(/g) ?? [];
+    if (style.backgroundImage.startsWith("linear-gradient") && gradients.length === 1 && ramp.length > 1) {
       const id = `ramp-${Math.random().toString(36).slice(2)}`;
       const stops = ramp.map((color, at) => svg("stop", { offset: at / (ramp.length - 1), "stop-color": color }));
       into.append(svg("linearGradient", { id }, stops));

@@ -140,7 +140,7 @@ export class Look {
       return [`Of each class, the middle shape has the same of it: ${told(most.median)}.`];
     const next = rest.slice(0, -1).slice(0, 2);
     return [
-      "Most of it is on ",
+      bins.isShare(column) ? "Most of it is on " : "It is highest in ",
       name(most),
       `: its middle shape has ${told(most.median)}`,
       ...next.flatMap((row, place) => [
@@ -148,7 +148,7 @@ export class Look {
         name(row),
         ` with ${told(row.median)}`,
       ]),
-      ". Least is on ",
+      bins.isShare(column) ? ". Least is on " : "; it is lowest in ",
       name(least),
       `, with ${told(least.median)}.`,
     ];
@@ -177,7 +177,13 @@ export class Look {
       ` has ${share}${place}; that of `,
       name(rival),
       `, its nearest class on the Overview, has ${share === other ? "as much" : other}.`,
-      ...(rank > 0 ? [" Most of it is on ", name(rows[0]), `, with ${told(rows[0].median)}.`] : []),
+      ...(rank > 0
+        ? [
+            this.bins.isShare(column) ? " Most of it is on " : " It is highest in ",
+            name(rows[0]),
+            `, with ${told(rows[0].median)}.`,
+          ]
+        : []),
     ];
   }
 

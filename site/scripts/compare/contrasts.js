@@ -192,7 +192,8 @@ export class Contrast {
           clear(column) > 0 &&
           // To have less of "hardly any" is to have more of something else, which other bins say plainly.
           (own[column] > 0 || bins.binOf(column) > 0 || bins.features[bins.featureOf(column)].dimensions === 1) &&
-          this.#isSeen(column),
+          this.#isSeen(column) &&
+          this.#isOfMost(column, own[column] > 0),
       )
       .sort(
         (one, other) =>
@@ -218,6 +219,19 @@ export class Contrast {
   #isSeen(column) {
     const { a, b, rest } = this.sample;
     return Math.min(this.#apart(column, a, rest), this.#apart(column, b, rest)) >= SEEN;
+  }
+
+  /**
+   * Whether most shapes of both groups have more of a bin than the mean of the other shapes, or less: not few with much.
+   * @param {number} column
+   * @param {boolean} more
+   */
+  #isOfMost(column, more) {
+    const { bins, sample } = this;
+    const others = mean(sample.rest.map((row) => bins.share(column, row)));
+    return [sample.a, sample.b].every(
+      (rows) => 2 * rows.filter((row) => bins.share(column, row) > others === more).length > rows.length,
+    );
   }
 
   /**

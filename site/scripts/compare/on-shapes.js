@@ -8,7 +8,7 @@ import { pageAddress, resource } from "../base/place.js";
 import { percent } from "../base/words.js";
 import { binName, exactly } from "../bins-kit/bin-name.js";
 import { Legend } from "../bins-kit/legend.js";
-import { sumOf } from "../bins-kit/difference.js";
+import { byFeature, sumOf } from "../bins-kit/difference.js";
 import { Stage } from "../bins-kit/stage.js";
 import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
 import { copyEvidence } from "../database/facts.js";
@@ -144,11 +144,16 @@ export class OnShapes {
     this.similarity ??= new Similarity(bins);
     const parts = this.similarity.differences(...pair, { features: [...bins.features.keys()] });
     const evidence = copyEvidence(details, ...pair);
+    const nowhere = byFeature(parts, bins, pair).reduce((sum, { beside }) => sum + beside, 0);
     document
       .getElementById("seen-bin")
       .replaceChildren(
         evidence === null ? "" : `The two are copies of each other: ${evidence}. `,
         "All features together: what one of these two shapes has and the other lacks is coloured. ",
+        nowhere > 0 && [
+          element("b", {}, percent(nowhere)),
+          " of what sets them apart lies in what is measured of whole shapes, and is nowhere on them. ",
+        ],
         element("a", { href: besideAddress(database, ...pair) }, "Feature by feature"),
       );
     for (const side of SIDES) this.#side(side, () => "");
