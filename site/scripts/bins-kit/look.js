@@ -134,7 +134,7 @@ export class Look {
     const least = rest.at(-1);
     /** @param {Row} row */
     const name = (row) => element("bdi", {}, row.name);
-    const contrast = this.#contrast(rows, told, name);
+    const contrast = this.#contrast(column, rows, told, name);
     if (contrast !== null) return contrast;
     if (told(most.median) === told(least.median))
       return [`Of each class, the middle shape has the same of it: ${told(most.median)}.`];
@@ -156,11 +156,12 @@ export class Look {
 
   /**
    * For the bin of a class: how it sets this class apart from the others, and from its nearest.
+   * @param {number} column
    * @param {Row[]} rows
    * @param {(share: number) => string} told
    * @param {(row: Row) => HTMLElement} name
    */
-  #contrast(rows, told, name) {
+  #contrast(column, rows, told, name) {
     const own = this.selection.minimal.find(({ group }) => group === this.state.get("group"));
     if (own === undefined) return null;
     /** @param {number} group */

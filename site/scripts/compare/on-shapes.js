@@ -150,10 +150,12 @@ export class OnShapes {
       .replaceChildren(
         evidence === null ? "" : `The two are copies of each other: ${evidence}. `,
         "All features together: what one of these two shapes has and the other lacks is coloured. ",
-        nowhere > 0 && [
-          element("b", {}, percent(nowhere)),
-          " of what sets them apart lies in what is measured of whole shapes, and is nowhere on them. ",
-        ],
+        ...(nowhere > 0
+          ? [
+              element("b", {}, percent(nowhere)),
+              " of what sets them apart lies in what is measured of whole shapes, and is nowhere on them. ",
+            ]
+          : []),
         element("a", { href: besideAddress(database, ...pair) }, "Feature by feature"),
       );
     for (const side of SIDES) this.#side(side, () => "");
