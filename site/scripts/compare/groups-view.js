@@ -218,7 +218,8 @@ export class GroupsView {
     const { database } = this;
     const { bins } = contrast;
     const named = bins.names.indexOf(this.state.get("bin") ?? "");
-    const best = contrast.told[0] ?? 0;
+    // The first that can be seen on shapes.
+    const best = contrast.told.find((column) => bins.isShare(column)) ?? contrast.told[0] ?? 0;
     /** @type {View["rest"]} */
     const rest = { side: "rest", name: "the others", color: () => "var(--quiet)", mark: () => null };
     /** @param {number} column */
