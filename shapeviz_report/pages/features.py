@@ -233,7 +233,7 @@ def _effects(search: FeatureSearch) -> list[dict[str, object]]:
         effect = next(effect for effect in search.effects if effect.feature == search.features[index])
         if effect.added is None:
             verdict = None
-        elif abs(effect.added) < NEGLIGIBLE:
+        elif round(abs(effect.added), 3) < NEGLIGIBLE:
             verdict = "hardly matters"
         else:
             verdict = "helps" if effect.added > 0 else "spoils"

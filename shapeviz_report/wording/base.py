@@ -110,13 +110,13 @@ def count_waves(number: int) -> str:
 
 
 def name_waves_around(waves: tuple[int, int]) -> Iterator[str]:
-    """What the values of a panorama count, in few words: "longest axis: 2 waves around, 1 along"."""
+    """What the values of a panorama count, in few words: "longest axis: 2 waves around, 1 along"; without, the mean."""
     for axis in AXES:
         for along in range(waves[0]):
             for around in range(waves[1]):
                 parts = [f"{count_waves(around)} around"] if around else []
                 parts += [f"{count_waves(along) if not around else along} along"] if along else []
-                yield f"{axis} axis: {', '.join(parts) or 'mean'}"
+                yield f"{axis} axis{': ' if parts else ''}{', '.join(parts)}"
 
 
 def place_waves_around(waves: tuple[int, int]) -> Iterator[str]:
@@ -124,16 +124,17 @@ def place_waves_around(waves: tuple[int, int]) -> Iterator[str]:
     for axis in AXES:
         for along in range(waves[0]):
             for around in range(waves[1]):
-                yield f"{count_waves(around)} around the {axis} axis and {along} along it"
+                own = f"strength of {count_waves(around)} around the {axis} axis and {along} along it"
+                yield own if around or along else f"mean around the {axis} axis"
 
 
 def name_waves_across(waves: tuple[int, int]) -> Iterator[str]:
-    """What the values of an image along an axis count, in few words: "2 waves across, 1 up"."""
+    """What the values of an image along an axis count, in few words: "2 waves across, 1 up"; nothing for the mean."""
     for up in range(waves[0]):
         for across in range(waves[1]):
             parts = [f"{count_waves(across)} across"] if across else []
             parts += [f"{count_waves(up) if not across else up} up"] if up else []
-            yield ", ".join(parts) or "mean"
+            yield ", ".join(parts)
 
 
 def place_waves_across(axis: int, waves: tuple[int, int]) -> Iterator[str]:
@@ -141,7 +142,8 @@ def place_waves_across(axis: int, waves: tuple[int, int]) -> Iterator[str]:
     across_axis, up_axis = AXES[(axis + 1) % 3], AXES[(axis + 2) % 3]
     for up in range(waves[0]):
         for across in range(waves[1]):
-            yield f"{count_waves(across)} along the {across_axis} axis and {up} along the {up_axis} one"
+            own = f"strength of {count_waves(across)} along the {across_axis} axis and {up} along the {up_axis} one"
+            yield own if across or up else "mean"
 
 
 def as_degrees(radians: FloatArray) -> FloatArray:

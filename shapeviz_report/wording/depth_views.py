@@ -13,13 +13,13 @@ _PARTS = (
 DEPTH_VIEWS = GlobalWording(
     aspect="relief",
     names=tuple(
-        f"{part} along the {axis} axis, {waves}"
+        f"{part} along the {axis} axis, {waves}" if waves else f"mean {part} along the {axis} axis"
         for number, axis in enumerate(AXES)
         for part, _ in _PARTS
         for waves in name_waves_across(WAVES_ACROSS)
     ),
     quantities=tuple(
-        f"the strength of {waves}, in {part} along the {axis} axis"
+        f"the root of the {waves}, in {part} along the {axis} axis"
         for number, axis in enumerate(AXES)
         for _, part in _PARTS
         for waves in place_waves_across(number, WAVES_ACROSS)

@@ -7,9 +7,12 @@ from shapeviz_report.wording.base import GlobalWording, name_waves_around, place
 
 PANORAMA = GlobalWording(
     aspect="girth",
-    names=tuple(f"reach from the {waves}" for waves in name_waves_around(WAVES_AROUND)),
+    names=tuple(
+        f"{'' if ':' in waves else 'mean '}reach from the {waves}"
+        for waves in name_waves_around(WAVES_AROUND)
+    ),
     quantities=tuple(
-        f"the strength of {waves}, in how far the surface reaches from it"
+        f"the root of the {waves}, in how far the surface reaches from it"
         for waves in place_waves_around(WAVES_AROUND)
     ),
 )

@@ -7,9 +7,11 @@ from shapeviz_report.wording.base import GlobalWording, name_waves_around, place
 
 PANORAMA_SLANT = GlobalWording(
     aspect="slant of the outside",
-    names=tuple(f"slant to the {waves}" for waves in name_waves_around(WAVES_AROUND)),
+    names=tuple(
+        f"{'' if ':' in waves else 'mean '}slant to the {waves}" for waves in name_waves_around(WAVES_AROUND)
+    ),
     quantities=tuple(
-        f"the strength of {waves}, in how squarely the outer surface faces away from it"
+        f"the root of the {waves}, in how squarely the outer surface faces away from it"
         for waves in place_waves_around(WAVES_AROUND)
     ),
 )

@@ -8,12 +8,12 @@ from shapeviz_report.wording.base import AXES, GlobalWording, name_waves_across,
 SILHOUETTES = GlobalWording(
     aspect="silhouette",
     names=tuple(
-        f"shadow along the {axis} axis, {waves}"
+        f"shadow along the {axis} axis, {waves}" if waves else f"mean shadow along the {axis} axis"
         for number, axis in enumerate(AXES)
         for waves in name_waves_across(WAVES_ACROSS)
     ),
     quantities=tuple(
-        f"the strength of {waves}, in the silhouette seen along the {axis} axis"
+        f"the root of the {waves}, in the silhouette seen along the {axis} axis"
         for number, axis in enumerate(AXES)
         for waves in place_waves_across(number, WAVES_ACROSS)
     ),

@@ -30,7 +30,7 @@ _KINDS = tuple(
 SURFLETS = GlobalWording(
     aspect="lie of the parts",
     names=tuple(
-        f"pairs {apart} apart, turned {turned}, facing at {one} and {other}"
+        f"share of pairs {apart} apart, turned {turned}, at {one} and {other}"
         for apart, turned, one, other in _KINDS
     ),
     quantities=tuple(

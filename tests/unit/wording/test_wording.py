@@ -163,15 +163,15 @@ def test_columns_are_called_and_explained_in_their_order() -> None:
     table = FeatureTable(("a",), blocks, np.zeros((1, sum(block.width for block in blocks))))
     called = dict(zip(table.columns, call_bins(table, fixed_edges()), strict=True))
     exact = dict(zip(table.columns, explain_bins(table, fixed_edges(), by_area=True), strict=True))
-    assert called["Pan[0]"] == "reach from the longest axis: mean"
+    assert called["Pan[0]"] == "mean reach from the longest axis"
     assert called["Pan[9]"] == "reach from the longest axis: 2 waves around, 1 along"
     assert called["PanS[37]"] == "slant to the middle axis: 2 waves around"
     assert called["Dep[26]"] == "front against back along the longest axis, 1 wave across"
     assert called["Sil[55]"] == "shadow along the shortest axis, 1 wave up"
-    assert called["Sfl[0]"] == "pairs 0 to 0.4 apart, turned 76–90°, facing at 76–90° and 76–90°"
+    assert called["Sfl[0]"] == "share of pairs 0 to 0.4 apart, turned 76–90°, at 76–90° and 76–90°"
     assert called["deep one[2]"] == ""
     assert exact["Dep[26]"].startswith(
-        "The value is the strength of 1 wave along the middle axis and 0 along the shortest"
+        "The value is the root of the strength of 1 wave along the middle axis and 0 along the shortest"
     )
     assert exact["deep one[2]"] == "The value of deep one[2], a feature that was brought along."
     assert called["Agd:6"] == SAID["Agd:6"].name
