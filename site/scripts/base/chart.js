@@ -57,11 +57,12 @@ export async function chartsAtRest() {
  */
 async function embed(node, spec, config, renderer) {
   const { compile, parse, View, expressionInterpreter } = await loadVega();
-  // Each step takes as long as a page may keep its reader waiting.
-  await pause();
+  // Each step takes as long as a page may keep its reader waiting. A printer waits for none: see paper.js.
+  const rest = () => (document.documentElement.dataset.paper === "page" ? null : pause());
+  await rest();
   const { spec: compiled } = compile(spec, { config });
-  await pause();
+  await rest();
   const runtime = parse(compiled, {}, { ast: true });
-  await pause();
+  await rest();
   return new View(runtime, { expr: expressionInterpreter, loader, logLevel: 1, renderer }).initialize(node);
 }
