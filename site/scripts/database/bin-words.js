@@ -20,6 +20,9 @@ const DEFINITION = 0.5;
 const STEM = 4;
 const ENDING = 3;
 
+/** In milliseconds: less than a reader notices, and much more than a dimension takes. */
+const STEP = 20;
+
 export class BinWords {
   /** By each word, what it says of the columns: only what is said of any. */
   /** @type {Map<string, Map<number, number>>} */
@@ -36,7 +39,12 @@ export class BinWords {
 
   /** Learn what is said of the bins before it is asked for, in steps between which the page answers. */
   async prepare() {
-    while (!this.#learning.next().done) await pause();
+    let until = performance.now() + STEP;
+    while (!this.#learning.next().done) {
+      if (performance.now() < until) continue;
+      await pause();
+      until = performance.now() + STEP;
+    }
   }
 
   /**
