@@ -57,12 +57,11 @@ export async function chartsAtRest() {
  */
 async function embed(node, spec, config, renderer) {
   const { compile, parse, View, expressionInterpreter } = await loadVega();
-  // Each step takes as long as a page may keep its reader waiting. A printer waits for none: see paper.js.
-  const rest = () => (document.documentElement.dataset.paper === "page" ? null : pause());
-  await rest();
+  // Each step takes as long as a page may keep its reader waiting.
+  await pause();
   const { spec: compiled } = compile(spec, { config });
-  await rest();
+  await pause();
   const runtime = parse(compiled, {}, { ast: true });
-  await rest();
+  await pause();
   return new View(runtime, { expr: expressionInterpreter, loader, logLevel: 1, renderer }).initialize(node);
 }
