@@ -27,9 +27,15 @@ def start(folder: Path, **options) -> subprocess.Popen[str]:
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        preexec_fn=hear_signals,
         **options,
     )
+
+
+def hear_signals() -> None:
+    """As a terminal has it: what runs in the background, or below ``nohup``, ignores some."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def is_working(folder: Path) -> bool:
