@@ -15,6 +15,7 @@ import numpy as np
 
 from benchmarks.sites import load_features
 from shapeviz_report.agreement import weigh
+from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.projections import arrange, squared_distances, tsne
 from shapeviz_report.quality import score
@@ -40,23 +41,6 @@ def reduce(values: FloatArray) -> FloatArray:
     return centred @ np.linalg.svd(centred, full_matrices=False)[2][:COMPONENTS].T
 
 
-def rate_map(squared: FloatArray, xy: FloatArray) -> tuple[float, float, float]:
-    """Trustworthiness, continuity, and the share of true neighbours kept."""
-    count, k = len(squared), NEIGHBOURS
-
-    def ranks(distances: FloatArray) -> FloatArray:
-        distances = distances.astype(np.float64)
-        np.fill_diagonal(distances, -1)
-        return distances.argsort(axis=1, kind="stable").argsort(axis=1)
-
-    true, shown = ranks(squared), ranks(squared_distances(xy.astype(np.float64)))
-    near, seen = (true > 0) & (true <= k), (shown > 0) & (shown <= k)
-    most = count * k * (2 * count - 3 * k - 1) / 2
-    trust = 1 - ((true - k) * (seen & ~near)).sum() / most
-    continuity = 1 - ((shown - k) * (near & ~seen)).sum() / most
-    return trust, continuity, (near & seen).sum() / (count * k)
-
-
 def tell(name: str, values: FloatArray, labels: list[str], perplexity: float | None = None) -> None:
     """A row of the table."""
     squared = squared_distances(values)
@@ -72,7 +56,8 @@ def tell(name: str, values: FloatArray, labels: list[str], perplexity: float | N
         for seed in range(SEEDS):
             xy = arrange(tsne.TSNE_METHOD, squared, seed)
             nh = score(xy, labels, k=NEIGHBOURS).nh_s or 0.0
-            rows.append((nh, *rate_map(squared, xy)))
+            found = rate_maps(values, {"": xy}, NEIGHBOURS)[""]
+            rows.append((nh, found.trustworthiness, found.continuity, found.kept.mean()))
     finally:
         tsne.perplexity_of = own
     means, spread = np.mean(rows, axis=0), np.std(rows, axis=0)[0]

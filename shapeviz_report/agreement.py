@@ -9,16 +9,14 @@ from threadpoolctl import threadpool_limits
 
 from shapeviz_report.presets import Preset, scale
 from shapeviz_report.projections import canonical_order, squared_distances
-from shapeviz_report.types import FeatureTable, FloatArray
+from shapeviz_report.quality import share_places
+from shapeviz_report.types import FeatureTable
 
 NEIGHBOURS = 10
 """Nearest shapes that are compared."""
 
 SAMPLE_LIMIT = 1000
 """Most shapes that are asked: 8 MB of distances a feature."""
-
-TIE = 1e-9
-"""Distances that differ by less than this fraction are equal."""
 
 
 def weigh(table: FeatureTable, preset: Preset) -> FeatureTable:
@@ -49,7 +47,12 @@ def weigh(table: FeatureTable, preset: Preset) -> FeatureTable:
     with threadpool_limits(limits=1):
         squared = [squared_distances(scaled[rows][:, table.slice_of(block.name)]) for block in table.blocks]
     total = np.sum(squared, axis=0)
-    agreed = [float((_nearest(own, k) * _nearest(total - own, k)).sum()) / (len(rows) * k) for own in squared]
+    agreed = []
+    for own in squared:
+        others = total - own
+        for distances in (own, others):
+            np.fill_diagonal(distances, np.inf)
+        agreed.append(float((share_places(own, k) * share_places(others, k)).sum()) / (len(rows) * k))
     weights = np.maximum(np.array(agreed) - k / (len(rows) - 1), 0)
     # Rounding is no agreement.
     if weights.max() < 1e-6:
@@ -61,13 +64,3 @@ def weigh(table: FeatureTable, preset: Preset) -> FeatureTable:
             replace(block, weight=float(weight)) for block, weight in zip(table.blocks, weights, strict=True)
         ),
     )
-
-
-def _nearest(squared: FloatArray, k: int) -> FloatArray:
-    """(n, n) how far each shape is among the k nearest of another: 1, 0, or a fraction where several tie."""
-    distances = np.sqrt(np.maximum(squared, 0))
-    np.fill_diagonal(distances, np.inf)
-    limit = np.partition(distances, k - 1, axis=1)[:, k - 1 : k]
-    nearer = distances < limit * (1 - TIE)
-    tied = ~nearer & (distances <= limit * (1 + TIE))
-    return nearer + tied * ((k - nearer.sum(axis=1, keepdims=True)) / tied.sum(axis=1, keepdims=True))

@@ -161,6 +161,27 @@ def hits_among(points: FloatArray, codes: np.ndarray, kept: np.ndarray, k: int) 
     return hits
 
 
+def share_places(squared: FloatArray, k: int) -> FloatArray:
+    """Who has the k places next to each point: 1 for those nearer than the k-th, equal shares for those that tie with it.
+
+    Parameters
+    ----------
+    squared : (m, n) float array
+        Squared distances, infinite from a point to itself.
+    k : int
+        From 1 to n - 1.
+
+    Returns
+    -------
+    (m, n) float64 array
+        Rows add up to k.
+    """
+    last = np.partition(squared, k - 1, axis=1)[:, k - 1, None]
+    nearer = squared < last * (1 - TIE)
+    tied = (squared <= last * (1 + TIE)) & ~nearer
+    return nearer + tied * ((k - nearer.sum(axis=1, keepdims=True)) / tied.sum(axis=1, keepdims=True))
+
+
 def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
     """The k nearest neighbours of every point, as weights that add up to 1 in every row.
 
@@ -184,14 +205,11 @@ def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
         for dimension in range(points.shape[1]):
             squared += (block[:, dimension, None] - points[None, :, dimension]) ** 2
         squared[np.arange(len(block)), np.arange(start, start + len(block))] = np.inf
-        last = np.partition(squared, k - 1, axis=1)[:, k - 1, None]
-        nearer = squared < last * (1 - TIE)
-        tied = (squared <= last * (1 + TIE)) & ~nearer
-        share = (k - nearer.sum(axis=1)) / tied.sum(axis=1)
-        row, column = np.nonzero(nearer | tied)
+        places = share_places(squared, k)
+        row, column = np.nonzero(places)
         rows.append(row + start)
         columns.append(column)
-        values.append(np.where(nearer[row, column], 1.0, share[row]) / k)
+        values.append(places[row, column] / k)
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     return csr_matrix(entries, shape=(count, count))
 

@@ -92,7 +92,7 @@ def _compare(
             for block in report.features.blocks
         ],
         "whole": word_whole(preset.by_area),
-        # What the surface does that a bin counts; None for external features.
+        # What the surface does that a bin counts; None for values that are no shares of it.
         "clauses": [
             None if said is None else said.clause
             for said in say_bins(report.features, report.edges, by_area=preset.by_area)

@@ -105,7 +105,7 @@ AXES = ("longest", "middle", "shortest")
 
 
 def count_waves(number: int) -> str:
-    """ "1 wave", "2 waves"."""
+    """Some waves in words: "1 wave", "2 waves"."""
     return f"{number} wave" if number == 1 else f"{number} waves"
 
 

@@ -14,8 +14,8 @@ from shapeviz_report import database, demo, descriptors, global_descriptors, pro
 from shapeviz_report.config import SEARCHES
 from shapeviz_report.database import LAYOUTS
 from shapeviz_report.demo import CLASSES
-from shapeviz_report.descriptors import DESCRIPTORS, Surface
-from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, PosedShape
+from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
+from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor, PosedShape
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.wording import GLOBAL_WORDINGS, WORDINGS
@@ -29,19 +29,24 @@ def modules_of(package) -> set[str]:
     return {m.name for m in pkgutil.iter_modules(package.__path__) if not m.ispkg}
 
 
-@pytest.mark.parametrize("descriptor", DESCRIPTORS, ids=lambda d: d.name)
-def test_descriptor(descriptor) -> None:
+def check_texts(descriptor: Descriptor | GlobalDescriptor, shape: str) -> Path:
+    """What the file of a descriptor says of it, and of the shape of its values; the file."""
     source = inspect.getmodule(descriptor.compute)
     where = Path(inspect.getfile(descriptor.compute)).relative_to(ROOT)
     head = f"{descriptor.title} ({descriptor.name})"
     assert (source.__doc__ or "").startswith(head), f"{where}: begin its docstring with {head!r}"
     text = inspect.getdoc(descriptor.compute) or ""
-    shape = f"(n, {descriptor.dimensions})"
     for part in ("Returns", shape):
         assert part in text, f"{where}: its function's docstring needs {part!r}"
     assert descriptor.measures.endswith("."), (
         f"{where}: `measures` is a sentence, which ends with a full stop"
     )
+    return where
+
+
+@pytest.mark.parametrize("descriptor", DESCRIPTORS, ids=lambda d: d.name)
+def test_descriptor(descriptor) -> None:
+    where = check_texts(descriptor, f"(n, {descriptor.dimensions})")
     width = descriptor.compute(Surface(lump())).shape[1]
     assert width == descriptor.dimensions, f"{where}: `dimensions` is not the {width} columns it computes"
     assert descriptor.name in WORDINGS, (
@@ -62,16 +67,7 @@ def test_one_file_a_descriptor() -> None:
 
 @pytest.mark.parametrize("descriptor", GLOBAL_DESCRIPTORS, ids=lambda d: d.name)
 def test_global_descriptor(descriptor) -> None:
-    source = inspect.getmodule(descriptor.compute)
-    where = Path(inspect.getfile(descriptor.compute)).relative_to(ROOT)
-    head = f"{descriptor.title} ({descriptor.name})"
-    assert (source.__doc__ or "").startswith(head), f"{where}: begin its docstring with {head!r}"
-    text = inspect.getdoc(descriptor.compute) or ""
-    for part in ("Returns", f"({descriptor.width},)"):
-        assert part in text, f"{where}: its function's docstring needs {part!r}"
-    assert descriptor.measures.endswith("."), (
-        f"{where}: `measures` is a sentence, which ends with a full stop"
-    )
+    where = check_texts(descriptor, f"({descriptor.width},)")
     values = descriptor.compute(PosedShape(lump()))
     assert values.shape == (descriptor.width,), (
         f"{where}: `width` is not the {values.size} values it computes"
