@@ -162,7 +162,7 @@ def hits_among(points: FloatArray, codes: np.ndarray, kept: np.ndarray, k: int) 
 
 
 def share_places(squared: FloatArray, k: int) -> FloatArray:
-    """Who has the k places next to each point: 1 for those nearer than the k-th, equal shares for those that tie with it.
+    """Who has the k places next to each point: 1 if nearer than the k-th, an equal share if as near, otherwise 0.
 
     Parameters
     ----------
