@@ -66,7 +66,7 @@ def find_nearest(points: FloatArray, k: int) -> IntArray:
         own = found == np.arange(count)[:, None]
         own[~own.any(axis=1), k] = True
         return found[~own].reshape(count, k).astype(np.int32)
-    for rows, squared in _squared_blocks(points):
+    for rows, squared in squared_blocks(points):
         candidates = np.argpartition(squared, k - 1, axis=1)[:, :k]
         candidates.sort(axis=1)
         order = np.argsort(np.take_along_axis(squared, candidates, axis=1), axis=1, kind="stable")
@@ -88,7 +88,7 @@ def find_fits(points: FloatArray, codes: npt.NDArray[np.int_]) -> Fits:
     members = [np.flatnonzero(codes == code) for code in range(classes)]
     if classes < 2:
         return Fits(fit, rival)
-    for rows, squared in _squared_blocks(points):
+    for rows, squared in squared_blocks(points):
         means = np.full((len(squared), classes), np.inf)
         for code, own in enumerate(members):
             distances = np.sort(_smallest(squared[:, own], KIN), axis=1)
@@ -134,7 +134,7 @@ def _smallest(squared: FloatArray, count: int) -> FloatArray:
     return np.partition(squared, count - 1, axis=1)[:, :count]
 
 
-def _squared_blocks(points: FloatArray) -> Iterator[tuple[slice, FloatArray]]:
+def squared_blocks(points: FloatArray) -> Iterator[tuple[slice, FloatArray]]:
     """Squared distances of a slice of rows to all rows at a time, infinite to themselves."""
     centred = points - points.mean(axis=0)
     norms = np.einsum("ij,ij->i", centred, centred)

@@ -30,15 +30,40 @@ class WithoutCopies(TypedDict):
     highest: float | None
 
 
+class Shepard(TypedDict):
+    """A Shepard diagram: a text a column, with a digit a cell from the lowest on, 0 for no pair; the monotone fit."""
+
+    columns: list[str]
+    fit: list[float | None]
+    height: float
+
+
 class Faith(TypedDict):
-    """How far a map shows who is like whom: the share of true neighbours kept, of each shape, of all, and by chance."""
+    """How far a map shows who is like whom, and what that is at random.
+
+    Attributes
+    ----------
+    kept, false, missing : list of float or None, or None
+        Of each shape; the last two None where there are too few shapes.
+    mean : float
+        Of ``kept``; at random ``chance``.
+    trustworthiness, continuity : float or None
+        At random ``random``.
+    stress : float or None
+        At random ``randomStress``.
+    """
 
     kept: list[float | None]
+    false: list[float | None] | None
+    missing: list[float | None] | None
     mean: float
     chance: float
     trustworthiness: float | None
     continuity: float | None
     random: float | None
+    stress: float | None
+    randomStress: float | None
+    shepard: Shepard | None
 
 
 class Method(TypedDict):
@@ -393,6 +418,18 @@ class SubsetCharts(TypedDict):
     seeds: Spec
 
 
+class SubsetFaith(TypedDict):
+    """The same of the map of each subset, by its features, but of single shapes and the diagram."""
+
+    mean: list[float | None]
+    chance: float
+    trustworthiness: list[float | None] | None
+    continuity: list[float | None] | None
+    random: float | None
+    stress: list[float | None]
+    randomStress: list[float | None]
+
+
 class Search(TypedDict):
     """What the subsets of the features reach, from best to worst.
 
@@ -422,6 +459,7 @@ class Search(TypedDict):
     members: list[str]
     hit: list[float | None]
     hitOfClass: list[list[float | None]]
+    faith: SubsetFaith | None
     boxes: list[Box]
     chance: float | None
     highest: float | None
@@ -441,6 +479,15 @@ class SubsetMaps(TypedDict):
     x: list[list[int]]
     y: list[list[int]]
     hit: list[list[int]]
+
+
+class SubsetNeighbours(TypedDict):
+    """What the map of each subset makes of the neighbours of each shape, in ``steps`` from 0 to 1."""
+
+    steps: int
+    kept: list[list[int]]
+    false: list[list[int]] | None
+    missing: list[list[int]] | None
 
 
 class FeatureWords(TypedDict):
@@ -654,6 +701,7 @@ class Chunks(TypedDict, total=False):
     retrieval: Retrieval
     search: Search
     subsets: SubsetMaps
+    faith: SubsetNeighbours
     workbench: Workbench
     bins: bytes
     scores: bytes

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report import charts, quality
 from shapeviz_report.pages.base import (
@@ -20,11 +21,19 @@ from shapeviz_report.pages.base import (
     feature_marks,
     rounded,
 )
-from shapeviz_report.pages.chunks import Box, Chunks, Search, SubsetMaps
+from shapeviz_report.pages.chunks import Box, Chunks, Search, SubsetFaith, SubsetMaps, SubsetNeighbours
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
 from shapeviz_report.search.certainty import measure_gain
-from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutFold, HitRange, Report, SeedSpread
+from shapeviz_report.types import (
+    FeatureSearch,
+    FloatArray,
+    HeldOutFold,
+    HitRange,
+    Report,
+    SeedSpread,
+    SubsetFaithfulness,
+)
 
 #: NH is stored in thousandths, as it is shown; with ten neighbours, all but ties are exact.
 HIT_STEPS = 1000
@@ -55,6 +64,8 @@ class FeaturesPage:
             ranking = Ranking.of(search)
             context |= {"search": _context(report, search, ranking), "colors": color_choices(report)}
             chunks |= {"search": _scores(report, search, ranking), "subsets": _maps(search, ranking)}
+            if search.subsets.faithfulness is not None:
+                chunks["faith"] = _neighbours(search.subsets.faithfulness, ranking)
         return PageContent(context, chunks)
 
 
@@ -104,6 +115,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
         "members": list(ranking.codes),
         "hit": rounded(search.subsets.nh_s[rows], SCORE_DECIMALS),
         "hitOfClass": [rounded(values, SCORE_DECIMALS) for values in search.subsets.nh_c[rows]],
+        "faith": _faith(search.subsets.faithfulness, rows),
         "boxes": _boxes(search.subsets.nh_c),
         "chance": _chance(report, search),
         "highest": _range(report, search).highest,
@@ -157,6 +169,39 @@ def _maps(search: FeatureSearch, ranking: Ranking) -> SubsetMaps:
         "x": steps[:, :, 0].tolist(),
         "y": steps[:, :, 1].tolist(),
         "hit": hits.tolist(),
+    }
+
+
+def _faith(found: SubsetFaithfulness | None, rows: list[int]) -> SubsetFaith | None:
+    if found is None:
+        return None
+
+    def of_maps(values: FloatArray | None) -> list[float | None] | None:
+        return None if values is None else rounded(values[rows], SCORE_DECIMALS)
+
+    return {
+        "mean": rounded(found.kept[rows].mean(axis=1, dtype=np.float64), SCORE_DECIMALS),
+        "chance": found.chance,
+        "trustworthiness": of_maps(found.trustworthiness),
+        "continuity": of_maps(found.continuity),
+        "random": found.random,
+        "stress": rounded(found.stress[rows], SCORE_DECIMALS),
+        "randomStress": rounded(found.random_stress[rows], SCORE_DECIMALS),
+    }
+
+
+def _neighbours(found: SubsetFaithfulness, ranking: Ranking) -> SubsetNeighbours:
+    """Of every shape on every map, in whole numbers; loaded when a map is coloured by it."""
+    rows = list(ranking.order)
+
+    def steps(values: npt.NDArray[np.float32]) -> list[list[int]]:
+        return np.round(values[rows] * HIT_STEPS).astype(int).tolist()
+
+    return {
+        "steps": HIT_STEPS,
+        "kept": steps(found.kept),
+        "false": None if found.false is None else steps(found.false),
+        "missing": None if found.missing is None else steps(found.missing),
     }
 
 

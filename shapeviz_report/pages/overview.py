@@ -16,12 +16,24 @@ from shapeviz_report.pages.base import (
     rounded,
 )
 from shapeviz_report.pages.chunks import Details, Faith, Marks, Method, ShapeList, SubsetChoice
+from shapeviz_report.pages.chunks import Shepard as ShepardChunk
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.render import ramp_codes
-from shapeviz_report.types import Faithfulness, Projection, Quality, Report, WithoutCopies, copies_of
+from shapeviz_report.types import (
+    Faithfulness,
+    Projection,
+    Quality,
+    Report,
+    Shepard,
+    WithoutCopies,
+    copies_of,
+)
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
+
+#: Decimals of what is shown as a share of neighbours, or drawn on a small diagram.
+SHARE_DECIMALS = 4
 
 #: Values of a column that colours tell apart on a map; shapes of any other share one.
 MOST_CATEGORIES = 12
@@ -140,12 +152,30 @@ def _method(
 
 def _faith(found: Faithfulness) -> Faith:
     return {
-        "kept": rounded(found.kept, COORDINATE_DECIMALS),
+        "kept": rounded(found.kept, SHARE_DECIMALS),
+        "false": None if found.false is None else rounded(found.false, SHARE_DECIMALS),
+        "missing": None if found.missing is None else rounded(found.missing, SHARE_DECIMALS),
         "mean": float(found.kept.mean()),
         "chance": found.chance,
         "trustworthiness": found.trustworthiness,
         "continuity": found.continuity,
         "random": found.random,
+        "stress": found.stress,
+        "randomStress": found.random_stress,
+        "shepard": None if found.shepard is None else _shepard(found.shepard),
+    }
+
+
+def _shepard(found: Shepard) -> ShepardChunk:
+    """Cells by the logarithm of their pairs, in digits: 1 for a single pair, 9 for as many as the fullest has."""
+    most = max(float(np.log(found.pairs.max())), 1.0)
+    digits = np.where(found.pairs > 0, 1 + np.round(8 * np.log(np.maximum(found.pairs, 1)) / most), 0).astype(
+        int
+    )
+    return {
+        "columns": ["".join(map(str, column)) for column in digits.tolist()],
+        "fit": rounded(found.fit, SHARE_DECIMALS),
+        "height": found.height,
     }
 
 

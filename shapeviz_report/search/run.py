@@ -6,8 +6,10 @@ from collections.abc import Callable, Collection, Sequence
 from math import comb
 
 import numpy as np
+import numpy.typing as npt
 from scipy.sparse import csr_matrix, vstack
 
+from shapeviz_report.faithfulness import rate_distances
 from shapeviz_report.order import classes_of
 from shapeviz_report.projections import PROJECTIONS, turn_towards
 from shapeviz_report.quality import (
@@ -36,6 +38,7 @@ from shapeviz_report.types import (
     IntArray,
     SearchRow,
     SeedSpread,
+    SubsetFaithfulness,
     SubsetScores,
     distinct_rows,
 )
@@ -377,4 +380,35 @@ class _Search:
             nh_s=np.array([self.score(self.seed, s) if self.scored else np.nan for s in subsets]),
             nh_c=nh_c,
             cpu_seconds=np.array([self.seconds[self.seed, s] for s in subsets]),
+            faithfulness=self.rate_faithfulness(subsets, back),
+        )
+
+    def rate_faithfulness(self, subsets: Sequence[int], back: np.ndarray) -> SubsetFaithfulness | None:
+        """What the maps of the first seed make of the neighbours and distances that they show."""
+        maps = (self.maps[subset].astype(np.float64) for subset in subsets)
+        rated = [
+            found
+            for subset, xy in zip(subsets, maps)
+            if (found := rate_distances(self.space.distances(subset), xy, self.k)) is not None
+        ]
+        if not rated:
+            return None
+
+        def of_shapes(name: str) -> npt.NDArray[np.float32]:
+            return np.array([getattr(found, name)[back] for found in rated], dtype=np.float32)
+
+        def of_maps(name: str) -> FloatArray:
+            return np.array([getattr(found, name) for found in rated], dtype=np.float64)
+
+        ranked = rated[0].random is not None
+        return SubsetFaithfulness(
+            kept=of_shapes("kept"),
+            false=of_shapes("false") if ranked else None,
+            missing=of_shapes("missing") if ranked else None,
+            trustworthiness=of_maps("trustworthiness") if ranked else None,
+            continuity=of_maps("continuity") if ranked else None,
+            stress=of_maps("stress"),
+            random_stress=of_maps("random_stress"),
+            chance=rated[0].chance,
+            random=rated[0].random,
         )

@@ -61,6 +61,10 @@ class SearchSpace:
         """The subset of all features."""
         return (1 << len(self.features)) - 1
 
+    def distances(self, subset: int) -> FloatArray:
+        """(m, m) squared distances of the shapes by a subset."""
+        return add_squares(self.squared, subset)
+
     def names(self, subset: int) -> tuple[str, ...]:
         """The features of a subset."""
         return tuple(name for i, name in enumerate(self.features) if subset >> i & 1)
@@ -150,10 +154,15 @@ def map_subsets(
     with threadpool_limits(limits=1):
         for i, subset in enumerate(subsets):
             start = time.process_time()
-            distances = np.zeros(squared.shape[1:])
-            for block, squares in enumerate(squared):
-                if subset >> block & 1:
-                    distances += squares
-            xy[i] = arrange(projection, distances, seed)
+            xy[i] = arrange(projection, add_squares(squared, subset), seed)
             seconds[i] = time.process_time() - start
     return SubsetMaps(xy, seconds)
+
+
+def add_squares(squared: npt.NDArray[np.float32], subset: int) -> FloatArray:
+    """(m, m) the squared distances by some of the features, added up."""
+    distances = np.zeros(squared.shape[1:])
+    for block, squares in enumerate(squared):
+        if subset >> block & 1:
+            distances += squares
+    return distances

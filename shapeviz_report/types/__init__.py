@@ -27,7 +27,7 @@ from shapeviz_report.types.copies import (
 )
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
 from shapeviz_report.types.features import FeatureBlock, FeatureTable
-from shapeviz_report.types.maps import Faithfulness, HitRange, Projection, Quality
+from shapeviz_report.types.maps import Faithfulness, HitRange, Projection, Quality, Shepard
 from shapeviz_report.types.mesh import Mesh, ShapeFacts, UpAxis
 from shapeviz_report.types.publication import Accent, Licence, Logo, Publication
 from shapeviz_report.types.report import Report
@@ -41,6 +41,7 @@ from shapeviz_report.types.search import (
     HeldOutFold,
     SearchRow,
     SeedSpread,
+    SubsetFaithfulness,
     SubsetScores,
 )
 
@@ -88,6 +89,8 @@ __all__ = [
     "SeedSpread",
     "ShapeEntry",
     "ShapeFacts",
+    "Shepard",
+    "SubsetFaithfulness",
     "SubsetScores",
     "UpAxis",
     "WithoutCopies",

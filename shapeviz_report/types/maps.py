@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from shapeviz_report.types.arrays import FloatArray
+from shapeviz_report.types.arrays import FloatArray, Int64Array
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,32 @@ class HitRange:
 
 
 @dataclass(frozen=True)
+class Shepard:
+    """A Shepard diagram: distances on a map against those in the features, both in units of the largest of the latter.
+
+    Distances on the map are scaled as the stress has it: those in proportion lie on the diagonal.
+
+    Attributes
+    ----------
+    pairs : (c, c) int array
+        How many pairs fall into each cell: columns of equal width from 0 to 1 in the features, in each of them cells
+        from 0 to ``height`` on the map.
+    fit : (c,) float64 array
+        Of each column, the mean of the monotone regression (Kruskal 1964) of its pairs; NaN without any.
+    height : float
+        The largest distance on the map.
+    """
+
+    pairs: Int64Array
+    fit: FloatArray
+    height: float
+
+
+@dataclass(frozen=True)
 class Faithfulness:
     """How far a map shows who is like whom; needs no labels.
+
+    :func:`shapeviz_report.faithfulness.rate_maps` has the equations.
 
     Attributes
     ----------
@@ -65,19 +89,35 @@ class Faithfulness:
         Of the k shapes nearest by the features, the share that is among the k nearest on the map; in [0, 1].
     chance : float
         What a map at random keeps.
+    false : (n,) float64 array or None
+        How far those near a shape on the map are from being so by the features: 0 where all are, 1 where they are the
+        farthest of all. None where k is half of the shapes or more.
+    missing : (n,) float64 array or None
+        How far those near a shape by the features are from being so on the map, likewise.
     trustworthiness, continuity : float or None
-        Near 1 where what is near on the map is near by the features, and the other way round; None where k is half
-        of the shapes or more.
+        1 less the means of ``false`` and ``missing``.
     random : float or None
         What both are on a map at random.
+    stress : float or None
+        How far distances on the map are out of proportion to those in the features: from 0, in proportion, to 1. None
+        where all shapes are equal.
+    random_stress : float or None
+        That of shapes dealt out anew over the places of the map.
+    shepard : Shepard or None
+        None where it was not asked for, or has nothing to show.
     """
 
     k: int
     kept: FloatArray
     chance: float
+    false: FloatArray | None
+    missing: FloatArray | None
     trustworthiness: float | None
     continuity: float | None
     random: float | None
+    stress: float | None
+    random_stress: float | None
+    shepard: Shepard | None = None
 
 
 @dataclass(frozen=True)

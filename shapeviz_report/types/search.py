@@ -11,6 +11,35 @@ from shapeviz_report.types.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True)
+class SubsetFaithfulness:
+    """How far the map of every subset shows who is like whom by the features of that subset, without labels.
+
+    Attributes
+    ----------
+    kept : (S, m) float32 array
+        As in :class:`Faithfulness`.
+    false, missing : (S, m) float32 array or None
+    trustworthiness, continuity : (S,) float64 array or None
+    stress, random_stress : (S,) float64 array
+        NaN where all shapes are equal by these features.
+    chance : float
+        What a map at random keeps.
+    random : float or None
+        What trustworthiness and continuity are on a map at random.
+    """
+
+    kept: npt.NDArray[np.float32]
+    false: npt.NDArray[np.float32] | None
+    missing: npt.NDArray[np.float32] | None
+    trustworthiness: FloatArray | None
+    continuity: FloatArray | None
+    stress: FloatArray
+    random_stress: FloatArray
+    chance: float
+    random: float | None
+
+
+@dataclass(frozen=True)
 class SubsetScores:
     """One map for every subset of features that was evaluated, and how well it separates the classes.
 
@@ -29,6 +58,8 @@ class SubsetScores:
         NH_c, in the order of ``FeatureSearch.classes``.
     cpu_seconds : (S,) float64 array
         What each map cost.
+    faithfulness : SubsetFaithfulness or None
+        None for one shape.
     """
 
     members: npt.NDArray[np.bool_]
@@ -37,6 +68,7 @@ class SubsetScores:
     nh_s: FloatArray
     nh_c: FloatArray
     cpu_seconds: FloatArray
+    faithfulness: SubsetFaithfulness | None
 
 
 @dataclass(frozen=True)

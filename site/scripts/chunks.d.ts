@@ -14,14 +14,25 @@ declare namespace Chunk {
     hitOfAll: number | null;
     highest: number | null;
   }
-  /** How far a map shows who is like whom: the share of true neighbours kept, of each shape, of all, and by chance. */
+  /** A Shepard diagram: a text a column, with a digit a cell from the lowest on, 0 for no pair; the monotone fit. */
+  interface Shepard {
+    columns: string[];
+    fit: (number | null)[];
+    height: number;
+  }
+  /** How far a map shows who is like whom, and what that is at random. */
   interface Faith {
     kept: (number | null)[];
+    false: (number | null)[] | null;
+    missing: (number | null)[] | null;
     mean: number;
     chance: number;
     trustworthiness: number | null;
     continuity: number | null;
     random: number | null;
+    stress: number | null;
+    randomStress: number | null;
+    shepard: Shepard | null;
   }
   /** A map of all shapes, with its quality; a class or a shape without a score has None. */
   interface Method {
@@ -252,6 +263,16 @@ declare namespace Chunk {
     effects: Record<string, any>;
     seeds: Record<string, any>;
   }
+  /** The same of the map of each subset, by its features, but of single shapes and the diagram. */
+  interface SubsetFaith {
+    mean: (number | null)[];
+    chance: number;
+    trustworthiness: (number | null)[] | null;
+    continuity: (number | null)[] | null;
+    random: number | null;
+    stress: (number | null)[];
+    randomStress: (number | null)[];
+  }
   /** What the subsets of the features reach, from best to worst. */
   interface Search {
     method: string;
@@ -266,6 +287,7 @@ declare namespace Chunk {
     members: string[];
     hit: (number | null)[];
     hitOfClass: ((number | null)[])[];
+    faith: SubsetFaith | null;
     boxes: Box[];
     chance: number | null;
     highest: number | null;
@@ -283,6 +305,13 @@ declare namespace Chunk {
     x: number[][];
     y: number[][];
     hit: number[][];
+  }
+  /** What the map of each subset makes of the neighbours of each shape, in `steps` from 0 to 1. */
+  interface SubsetNeighbours {
+    steps: number;
+    kept: number[][];
+    false: number[][] | null;
+    missing: number[][] | null;
   }
   /** What a feature is; `sought` are other words for small and for large values of each dimension. */
   interface FeatureWords {
@@ -447,6 +476,7 @@ declare namespace Chunk {
     retrieval: Retrieval;
     search: Search;
     subsets: SubsetMaps;
+    faith: SubsetNeighbours;
     workbench: Workbench;
     bins: ArrayBuffer;
     scores: ArrayBuffer;

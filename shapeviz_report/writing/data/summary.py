@@ -122,7 +122,13 @@ def _faithfulness(found: Faithfulness | None) -> dict[str, object] | None:
         "kept": float(found.kept.mean()),
         "trustworthiness": found.trustworthiness,
         "continuity": found.continuity,
-        "chance": {"kept": found.chance, "trustworthiness": found.random, "continuity": found.random},
+        "stress": found.stress,
+        "chance": {
+            "kept": found.chance,
+            "trustworthiness": found.random,
+            "continuity": found.random,
+            "stress": found.random_stress,
+        },
     }
 
 

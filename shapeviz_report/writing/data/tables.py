@@ -26,7 +26,7 @@ def shape_rows(report: Report) -> list[list[str]]:
             *(f"metadata:{column}" for column in columns),
             *(f"nh:{method}" for method in methods),
             "nh_max",
-            *(f"kept:{method}" for method in report.faithfulness),
+            *(f"{name}:{method}" for method in report.faithfulness for name in ("kept", "false", "missing")),
             *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
             *("area", "volume", "extent_x", "extent_y", "extent_z"),
             *("repairs", "sha256"),
@@ -50,7 +50,11 @@ def shape_rows(report: Report) -> list[list[str]]:
                 *(shape.metadata.get(column, "") for column in columns),
                 *(number(report.projections[method][1].nh[index]) for method in methods),
                 number(None if label is None else highest.get(label)),
-                *(number(found.kept[index]) for found in report.faithfulness.values()),
+                *(
+                    number(None if values is None else values[index])
+                    for found in report.faithfulness.values()
+                    for values in (found.kept, found.false, found.missing)
+                ),
                 *map(
                     str,
                     (facts.faces_read, facts.vertices_read, facts.faces, facts.vertices, facts.components),
@@ -77,13 +81,17 @@ def copy_rows(report: Report) -> list[list[str]]:
 
 
 def subset_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
-    subsets = search.subsets
+    subsets, found = search.subsets, search.subsets.faithfulness
+    measures = (
+        () if found is None else (found.trustworthiness, found.continuity, found.stress, found.random_stress)
+    )
     header = [
         *(f"feature:{name}" for name in search.features),
         "nh_s",
         *(f"nh_c:{name}" for name in search.classes),
         "nh_max",
         *(f"nh_c_max:{name}" for name in search.classes),
+        *("kept", "trustworthiness", "continuity", "stress", "stress_by_chance"),
     ]
     return [
         header,
@@ -94,6 +102,8 @@ def subset_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
                 *map(number, subsets.nh_c[row]),
                 number(limits.highest),
                 *(number(limits.highest_of_class.get(name)) for name in search.classes),
+                number(None if found is None else float(found.kept[row].mean(dtype=np.float64))),
+                *(number(None if values is None else values[row]) for values in measures or [None] * 4),
             ]
             for row in by_score(search)
         ),
