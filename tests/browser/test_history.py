@@ -57,6 +57,16 @@ def test_on_the_overview(open_page) -> None:
     assert page.locator("figure[data-slot=large]").get_attribute("data-view") == "hit"
 
 
+def test_a_double_click_is_one_step(open_page) -> None:
+    page = open_page("plain")
+    length = entries(page)
+    page.locator("#legend button[aria-pressed]").first.dblclick()
+    eventually(page, lambda: page.locator("#legend button[aria-pressed=true]").count() == 1)
+    assert entries(page) == length + 1
+    page.go_back()
+    eventually(page, lambda: page.locator("#legend button[aria-pressed=false]").count() == 0)
+
+
 def test_to_the_view_that_was_left(open_page) -> None:
     page = open_page("plain")
     page.locator("#search").fill("kind c 3")

@@ -526,3 +526,84 @@ def test_on_a_phone_the_menu_is_one_row_and_the_tray_a_sheet(open_page):
     )
     assert min(heights) >= 40
     assert page.evaluate("document.documentElement.scrollWidth") == 390
+
+
+@pytest.mark.parametrize("file", MAPS)
+def test_back_and_undo_lead_to_the_selection_before(open_page, file):
+    page = open_page(SITE_OF.get(file, "workbench"), file)
+    entries = page.evaluate("history.length")
+    # A drag is one step, however far it goes and however long it rests on its way.
+    place = page.locator(MAPS[file])
+    place.scroll_into_view_if_needed()
+    where = place.bounding_box()
+    page.mouse.move(where["x"] + 2, where["y"] + 2)
+    page.mouse.down()
+    page.mouse.move(where["x"] + where["width"] * 0.3, where["y"] + where["height"] * 0.9, steps=4)
+    page.wait_for_timeout(400)
+    page.mouse.move(where["x"] + where["width"] * 0.5, where["y"] + where["height"] - 2, steps=4)
+    page.mouse.up()
+    some = named(page)
+    assert some
+    assert page.evaluate("history.length") == entries + 1
+    x, y = on_a_shape(page, MAPS[file])
+    page.keyboard.down("Control")
+    page.mouse.click(x, y)
+    page.keyboard.up("Control")
+    eventually(page, lambda: abs(counted(page) - len(some)) == 1)
+    changed = named(page)
+    page.keyboard.press("Escape")
+    eventually(page, lambda: counted(page) == 0)
+    assert page.evaluate("history.length") == entries + 3
+    page.go_back()
+    eventually(page, lambda: named(page) == changed)
+    page.keyboard.press("Control+z")
+    eventually(page, lambda: named(page) == some)
+    page.go_back()
+    eventually(page, lambda: counted(page) == 0)
+    # There is nothing before the page that Ctrl+Z would lead to.
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+Shift+z")
+    eventually(page, lambda: named(page) == some)
+    page.go_forward()
+    eventually(page, lambda: named(page) == changed)
+    assert file in page.url
+
+
+def test_ticks_in_the_gallery_are_steps(open_page):
+    page = open_page("workbench", "shapes.html")
+    ticks = page.locator(".cell .tick")
+    ticks.nth(0).check()
+    ticks.nth(1).check()
+    assert counted(page) == 2
+    page.keyboard.press("Control+z")
+    eventually(page, lambda: counted(page) == 1)
+    page.keyboard.press("Control+Shift+z")
+    eventually(page, lambda: counted(page) == 2)
+    page.go_back()
+    page.go_back()
+    eventually(page, lambda: counted(page) == 0)
+    assert "shapes.html" in page.url
+    # In a field the keys are the field's own.
+    ticks.nth(0).check()
+    page.locator("#search").press_sequentially("cup")
+    page.keyboard.press("Control+z")
+    page.wait_for_timeout(300)
+    assert counted(page) == 1
+
+
+def test_a_double_click_that_zooms_is_no_step_of_the_selection(open_page):
+    page = open_page("workbench", "index.html")
+    box(page, LARGE, right=0.5)
+    some = named(page)
+    assert some
+    entries = page.evaluate("history.length")
+    place = page.locator(LARGE).bounding_box()
+    page.mouse.dblclick(place["x"] + 3, place["y"] + 3)
+    eventually(page, lambda: "at=" in page.url)
+    assert named(page) == some
+    page.go_back()
+    eventually(page, lambda: "at=" not in page.url)
+    assert named(page) == some
+    page.go_back()
+    eventually(page, lambda: counted(page) == 0)
+    assert page.evaluate("history.length") == entries + 1

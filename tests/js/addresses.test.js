@@ -286,10 +286,10 @@ test("a link says in words what it holds", () => {
 });
 
 test("a row says which values of the state it has", () => {
-  const [address] = PAGES.workbench;
+  const [address] = PAGES.overview;
   const isPlace = ({ place }) => place;
-  assert.ok(address.has(new Set(["bins"]), isPlace));
-  assert.ok(!address.has(new Set(["color", "theme"]), isPlace));
-  assert.ok(address.has(new Set(["color"])));
+  assert.ok(address.has(new Set(["selection"]), isPlace));
+  assert.ok(!address.has(new Set(["camera", "theme"]), isPlace));
+  assert.ok(address.has(new Set(["camera"])));
   assert.ok(!address.has(new Set(["theme"])));
 });

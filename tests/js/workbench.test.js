@@ -46,14 +46,45 @@ test("steps are those of the browser's history", () => {
   history.take(step([2, 3], { taken: 4 }));
   assert.deepEqual(bins(), ["", "1", "2,3"]);
   history.arrive(step([1], { taken: 3 }));
-  assert.deepEqual([history.at, history.canUndo, history.canRedo], [1, true, true]);
+  assert.equal(history.at, 1);
   // From before the page was opened anew.
   history.arrive(step([9], { taken: 0 }));
   assert.deepEqual(bins(), ["9", "", "1", "2,3"]);
-  assert.deepEqual([history.at, history.canUndo], [0, false]);
+  assert.equal(history.at, 0);
   // An address written by hand, where another step had been undone.
   history.arrive(step([1], { taken: 3 }));
   history.arrive(step([7], { taken: 4 }));
   assert.deepEqual(bins(), ["9", "", "1", "7"]);
-  assert.equal(history.canRedo, false);
+  // What leads back to the step before is that one.
+  history.take(step([1], { taken: 4 }));
+  assert.deepEqual([bins(), history.at], [["9", "", "1"], 2]);
+});
+
+test("where the work is the same, the step is", () => {
+  const history = new History();
+  const bins = () => history.steps.map((one) => [...one.bins].join());
+  history.take(step([], { taken: 0 }));
+  // Shapes were selected, then a bin was chosen, and others were selected.
+  history.take(step([1], { taken: 2 }));
+  for (const [taken, at] of [
+    [1, 0],
+    [3, 1],
+    [2, 1],
+    [0, 0],
+  ]) {
+    history.arrive(step(at === 0 ? [] : [1], { taken }));
+    assert.deepEqual([bins(), history.at], [["", "1"], at]);
+  }
+  // A reader who selects here leaves what was undone.
+  history.branch(1);
+  assert.deepEqual([bins(), history.at], [[""], 0]);
+  // The page is opened anew, and the reader goes back to before the step.
+  const again = new History();
+  again.take(step([1], { taken: 3 }));
+  for (const taken of [2, 3]) {
+    again.arrive(step([1], { taken }));
+    assert.deepEqual([again.steps.length, again.at], [1, 0]);
+  }
+  again.arrive(step([], { taken: 1 }));
+  assert.deepEqual([again.steps.length, again.at], [2, 0]);
 });

@@ -3,7 +3,7 @@
 import { Address, choice, named } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { shortNames } from "./bin-names.js";
-import { brushed } from "./selected.js";
+import { selected } from "./selected.js";
 
 /** @import { Kind, Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
@@ -43,7 +43,7 @@ export function binsAddress(database, bins, selection, first) {
     { names: ["bin", "group"], ...binOfClass(database, bins), standard: first, place: true, words: "the bin" },
     { name: "shape", ...shapeOrEnd(database), standard: null },
     { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
-    brushed(database),
+    selected(database),
   ]);
 }
 

@@ -20,5 +20,12 @@ export function colors({ labelled }) {
  * @returns {Row}
  */
 export function coloredBy(database) {
-  return { name: "color", key: "color", kind: colors(database), standard: OWN_COLORS[0], words: "what colours say" };
+  return {
+    name: "color",
+    key: "color",
+    kind: colors(database),
+    standard: OWN_COLORS[0],
+    place: true,
+    words: "what colours say",
+  };
 }

@@ -4,7 +4,7 @@ import { Address, named } from "../base/address.js";
 import { CAMERA } from "./camera.js";
 import { coloredBy } from "./colors.js";
 import { joinNames, splitNames } from "./names.js";
-import { brushed } from "./selected.js";
+import { selected } from "./selected.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
@@ -55,8 +55,8 @@ export function featuresAddress(subsets, database) {
       },
       standard: sizes[0] ?? null,
     },
-    { ...coloredBy(database), place: true },
-    brushed(database),
+    coloredBy(database),
+    selected(database),
     { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the marked shape" },
     CAMERA,
   ]);

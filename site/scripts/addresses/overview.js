@@ -5,7 +5,7 @@ import { pageAddress } from "../base/place.js";
 import { CAMERA } from "./camera.js";
 import { colors, OWN_COLORS } from "./colors.js";
 import { joinNames, splitNames } from "./names.js";
-import { brushed } from "./selected.js";
+import { selected } from "./selected.js";
 
 /** @import { Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
@@ -42,7 +42,7 @@ export function overviewAddress(database) {
     { name: "pictures", key: "pictures", kind: flag, standard: false, place: true },
     { name: "exact", key: "exact", kind: flag, standard: false, place: true },
     { name: "hidden", ...hiddenClasses(database), place: true, words: "which classes are hidden" },
-    brushed(database),
+    selected(database),
     { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the open shape" },
     { name: "query", key: "find", kind: text, standard: "", often: true, words: "the search" },
     CAMERA,

@@ -1,4 +1,4 @@
-// The selected shapes in the address of a page of shapes.
+// The selected shapes in the address of a page of shapes: to select others is a step that the browser's way back takes back.
 
 import { readSelection, writeSelection } from "../database/selection.js";
 
@@ -8,22 +8,15 @@ import { readSelection, writeSelection } from "../database/selection.js";
 /**
  * A row of every such address.
  * @param {Database} database
- * @returns {Ways & { name: "selection", words: string }}
+ * @returns {Ways & { name: "selection", place: true, words: string }}
  */
 export function selected(database) {
   return {
     name: "selection",
+    place: true,
     words: "the selection",
     keys: /^select(ed)?$/,
     read: (query) => readSelection(query, database),
     write: (query, selection) => writeSelection(query, database, selection),
   };
-}
-
-/**
- * The same where a brush changes it with every movement of the pointer.
- * @param {Database} database
- */
-export function brushed(database) {
-  return { ...selected(database), often: true };
 }

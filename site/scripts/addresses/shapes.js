@@ -4,7 +4,7 @@ import { Address, choice, flag, named, text, texts, within } from "../base/addre
 import { pageAddress } from "../base/place.js";
 import { NONE } from "../database/fields.js";
 import { readSelection, writeSelection } from "../database/selection.js";
-import { brushed } from "./selected.js";
+import { selected } from "./selected.js";
 
 /** @import { Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
@@ -69,7 +69,7 @@ export function galleryAddress(database, fields) {
     { name: "down", key: "down", kind: flag, standard: false, place: true },
     { name: "size", key: "size", kind: within(SIZES.least, SIZES.most), standard: SIZES.usual, often: true },
     { name: "closed", key: "closed", kind: texts },
-    brushed(database),
+    selected(database),
     { name: "at", key: "at", kind: named(database.ids), standard: null },
   ]);
 }

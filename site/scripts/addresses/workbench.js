@@ -5,7 +5,7 @@ import { MOST_SHAPES } from "../database/sample.js";
 import { readShortNames, shortNames } from "./bin-names.js";
 import { coloredBy } from "./colors.js";
 import { joinNames, splitNames } from "./names.js";
-import { brushed } from "./selected.js";
+import { selected } from "./selected.js";
 
 /** @import { Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
@@ -47,7 +47,7 @@ export const DEFAULT_SCORER = "rfe";
 export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true });
 
 /**
- * The work is a place, each change of it a step; how the maps look is none.
+ * The work is a place, each change of it a step.
  * @param {Database} database
  * @param {Chunk.Workbench} data
  */
@@ -69,7 +69,7 @@ export function workAddress(database, data) {
     { name: "separation", ...separation(database), place: true, words: "the question" },
     { name: "sample", key: "sample", kind: samples, standard: false, place: true },
     coloredBy(database),
-    brushed(database),
+    selected(database),
   ]);
 }
 

@@ -4,7 +4,7 @@ import { Address } from "./address.js";
 import { offerFigures } from "./figure-export.js";
 import { bringIntoRow } from "./dom.js";
 import { watchPaper } from "./paper.js";
-import { arriveHere, pushHash, readHash, replaceHash } from "./place.js";
+import { arriveHere, pushHash, readHash, replaceHash, walk, whereabouts } from "./place.js";
 import { watchLink } from "./link.js";
 import { State } from "./state.js";
 import { currentTheme, watchTheme } from "./theme.js";
@@ -22,10 +22,11 @@ import { currentTheme, watchTheme } from "./theme.js";
  */
 export async function openPage({ address = new Address([]), settle = (found) => found, values = {} } = {}) {
   const read = () => settle(address.read(readHash()));
-  /** @type {State} */
-  const state = new State({ brushing: false, ...values, ...(await read()), theme: currentTheme() });
-  let arriving = false;
+  const found = await read();
   arriveHere();
+  /** @type {State} */
+  const state = new State({ brushing: false, ...values, ...found, theme: currentTheme(), whereabouts: whereabouts() });
+  let arriving = false;
   const acted = watchActs();
   let passing = address.passing(readHash());
   /**
@@ -44,6 +45,7 @@ export async function openPage({ address = new Address([]), settle = (found) => 
   const write = (step, before) => {
     const query = written(before);
     if (query.toString() !== readHash().toString()) (step ? pushHash : replaceHash)(query);
+    state.set({ whereabouts: whereabouts() });
   };
   // What changes often and is not written yet: whether that is a step; null where there is nothing.
   /** @type {boolean | null} */
@@ -60,7 +62,14 @@ export async function openPage({ address = new Address([]), settle = (found) => 
     owed = owed || step;
     later();
   };
-  state.listen((changed, before) => {
+  // What a brush changes is one change, which is made when it is let go.
+  /** @type {Map<string, any>} */
+  let drawn = new Map();
+  state.listen((_now, then) => {
+    for (const [name, value] of then) if (!drawn.has(name)) drawn.set(name, value);
+    if (state.get("brushing")) return;
+    const [changed, before] = [new Set(drawn.keys()), drawn];
+    drawn = new Map();
     const changes = (/** @type {boolean} */ place, /** @type {boolean} */ often) =>
       address.has(changed, (row) => (row.place ?? false) === place && (row.often ?? false) === often);
     const steps = changes(true, false) && !arriving;
@@ -85,17 +94,21 @@ export async function openPage({ address = new Address([]), settle = (found) => 
     /**
      * The page is drawn: from here on it follows the address, whose new values `arrive` takes, and the theme, for which
      * `redraw` does what listening to the state does not.
-     * @param {{ arrive?: (found: Record<string, any>, first: boolean) => void, redraw?: () => void }} [how]
+     * @param {{ arrive?: (found: Record<string, any>) => void, redraw?: () => void }} [how]
      */
     ready({ arrive = (found) => state.set(found), redraw = () => {} } = {}) {
       window.addEventListener("popstate", async () => {
-        const first = arriveHere();
+        arriveHere();
+        state.set({ whereabouts: whereabouts() });
         passing = address.passing(readHash());
         const found = await read();
         arriving = true;
-        arrive(found, first);
+        arrive(found);
         arriving = false;
+        // The way here is no reason for a step onwards.
+        acted();
       });
+      watchUndo();
       window.addEventListener("pagehide", () => {
         if (owed !== null) write(false);
       });
@@ -110,6 +123,17 @@ export async function openPage({ address = new Address([]), settle = (found) => 
       document.documentElement.dataset.ready = "";
     },
   };
+}
+
+/** The keys of undo and redo go the browser's own ways, but in a field, which has ways of its own. */
+function watchUndo() {
+  document.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "z") return;
+    const typing = event.target.matches("input:not([type=checkbox]):not([type=radio]), textarea");
+    if (typing || document.querySelector("dialog[open]")) return;
+    event.preventDefault();
+    walk(event.shiftKey ? 1 : -1);
+  });
 }
 
 /** On a phone the menu is one row that scrolls: to the page that is open. */

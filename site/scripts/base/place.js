@@ -28,7 +28,9 @@ export function readHash() {
  * @param {URLSearchParams} query
  */
 export function replaceHash(query) {
-  if (!leaving()) window.history.replaceState(window.history.state, "", hashAddress(query));
+  if (leaving()) return;
+  idle = false;
+  window.history.replaceState(window.history.state, "", hashAddress(query));
 }
 
 /**
@@ -37,35 +39,57 @@ export function replaceHash(query) {
  */
 export function pushHash(query) {
   if (leaving()) return;
-  steps += 1;
+  if (idle) {
+    replaceHash(query);
+    return;
+  }
+  const steps = here.steps + 1;
+  here = { steps, last: steps, way: here.way + 1 };
   window.history.pushState({ steps }, "", hashAddress(query));
 }
 
-let steps = -1;
+/**
+ * The first of two clicks was meant otherwise: what comes next takes the place of the step that it made.
+ */
+export function unstep() {
+  idle = true;
+}
 
-/** How many steps of the reader lead to this place from the one on which the page was opened first. */
-export function stepsTaken() {
-  return steps;
+/** @type {Whereabouts} */
+let here = { steps: -1, last: -1, way: 0 };
+/** Whether this place is there for the next one. */
+let idle = false;
+
+/**
+ * How many steps lead to a place from the one on which the page was opened first, and to the last one known; and a number
+ * that is another where the reader took a new way.
+ * @typedef {{ readonly steps: number, readonly last: number, readonly way: number }} Whereabouts
+ */
+
+/** Where the reader is; the same object as long as that is the same place. */
+export function whereabouts() {
+  return here;
 }
 
 /**
- * The reader came here: on the browser's ways, or by a link or an address written by hand, and so for the first time.
- *
- * Whether it is the first time; then it is a further step.
+ * The reader came here: on the browser's ways, or by a link or an address written by hand, and so for the first time; then
+ * it is a further step.
  */
 export function arriveHere() {
   const first = window.history.state?.steps === undefined;
-  if (first) window.history.replaceState({ steps: steps + 1 }, "");
-  ({ steps } = window.history.state);
-  return first;
+  idle = false;
+  if (first) window.history.replaceState({ steps: here.steps + 1 }, "");
+  const { steps } = window.history.state;
+  here = { steps, last: first ? steps : Math.max(here.last, steps), way: here.way + Number(first) };
 }
 
 /**
- * Go some steps on, or with a number below zero back, as the browser's own ways do.
+ * Go some steps on, or with a number below zero back, as the browser's own ways do, but not to another page.
  * @param {number} number
  */
 export function walk(number) {
-  window.history.go(number);
+  const place = here.steps + number;
+  if (place >= 0 && place <= here.last) window.history.go(number);
 }
 
 /**

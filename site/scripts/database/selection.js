@@ -3,6 +3,7 @@
 
 import { entry } from "../base/entry.js";
 
+/** @import { Whereabouts } from "../base/place.js" */
 /** @import { Theme } from "../base/theme.js" */
 /** @import { Database } from "./database.js" */
 
@@ -12,6 +13,7 @@ import { entry } from "../base/entry.js";
  * @property {Set<number>} selection shapes
  * @property {boolean} brushing whether a box or a lasso is being drawn
  * @property {Theme} theme
+ * @property {Whereabouts} whereabouts
  */
 
 const MOST_NAMED = 40;
@@ -32,7 +34,9 @@ export function isSelection(name) {
  */
 export function writeSelection(query, database, selection) {
   if (selection.size === 0) return;
-  if (selection.size <= MOST_NAMED) for (const index of selection) query.append("select", database.ids[index]);
+  // In the order of the database: the same shapes are the same address.
+  if (selection.size <= MOST_NAMED)
+    for (const index of [...selection].sort((a, b) => a - b)) query.append("select", database.ids[index]);
   else query.set("selected", `${mark(database)}.${packed(database, selection)}`);
 }
 

@@ -1,5 +1,6 @@
 // Pointer, wheel and keys on a map.
 
+import { unstep } from "../base/place.js";
 import { clicked, combined, toggled } from "../database/selection.js";
 import { boxOf } from "./area.js";
 import { ShapeBrush, selects } from "./brush.js";
@@ -85,7 +86,10 @@ export class Gestures extends ShapeBrush {
       this.click(place, event);
       return;
     }
-    if (this.#dropped !== null) this.state.set({ selection: this.#dropped });
+    if (this.#dropped?.size) {
+      unstep();
+      this.state.set({ selection: this.#dropped });
+    }
     this.zoom(2, place);
   }
 

@@ -2,6 +2,7 @@
 
 import { drawChart } from "../base/chart.js";
 import { element, focused, watchSize } from "../base/dom.js";
+import { unstep } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
@@ -86,8 +87,15 @@ export class ClassList {
         type: "button",
         "data-group": group,
         title: `${name}${most && `\nNH ${figure(hit)}${most}, as many as the class has others`}\nClick hides or shows it. Double-click, or click with Alt, shows it alone.`,
-        onclick: (event) => (event.altKey ? this.#solo(group) : this.#toggle(group)),
-        ondblclick: () => this.#solo(group),
+        onclick: (event) => {
+          if (event.detail === 2) unstep();
+          if (event.altKey) this.#solo(group);
+          else this.#toggle(group);
+        },
+        ondblclick: () => {
+          unstep();
+          this.#solo(group);
+        },
         onpointerenter: point(group),
         onpointerleave: point(null),
       },

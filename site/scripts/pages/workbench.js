@@ -66,7 +66,7 @@ async function main() {
   await maps.start();
   section.start();
   ready({
-    arrive: (found, first) => desk.arrive(/** @type {any} */ (found), first),
+    arrive: (found) => desk.arrive(/** @type {any} */ (found)),
     redraw() {
       maps.redraw();
       section.redraw();

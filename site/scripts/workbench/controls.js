@@ -141,15 +141,7 @@ function watchPicked(state, desk) {
  */
 export function watchKeys(state, desk, gestures) {
   document.addEventListener("keydown", (event) => {
-    if (document.querySelector("dialog[open]") || event.altKey) return;
-    const typing = event.target.matches("input:not([type=checkbox]):not([type=radio]), textarea");
-    if (event.ctrlKey || event.metaKey) {
-      if (typing || event.key.toLowerCase() !== "z") return;
-      event.preventDefault();
-      if (event.shiftKey) desk.redo();
-      else desk.undo();
-      return;
-    }
+    if (document.querySelector("dialog[open]") || event.altKey || event.ctrlKey || event.metaKey) return;
     if (event.key === "Escape" && !event.defaultPrevented) {
       // One press takes back the last thing: first the work in progress.
       if (!desk.stopAll()) state.set(state.get("opened") !== null ? { opened: null } : { selection: new Set() });

@@ -2,7 +2,7 @@
 // taken back; every change asks anew what it makes out of date.
 
 import { changeWords } from "../base/figures.js";
-import { stepsTaken, walk } from "../base/place.js";
+import { walk, whereabouts } from "../base/place.js";
 import { figure } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 import { MOST_SHAPES } from "../database/sample.js";
@@ -79,8 +79,10 @@ export class Desk {
       offer: inquiry("offer"),
     };
     const content = document.getElementById("content");
-    state.listen((changed) => {
+    state.listen((changed, before) => {
       if ([...changed].some((name) => name.endsWith("Status"))) content.setAttribute("aria-busy", String(this.busy));
+      const { steps, way } = state.get("whereabouts");
+      if (before.get("whereabouts") && before.get("whereabouts").way !== way) this.history.branch(steps);
     });
   }
 
@@ -180,28 +182,19 @@ export class Desk {
    */
   go(place) {
     const step = this.history.steps[place];
-    if (step && place !== this.history.at) walk(step.taken - stepsTaken());
-  }
-
-  /** One step back, which may lead to before the page was opened anew. */
-  undo() {
-    if (this.history.canUndo) walk(-1);
-  }
-
-  redo() {
-    if (this.history.canRedo) walk(1);
+    if (step && place !== this.history.at) walk(step.taken - whereabouts().steps);
   }
 
   /**
-   * The reader came to another place: by undo or redo, by the browser's own ways, or for the first time, by an address
-   * written by hand. Only then what is looked at beside the work, such as the selection, is that of the address.
+   * The reader came to another place: by undo or redo, by the browser's own ways, or by an address written by hand.
    * @param {Work & Record<string, any>} found what the address holds
-   * @param {boolean} first
    */
-  arrive({ hidden, features, bins, scorer, separation, projection, sample, ...beside }, first) {
+  arrive({ hidden, features, bins, scorer, separation, projection, sample, ...beside }) {
     const { history } = this;
-    if (first) this.state.set(beside);
+    const { current } = history;
+    this.state.set(beside);
     history.arrive(this.#stepOf({ hidden, features, bins, scorer, separation, projection, sample }));
+    if (history.current === current) return;
     const { taken: _taken, originalMap: _original, refinedMap: _refined, ...work } = history.current;
     this.state.set(work);
     this.#renew();
@@ -224,7 +217,7 @@ export class Desk {
 
   /** @param {Work} work */
   #stepOf(work) {
-    return { ...work, taken: stepsTaken(), originalMap: null, refinedMap: null };
+    return { ...work, taken: whereabouts().steps, originalMap: null, refinedMap: null };
   }
 
   // Questions

@@ -1,6 +1,7 @@
 // The steps as small maps, each with its NH and what it added or removed (paper, Fig. 7). Click one to go back to it.
 
 import { element, focused } from "../base/dom.js";
+import { walk } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { pictureOfMap } from "../map/plot.js";
 import { changes, turns } from "./history.js";
@@ -27,10 +28,11 @@ export class HistoryStrip {
     this.list.addEventListener("keydown", (event) => this.#key(event));
     this.undo = document.getElementById("undo");
     this.redo = document.getElementById("redo");
-    this.undo.addEventListener("click", () => desk.undo());
-    this.redo.addEventListener("click", () => desk.redo());
+    this.undo.addEventListener("click", () => walk(-1));
+    this.redo.addEventListener("click", () => walk(1));
     state.listen((changed) => {
       if (changed.has("theme")) this.#pictures = new WeakMap();
+      if (changed.has("whereabouts")) this.#showWays();
       if (["step", "originalMap", "refinedMap", "theme"].some((name) => changed.has(name))) this.render();
     });
   }
@@ -43,12 +45,17 @@ export class HistoryStrip {
     const { history } = this;
     const kept = focused()?.dataset.step;
     this.list.replaceChildren(...history.steps.map((_, place) => element("li", {}, this.#step(place))));
-    this.undo.disabled = !history.canUndo;
-    this.redo.disabled = !history.canRedo;
+    this.#showWays();
     const current = this.list.children[history.at].firstElementChild;
     if (history.steps.length > 1) this.#reveal(current);
     if (kept !== undefined)
       (this.list.querySelector(`[data-step="${kept}"]`) ?? current).focus({ preventScroll: true });
+  }
+
+  #showWays() {
+    const { steps, last } = this.state.get("whereabouts");
+    this.undo.disabled = steps === 0;
+    this.redo.disabled = steps === last;
   }
 
   /**

@@ -1,5 +1,5 @@
-// The steps of the work, for undo, redo and the strip of small maps. They are those of the browser's own history: what a
-// step back leads to, undo does too. A step keeps the maps that were made for it.
+// The steps of the work, for the strip of small maps. They are among those of the browser's own history, where a selection is
+// a step too. A step keeps the maps that were made for it.
 
 /** @import { ShapeMap } from "../database/database.js" */
 /** @import { Separation } from "./separation.js" */
@@ -34,41 +34,43 @@ export class History {
     return this.steps[this.at];
   }
 
-  get canUndo() {
-    return this.current.taken > 0;
-  }
-
-  get canRedo() {
-    return this.at < this.steps.length - 1;
-  }
-
   /**
    * A step that was just taken; what had been undone is gone. What the page did by itself takes no step: it is in the
-   * place of the current one.
+   * place of the current one. What leads back to the one before it is that.
    * @param {Step} step
    */
   take(step) {
     const kept = this.steps.findIndex(({ taken }) => taken >= step.taken);
     this.steps.length = kept < 0 ? this.steps.length : kept;
-    this.steps.push(step);
+    const last = this.steps.at(-1);
+    if (!last || !alike(last, step)) this.steps.push(step);
     if (this.steps.length > MOST_STEPS) this.steps.shift();
     this.at = this.steps.length - 1;
   }
 
   /**
-   * The reader went to another step. One from before the page was opened anew is put into its place; an address written
-   * by hand is a step that was just taken.
+   * The reader took another way, so many steps from where the page was opened first: what that led to before is gone.
+   * @param {number} taken
+   */
+  branch(taken) {
+    this.steps = this.steps.filter((step) => step.taken < taken);
+  }
+
+  /**
+   * The reader went to another place: to that of a step, or to one further on where the work was still the same. A step
+   * from before the page was opened anew is put into its place; an address written by hand is one that was just taken.
    * @param {Step} step
    */
   arrive(step) {
-    const place = this.steps.findIndex(({ taken }) => taken >= step.taken);
-    const known = this.steps[place]?.taken === step.taken;
-    if (known && !alike(this.steps[place], step)) {
-      this.take(step);
-      return;
+    const place = this.steps.findLastIndex(({ taken }) => taken <= step.taken);
+    const [before, after] = [this.steps[place], this.steps[place + 1]];
+    if (before && alike(before, step)) this.at = place;
+    else if (before?.taken === step.taken) this.take(step);
+    else {
+      this.at = place + 1;
+      if (after && alike(after, step)) after.taken = step.taken;
+      else this.steps.splice(this.at, 0, step);
     }
-    this.at = place < 0 ? this.steps.length : place;
-    if (!known) this.steps.splice(this.at, 0, step);
   }
 }
 
