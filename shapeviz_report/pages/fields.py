@@ -267,6 +267,16 @@ def color_choices(report: Report) -> list[tuple[str, list[tuple[str, str]]]]:
         ("Known of the shapes", [(field["key"], field["title"]) for field in given]),
         ("Measured of the meshes", [(field["key"], field["title"]) for field in of_meshes]),
         ("Fit (NH)", hits if len(class_names(report)) > 1 else []),
+        ("Neighbours on the map in view", _neighbours(report)),
         ("Features", [("bin:", "A bin …")]),
     ]
     return [(title, choices) for title, choices in groups if choices]
+
+
+def _neighbours(report: Report) -> list[tuple[str, str]]:
+    """What says of each shape how truly a map shows its neighbours."""
+    found = next(iter(report.faithfulness.values()), None)
+    weighed = [("map:false", "False neighbours"), ("map:missing", "Missing neighbours")]
+    if found is None:
+        return []
+    return [("map:kept", "Neighbours kept"), *(weighed if found.false is not None else ())]

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { between, fieldColoring, placedGroups, stripesOf } from "../../site/scripts/map/coloring.js";
+import { between, fieldColoring, placedGroups, stripesOf, trustColoring } from "../../site/scripts/map/coloring.js";
 
 const marks = {
   unlabelled: "#888888",
@@ -163,4 +163,26 @@ test("a group has a place where its shapes have others of theirs about them, and
 test("a ramp is mixed between its colours", () => {
   assert.equal(between(["#000000", "#646464", "#ffffff"], 0.25), "rgb(50 50 50)");
   assert.equal(between(["#000000", "#ffffff"], 7), "rgb(255 255 255)");
+});
+
+test("what a map makes of neighbours is told of the map that is drawn, on one scale for all", () => {
+  const map = (shares) => ({ neighbours: 10, faith: { kept: shares, false: shares, missing: shares } });
+  const maps = [map([0, 0.1, 0.2, 0.2, 0, 0]), map([0, 0.4, 0.2, null, 0, 0])];
+  const two = { ...database, ids: [0, 1, 2, 3, 4, 5], data: { ...database.data, methods: maps } };
+  let shown = maps[0];
+  const coloring = trustColoring(two, "false", () => shown);
+  assert.equal(coloring.textOf(1), "10 %");
+  assert.equal(looks(coloring, 2)[1].color, between(marks.ramp, 12 / 48));
+  assert.deepEqual(coloring.legend.ramp.texts, ["0 %", "20 %", "40 %"]);
+  assert.match(coloring.note, /the ten nearest on this map/);
+  shown = maps[1];
+  assert.equal(coloring.textOf(1), "40 %");
+  assert.equal(looks(coloring, 4)[1].color, "rgb(255 255 255)");
+  assert.equal(looks(coloring, 4)[3].symbol, "x");
+  assert.equal(coloring.of(maps[0]).textOf(1), "10 %");
+  const beyond = coloring.of(map([0.8, 0, 0, 0, 0, 0]));
+  assert.deepEqual(beyond.legend.ramp.texts, ["0 %", "20 %", "≥ 40 %"]);
+  assert.equal(looks(beyond, 1)[0].color, "rgb(255 255 255)");
+  assert.deepEqual(trustColoring(two, "kept", () => shown).legend.ramp.texts, ["0 %", "50 %", "100 %"]);
+  assert.equal(coloring.of({ neighbours: 10 }).textOf(0), "–");
 });

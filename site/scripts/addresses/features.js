@@ -3,6 +3,7 @@
 import { Address, named } from "../base/address.js";
 import { CAMERA } from "./camera.js";
 import { coloredBy } from "./colors.js";
+import { LINES } from "./lines.js";
 import { joinNames, splitNames } from "./names.js";
 import { selected } from "./selected.js";
 
@@ -25,7 +26,7 @@ import { selected } from "./selected.js";
  * @property {number | null} pointedGroup
  * @property {"move" | "select"} drag
  *
- * @typedef {State<FeaturesValues & Shared & Pick<MapValues, "coloring">>} FeaturesState
+ * @typedef {State<FeaturesValues & Shared & Pick<MapValues, "coloring" | "lines" | "alike">>} FeaturesState
  */
 
 /**
@@ -58,6 +59,7 @@ export function featuresAddress(subsets, database) {
     coloredBy(database),
     selected(database),
     { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the marked shape" },
+    LINES,
     CAMERA,
   ]);
 }

@@ -4,6 +4,7 @@ import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { CAMERA } from "./camera.js";
 import { colors, OWN_COLORS } from "./colors.js";
+import { LINES } from "./lines.js";
 import { joinNames, splitNames } from "./names.js";
 import { selected } from "./selected.js";
 
@@ -45,6 +46,7 @@ export function overviewAddress(database) {
     selected(database),
     { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the open shape" },
     { name: "query", key: "find", kind: text, standard: "", often: true, words: "the search" },
+    LINES,
     CAMERA,
   ]);
 }

@@ -4,6 +4,7 @@ import { Address, choice, flag } from "../base/address.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { readShortNames, shortNames } from "./bin-names.js";
 import { coloredBy } from "./colors.js";
+import { LINES } from "./lines.js";
 import { joinNames, splitNames } from "./names.js";
 import { selected } from "./selected.js";
 
@@ -35,7 +36,7 @@ import { selected } from "./selected.js";
  * @property {number | null} refused NH that no bins were found to exceed
  * @property {Float64Array | null} scores
  *
- * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null} & Pick<MapValues, "drag" | "join" | "coloring">>} WorkState
+ * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null} & Pick<MapValues, "drag" | "join" | "coloring" | "lines" | "alike">>} WorkState
  */
 
 const PROJECTIONS = ["tsne", "umap"];
@@ -70,6 +71,7 @@ export function workAddress(database, data) {
     { name: "sample", key: "sample", kind: samples, standard: false, place: true },
     coloredBy(database),
     selected(database),
+    LINES,
   ]);
 }
 

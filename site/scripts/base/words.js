@@ -18,6 +18,16 @@ export function count(number, one, many = `${one}s`) {
   return `${grouped(number)} ${number === 1 ? one : many}`;
 }
 
+const NUMBERS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+
+/**
+ * A small number as a word, a larger one in figures.
+ * @param {number} number
+ */
+export function numberWord(number) {
+  return NUMBERS[number] ?? grouped(number);
+}
+
 /**
  * Thousands set apart by a thin space.
  * @param {number} number

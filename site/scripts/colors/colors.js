@@ -4,29 +4,19 @@
 import { chunk, chunks } from "../base/chunks.js";
 import { Finder } from "../base/finder.js";
 import { binName } from "../bins-kit/bin-name.js";
-import { Bins } from "../database/bins.js";
+import { loadBins } from "../database/bins.js";
 import { Fields } from "../database/fields.js";
-import { binColoring, fieldColoring } from "../map/coloring.js";
+import { binColoring, fieldColoring, trustColoring } from "../map/coloring.js";
 import { showLegend } from "./legend.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { Trust } from "../map/coloring.js" */
 /** @import { MapValues } from "../map/scene.js" */
 /** @import { Shared } from "../database/selection.js" */
 
 const BIN = "bin:";
-
-/** @type {Promise<{ bins: Bins, first: number }> | null} */
-let loaded = null;
-
-/** The bins, and the one to begin with: the first of those that keep the classes apart best, where a build found some. */
-function loadBins() {
-  loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => ({
-    bins: new Bins(work, values),
-    first: work.found?.bins[0] ?? 0,
-  }));
-  return loaded;
-}
+const TRUST = "map:";
 
 function choice() {
   return document.getElementById("color-by");
@@ -50,7 +40,7 @@ export function firstKey() {
  */
 export async function isKnown(key) {
   if (!key.startsWith(BIN)) return offered().includes(key);
-  return (await loadBins()).bins.names.includes(key.slice(BIN.length));
+  return (await loadBins()).names.includes(key.slice(BIN.length));
 }
 
 export class Colors {
@@ -83,8 +73,10 @@ export class Colors {
       this.choose(this.choice.value);
       return;
     }
-    const { bins, first } = await loadBins();
-    this.choose(BIN + bins.names[first]);
+    // To begin with, the first of those that keep the classes apart best, where a build found some.
+    const { found } = await chunk("workbench");
+    const bins = await loadBins();
+    this.choose(BIN + bins.names[found?.bins[0] ?? 0]);
     await this.make();
     this.field.focus();
     this.field.select();
@@ -94,7 +86,7 @@ export class Colors {
   async make() {
     const key = this.key();
     const bin = key?.startsWith(BIN) ?? false;
-    const coloring = key === null ? null : await (bin ? this.#ofBin(key.slice(BIN.length)) : this.#ofField(key));
+    const coloring = key === null ? null : await this.#of(key);
     if (key !== this.key()) return false;
     if (key !== null) this.choice.value = bin ? BIN : key;
     this.node.hidden = key === null;
@@ -104,9 +96,26 @@ export class Colors {
     return true;
   }
 
+  /** @param {string} key */
+  #of(key) {
+    if (key.startsWith(BIN)) return this.#ofBin(key.slice(BIN.length));
+    return key.startsWith(TRUST) ? this.#ofMap(key.slice(TRUST.length)) : this.#ofField(key);
+  }
+
+  /**
+   * What is known of the map in view only.
+   * @param {string} kind
+   */
+  async #ofMap(kind) {
+    const { database, state } = this;
+    const current = () => database.methods[state.get("method") ?? 0];
+    await current().know?.();
+    return trustColoring(database, /** @type {Trust} */ (kind), current);
+  }
+
   /** @param {string} name */
   async #ofBin(name) {
-    const { bins } = await loadBins();
+    const bins = await loadBins();
     this.#finder ??= new Finder("color-search", "color-found", {
       find: (text) => bins.find(text),
       prepare: () => bins.prepareToFind(),

@@ -1,10 +1,20 @@
 // The bins of all features: their names, what they mean, and their value for every shape.
 
+import { chunk } from "../base/chunks.js";
 import { currentTheme } from "../base/theme.js";
 import { shortened } from "../base/words.js";
 import { BinWords } from "./bin-words.js";
 
 const STEPS = 65535;
+
+/** @type {Promise<Bins> | null} */
+let loaded = null;
+
+/** The bins of the site, fetched once a page. */
+export function loadBins() {
+  loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then((found) => new Bins(...found));
+  return loaded;
+}
 
 /** What stands in names of bins and in no words. */
 const OF_NAMES = /[[\]:]/;

@@ -4,6 +4,7 @@ import { resource } from "../base/place.js";
 import { reachOf } from "./hit-range.js";
 
 /** @import { Theme } from "../base/theme.js" */
+/** @import { Choice } from "./similarity.js" */
 
 /**
  * A map of all shapes, with its quality: of a projection, of a subset of the features, or one that was made here. Shapes
@@ -22,7 +23,13 @@ import { reachOf } from "./hit-range.js";
  * @property {Chunk.WithoutCopies | null} [withoutCopies]
  * @property {number | null} chance
  * @property {number | null} chanceSpread
- * @property {Chunk.Faith | null} [faith] of the maps of projections
+ * @property {Faith | null} [faith] how far it shows who is like whom
+ * @property {Choice} [compares] what it is made from, where this is not its features, or those of all maps of the site
+ * @property {() => Promise<void>} [know] fetches what it shows of the neighbours of each shape
+ *
+ * Without what is known of each shape as long as nobody asked for it; a diagram have the maps of projections.
+ * @typedef {Omit<Chunk.Faith, "kept" | "false" | "missing" | "shepard"> & { kept?: Shares, false?: Shares, missing?: Shares, shepard?: Chunk.Shepard | null }} Faith
+ * @typedef {(number | null)[] | null} Shares of each shape
  *
  * @typedef {ShapeMap & { base: number }} Method one that belongs to a projection of all features: itself, or the one it is set beside
  * @typedef {{ x: number, y: number, width: number, height: number }} Bounds the middle and the size of a rectangle

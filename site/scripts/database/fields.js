@@ -116,7 +116,7 @@ function hits(database) {
  */
 function kept(database) {
   return database.methods.flatMap(({ key, title, faith }) =>
-    !faith
+    !faith?.kept
       ? []
       : [
           {

@@ -51,14 +51,23 @@ export class Similarity {
    */
   rank(row, choice, count) {
     const squared = this.#choose(row, choice);
-    const rows = [...squared.keys()].filter((other) => other !== row);
-    const found = rows.sort((a, b) => squared[a] - squared[b] || a - b).slice(0, count);
     const { byFeature, sorted } = this.#know(row);
-    return found.map((other) => ({
+    return first(squared, row, count).map((other) => ({
       row: other,
       distance: Math.sqrt(squared[other]),
       closer: byFeature.map((own, feature) => shareFarther(sorted[feature], own[other])),
     }));
+  }
+
+  /**
+   * The same shapes alone, of some.
+   * @param {number} row
+   * @param {Choice} choice
+   * @param {number} count
+   * @param {(row: number) => boolean} among whether a shape counts
+   */
+  nearest(row, choice, count, among) {
+    return first(this.#choose(row, choice), row, count, among);
   }
 
   /**
@@ -193,6 +202,18 @@ export class Similarity {
     for (let row = 0; row < rows; row += 1) squares += (steps[start + row] - mean) ** 2;
     return (squares / rows) * this.bins.stepOf(column) ** 2;
   }
+}
+
+/**
+ * The rows with the lowest values, but one.
+ * @param {Float64Array} squared
+ * @param {number} row
+ * @param {number} count
+ * @param {(row: number) => boolean} [among]
+ */
+function first(squared, row, count, among = () => true) {
+  const rows = [...squared.keys()].filter((other) => other !== row && among(other));
+  return rows.sort((a, b) => squared[a] - squared[b] || a - b).slice(0, count);
 }
 
 /**

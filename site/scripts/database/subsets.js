@@ -2,7 +2,7 @@
 
 import { chunk } from "../base/chunks.js";
 
-/** @import { ShapeMap } from "./database.js" */
+/** @import { Faith, ShapeMap } from "./database.js" */
 
 export class Subsets {
   /** @param {Chunk.Search} data */
@@ -56,6 +56,25 @@ export class Subsets {
   }
 
   /**
+   * How far the map of a subset shows who is like whom.
+   * @param {number} place
+   * @returns {Faith | null}
+   */
+  faith(place) {
+    const { faith } = this.data;
+    if (faith === null) return null;
+    return {
+      mean: /** @type {number} */ (faith.mean[place]),
+      chance: faith.chance,
+      trustworthiness: faith.trustworthiness?.[place] ?? null,
+      continuity: faith.continuity?.[place] ?? null,
+      random: faith.random,
+      stress: faith.stress[place],
+      randomStress: faith.randomStress[place],
+    };
+  }
+
+  /**
    * The map of a subset, as the Database has projections; classes are numbered as there.
    * @param {number} place
    * @param {number} classCount
@@ -67,6 +86,7 @@ export class Subsets {
     const hitOfClass = new Array(classCount).fill(null);
     for (const [column, group] of data.classes.entries()) hitOfClass[group] = data.hitOfClass[place][column];
     const features = this.names(place);
+    const faith = this.faith(place);
     return {
       key: `${data.method}:${features.join("+")}`,
       title: data.methodTitle,
@@ -80,6 +100,13 @@ export class Subsets {
       hitOfAll: data.hit[place],
       chance: data.chance,
       chanceSpread: null,
+      faith,
+      async know() {
+        if (!faith || faith.kept) return;
+        const { steps, ...shares } = await chunk("faith");
+        for (const kind of /** @type {const} */ (["kept", "false", "missing"]))
+          faith[kind] = shares[kind]?.[place].map((step) => step / steps) ?? null;
+      },
     };
   }
 }

@@ -2,9 +2,12 @@
 
 import { watchSize } from "../base/dom.js";
 import { chosenColors } from "../colors/choice.js";
+import { loadBins } from "../database/bins.js";
+import { TrueNeighbours } from "../database/true-neighbours.js";
 import { Card } from "../map/card.js";
 import { watchDragging } from "../map/dragging.js";
 import { Gestures } from "../map/gestures.js";
+import { watchLines } from "../map/lines.js";
 import { MapView } from "../map/map.js";
 import { dragging, NOTHING_POINTED, Scene } from "../map/scene.js";
 import { watchMapKeys } from "./controls.js";
@@ -27,6 +30,7 @@ export function nothingShown() {
     hidden: new Set(),
     matches: null,
     coloring: null,
+    alike: null,
   };
 }
 
@@ -64,10 +68,14 @@ export class ChosenMap {
     const { database, subsets, state, announce } = this;
     state.set({ method: await shown(database, subsets, state.get("chosen")) });
     const scene = new Scene(database, state);
+    // Of a sample nobody can be shown who is most alike among all shapes.
+    if (subsets.data.rows === null)
+      scene.alike = new TrueNeighbours(database, loadBins, () => state.set({ alike: {} }));
     const figure = document.querySelector("figure.map");
     this.view = new MapView(scene, figure, { charted: false });
     scene.views = [this.view];
     watchDragging(state);
+    watchLines(state);
     this.gestures = new Gestures(this.view, {
       open: (shape) => this.toggle(shape),
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
@@ -102,5 +110,6 @@ export class ChosenMap {
     if (this.state.get("chosen") !== chosen) return;
     const camera = this.state.get("camera");
     this.state.set(aimed && camera ? { method, camera: { ...camera } } : { method });
+    if (this.state.get("coloring")?.of) await this.start();
   }
 }

@@ -23,8 +23,23 @@ export async function shown(database, subsets, place) {
     for (const [index, row] of (rows ?? []).entries()) all[row] = values[index];
     return all;
   };
+  if (rows === null) return database.add(map, -1);
+  const faith = map.faith && { ...map.faith };
   return database.add(
-    rows === null ? map : { ...map, x: spread(map.x, NaN), y: spread(map.y, NaN), hit: spread(map.hit, null) },
+    {
+      ...map,
+      x: spread(map.x, NaN),
+      y: spread(map.y, NaN),
+      hit: spread(map.hit, null),
+      faith,
+      async know() {
+        await map.know?.();
+        for (const kind of /** @type {const} */ (["kept", "false", "missing"])) {
+          const shares = map.faith?.[kind];
+          if (faith && shares) faith[kind] = spread(shares, null);
+        }
+      },
+    },
     -1,
   );
 }

@@ -1,13 +1,14 @@
 // The card at the pointer: picture, name, class, and who the neighbours are.
 
 import { element, picture, swatch } from "../base/dom.js";
-import { figure, shortened } from "../base/words.js";
+import { capitalised, figure, numberWord, shortened } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
+import { partedNeighbours } from "./lines.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database, Method, ShapeMap } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
-/** @import { Coloring } from "./coloring.js" */
+/** @import { Parted } from "./lines.js" */
 /** @import { MapView } from "./map.js" */
 /** @import { MapValues } from "./scene.js" */
 
@@ -23,9 +24,14 @@ export class Card {
     /** @type {ShapeMap | null} */
     this.map = null;
     state.listen((changed) => {
-      if (["theme", "by", "view", "color"].some((name) => changed.has(name))) this.shown = null;
+      if (["theme", "by", "view", "color", "coloring", "alike"].some((name) => changed.has(name))) this.shown = null;
       const camera = state.get("pointedFrom")?.scene.cameraName;
-      if (["pointed", camera, "method", "theme"].some((name) => name !== undefined && changed.has(name))) this.#show();
+      if (
+        ["pointed", camera, "method", "theme", "coloring", "alike"].some(
+          (name) => name !== undefined && changed.has(name),
+        )
+      )
+        this.#show();
     });
   }
 
@@ -37,17 +43,19 @@ export class Card {
     this.node.hidden = index === null || !view?.scene.visible(index);
     if (index === null || !view || this.node.hidden) return;
     const map = view.database.methods[view.scene.target];
-    if (this.shown !== index || this.map !== map) this.#fill(index, view.database, map, view.chosenColoring);
+    if (this.shown !== index || this.map !== map) this.#fill(index, view, map);
     this.#place(index, view);
   }
 
   /**
    * @param {number} index
-   * @param {Database} database
+   * @param {MapView} view
    * @param {Method} map
-   * @param {Coloring | null} coloring what else the map tells
    */
-  #fill(index, database, map, coloring) {
+  #fill(index, view, map) {
+    const { database } = view;
+    const coloring = view.chosenColoring && view.coloring;
+    const parted = partedNeighbours(view, index);
     [this.shown, this.map] = [index, map];
     const group = database.groups[index];
     const neighbours =
@@ -77,8 +85,21 @@ export class Card {
               ),
             neighbours.length > MOST_CLASSES && " …",
           ),
+        parted !== null && parted.missing.length + parted.kept.length > 0 && element("p", {}, missingWords(parted)),
       ),
     );
+  }
+
+  /**
+   * Whether more of the lines from a shape lead to the right than to the left.
+   * @param {number} index
+   * @param {MapView} view
+   */
+  #covers(index, view) {
+    const parted = this.state.get("lines") ? partedNeighbours(view, index) : null;
+    const [x] = view.screen(index);
+    const ends = Object.values(parted ?? {}).flat();
+    return ends.filter((other) => view.screen(other)[0] > x).length > ends.length / 2;
   }
 
   /**
@@ -90,11 +111,25 @@ export class Card {
     const [x, y] = view.screen(index);
     const { offsetWidth: width, offsetHeight: height } = this.node;
     const gap = Math.max(view.markRadius, view.pictured[index] ? view.pictureSize / 2 : 0) + 12;
-    const right = box.left + x + gap;
-    const left = right + width < window.innerWidth - 8 ? right : box.left + x - gap - width;
+    const [right, back] = [box.left + x + gap, box.left + x - gap - width];
+    const fits = right + width < window.innerWidth - 8;
+    const left = fits && !(back > 8 && this.#covers(index, view)) ? right : back;
     const top = Math.min(Math.max(box.top + y - height / 2, 8), window.innerHeight - height - 8);
     this.node.style.transform = `translate(${Math.round(Math.max(left, 8))}px, ${Math.round(top)}px)`;
   }
+}
+
+/**
+ * How many of those most alike to a shape are elsewhere on the map.
+ * @param {Parted} parted
+ */
+export function missingWords({ kept, missing }) {
+  const all = kept.length + missing.length;
+  const alike = all === 1 ? "The shape most alike" : `the ${numberWord(all)} most alike`;
+  if (all === 1) return `${alike} is ${missing.length === 0 ? "near it" : "elsewhere on the map"}.`;
+  if (missing.length === 0) return `All of ${alike} are near it.`;
+  if (kept.length === 0) return `All of ${alike} are elsewhere on the map.`;
+  return `${capitalised(numberWord(missing.length))} of ${alike} ${missing.length === 1 ? "is" : "are"} elsewhere on the map.`;
 }
 
 /**

@@ -1,7 +1,7 @@
 // What the colour of a mark says: a class, how well a shape keeps to its class, or anything else that is known of shapes.
 
 import { entry } from "../base/entry.js";
-import { figure } from "../base/words.js";
+import { figure, numberWord, percent } from "../base/words.js";
 import { NONE, numberText, valueName } from "../database/fields.js";
 import { highestOf, ofAtMost, reachOf } from "../database/hit-range.js";
 
@@ -22,6 +22,7 @@ import { highestOf, ofAtMost, reachOf } from "../database/hit-range.js";
  * @property {Legend} [legend] what the colours are, where no other list on the page says it
  * @property {Naming} [naming] groups that stand together on a map, where these are not the classes
  * @property {boolean} [ofClasses] whether symbols are those of the classes all the same
+ * @property {(map: ShapeMap) => Coloring} [of] the same of another map, where it is about the map that is drawn
  *
  * Shapes of one look have a line of their own; numbers have their ramp, with texts at equal distances.
  * @typedef {{ name: string, look: Look, shapes: number[] }} Line
@@ -74,6 +75,65 @@ export function hitColoring(database, map) {
       color: reach === null ? database.marks.unlabelled : between(database.marks.hit, reach),
     }),
     textOf: (index) => `${figure(map.hit[index])}${ofAtMost(highestOf(database, map, index))}`,
+  };
+}
+
+/**
+ * How truly maps show the neighbours of a shape.
+ * @typedef {"kept" | "false" | "missing"} Trust
+ */
+
+/** @type {Record<Trust, { title: string, note: (k: string) => string }>} */
+const TRUST = {
+  kept: {
+    title: "Neighbours kept",
+    note: (k) => `Of the ${k} most alike, the share that is among the ${k} nearest on this map.`,
+  },
+  false: {
+    title: "False neighbours",
+    note: (k) =>
+      `How unlike the ${k} nearest on this map are: 0 % where they are the ${k} most alike, 100 % where none of all shapes are less alike.`,
+  },
+  missing: {
+    title: "Missing neighbours",
+    note: (k) =>
+      `How far away the ${k} most alike are on this map: 0 % where they are the ${k} nearest, 100 % where none of all shapes are farther.`,
+  },
+};
+
+/** Where a ramp of false or of missing neighbours ends at the least, as a share. */
+const LEAST_END = 0.05;
+
+/**
+ * How truly a map shows the neighbours of each shape: of the map that is drawn, on one scale for all maps.
+ * @param {Database} database
+ * @param {Trust} kind
+ * @param {() => ShapeMap} current the map that the page shows
+ * @returns {Coloring}
+ */
+export function trustColoring(database, kind, current) {
+  const { title, note } = TRUST[kind];
+  const known = database.data.methods.flatMap(({ faith }) => [...(faith?.false ?? []), ...(faith?.missing ?? [])]);
+  const end =
+    kind === "kept" ? 1 : known.reduce((most, share) => Math.max(/** @type {number} */ (most), share ?? 0), LEAST_END);
+  /** @param {number} share */
+  const textOf = (share) => percent(share);
+  const nothing = database.ids.map(() => null);
+  const options = { range: /** @type {[number, number]} */ ([0, /** @type {number} */ (end)]), open: kind !== "kept" };
+  /** @type {WeakMap<object, Coloring>} */
+  const made = new WeakMap();
+  /** @param {ShapeMap} map */
+  const of = (map) => {
+    const numbers = map.faith?.[kind] ?? nothing;
+    return entry(made, numbers, () => numberColoring(database, title, numbers, textOf, options));
+  };
+  const k = numberWord(current().neighbours);
+  return {
+    ...of(current()),
+    note: note(k),
+    kindOf: (index) => of(current()).kindOf(index),
+    textOf: (index) => of(current()).textOf(index),
+    of,
   };
 }
 
@@ -163,15 +223,20 @@ const TEXTS = 3;
  * @param {string} title
  * @param {(number | null)[]} numbers
  * @param {(number: number) => string} textOf
+ * @param {object} [scale]
+ * @param {[number, number] | null} [scale.range] where the ramp begins and ends, if not with the numbers
+ * @param {boolean} [scale.open] whether numbers may lie beyond its end
  * @returns {Coloring}
  */
-function numberColoring(database, title, numbers, textOf) {
+function numberColoring(database, title, numbers, textOf, { range = null, open = false } = {}) {
   const { data, marks } = database;
   const known = numbers.filter((number) => number !== null).sort((one, other) => one - other);
-  const [low, middle, high] = [known[0], known[known.length >> 1], known[known.length - 1]];
+  const [least, most] = [known[0], known[known.length - 1]];
+  const [low, high] = range ?? [least, most];
+  const middle = known[known.length >> 1];
   // By factors and no longer by differences, where half of them would have the colours of one end, and then have not.
   const [differences, factors] = [(middle - low) / (high - low), Math.log(middle / low) / Math.log(high / low)];
-  const wide = low > 0 && differences < SKEWED && factors - 0.5 < 0.5 - differences;
+  const wide = range === null && low > 0 && differences < SKEWED && factors - 0.5 < 0.5 - differences;
   /** @param {number} number */
   const lengthOf = (number) => (wide ? Math.log(number) : number);
   const span = lengthOf(high) - lengthOf(low) || 1;
@@ -190,7 +255,7 @@ function numberColoring(database, title, numbers, textOf) {
     kindOf(index) {
       const number = numbers[index];
       if (number === null) return null;
-      const step = Math.round(((lengthOf(number) - lengthOf(low)) / span) * STEPS);
+      const step = Math.min(Math.round(((lengthOf(number) - lengthOf(low)) / span) * STEPS), STEPS);
       return (database.groups[index] + 1) * (STEPS + 1) + step;
     },
     look,
@@ -199,7 +264,12 @@ function numberColoring(database, title, numbers, textOf) {
       lines: lacking.length > 0 ? [{ name: "no value", look: look(null), shapes: lacking }] : [],
       ramp: {
         colors: marks.ramp,
-        texts: known.length === 0 ? [] : Array.from({ length: TEXTS }, (_, text) => textOf(at(text / (TEXTS - 1)))),
+        texts:
+          known.length === 0
+            ? []
+            : Array.from({ length: TEXTS }, (_, text) =>
+                open && text === TEXTS - 1 && most > high ? `≥ ${textOf(high)}` : textOf(at(text / (TEXTS - 1))),
+              ),
       },
     },
     ofClasses: true,

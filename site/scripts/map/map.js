@@ -8,11 +8,13 @@ import { classColoring, classNaming, hitColoring, placedGroups } from "./colorin
 import { Dots } from "./dots.js";
 import { mapFigure, mapWords } from "./figure.js";
 import { Labels } from "./labels.js";
+import { partedNeighbours } from "./lines.js";
 import { animate, CHOSEN, crowded } from "./scene.js";
 import { spread, thinned } from "./spread.js";
 
 /** @import { Theme } from "../base/theme.js" */
 /** @import { Coloring, Naming } from "./coloring.js" */
+/** @import { Parted } from "./lines.js" */
 /** @import { Camera, Scene } from "./scene.js" */
 
 /** @typedef {"class" | "hit" | "thumbnail" | "color"} MapName what its marks tell; `color` what its reader chose */
@@ -58,7 +60,9 @@ export class MapView {
     this.node = element("div", { class: "chart", "aria-hidden": "true" });
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
     this.labels = new Labels(classNaming(this.database), this.overlay);
-    this.ties = this.overlay.insertBefore(svg("path", { class: "ties" }), this.overlay.firstChild);
+    /** @type {Record<"near" | keyof Parted, SVGPathElement>} */
+    this.ties = { near: tie("near"), false: tie("false"), missing: tie("missing"), kept: tie("kept") };
+    this.overlay.prepend(...Object.values(this.ties));
     this.opened = this.overlay.appendChild(svg("circle", { class: "ring opened" }));
     this.pointed = this.overlay.appendChild(svg("circle", { class: "ring pointed" }));
     this.brush = this.overlay.appendChild(svg("path", { class: "brush" }));
@@ -97,7 +101,8 @@ export class MapView {
    */
   get coloring() {
     if (this.name === "hit") return hitColoring(this.database, this.database.methods[this.scene.target]);
-    if (this.chosenColoring !== null) return this.chosenColoring;
+    const { chosenColoring: chosen } = this;
+    if (chosen !== null) return chosen.of?.(this.database.methods[this.scene.target]) ?? chosen;
     return classColoring(this.database);
   }
 
@@ -374,16 +379,28 @@ export class MapView {
     }
   }
 
-  /** Lines from the opened shape to the neighbours that its NH counts. */
+  /**
+   * Lines from the shape that is pointed at, else from the opened one, to those most alike; else from this one to the
+   * neighbours that its NH counts.
+   */
   #drawTies() {
-    const index = this.state.get("opened");
-    const shown = index !== null && this.scene.visible(index);
-    this.ties.classList.toggle("shown", shown);
-    if (!shown) return;
+    const { scene, state, ties } = this;
+    const [pointed, opened] = [state.get("pointed"), state.get("opened")];
+    const index = pointed ?? opened;
+    const shown = index !== null && scene.visible(index) && !scene.moving;
+    const parted = shown && state.get("lines") ? partedNeighbours(this, index) : null;
+    const near = shown && parted === null && pointed === null ? this.database.neighbours(index, scene.target) : [];
+    const lines = { near, kept: [], missing: [], false: [], ...parted };
     const placeOf = this.placing();
-    const from = placeOf(index);
-    const near = this.database.neighbours(index, this.scene.target).filter((other) => this.scene.visible(other));
-    this.ties.setAttribute("d", near.map((other) => `M${from}L${placeOf(other)}`).join(""));
+    for (const [name, path] of Object.entries(ties)) {
+      const others = lines[/** @type {keyof typeof lines} */ (name)].filter((other) => scene.visible(other));
+      path.classList.toggle("shown", others.length > 0);
+      if (others.length > 0)
+        path.setAttribute(
+          "d",
+          others.map((other) => `M${placeOf(/** @type {number} */ (index))}L${placeOf(other)}`).join(""),
+        );
+    }
   }
 
   /** Which shapes are drawn as pictures, and where: beside each other, or at their places where the reader asks for it. */
@@ -546,6 +563,11 @@ export class MapView {
     this.labels.place(points, this.width, this.height, radius);
     this.labels.follow(placeOf);
   }
+}
+
+/** @param {string} kind */
+function tie(kind) {
+  return svg("path", { class: `ties ${kind}` });
 }
 
 /**

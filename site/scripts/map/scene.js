@@ -6,6 +6,7 @@ import { calm, coarse } from "../base/dom.js";
 /** @import { State } from "../base/state.js" */
 /** @import { Bounds, Database } from "../database/database.js" */
 /** @import { Join } from "../database/selection.js" */
+/** @import { TrueNeighbours } from "../database/true-neighbours.js" */
 /** @import { Coloring } from "./coloring.js" */
 /** @import { MapView } from "./map.js" */
 
@@ -29,6 +30,8 @@ import { calm, coarse } from "../base/dom.js";
  * @property {number | null} pointedGroup
  * @property {number[] | null} [pointedShapes] those of a line of a legend
  * @property {Coloring | null} [coloring] what else than the classes the marks are coloured by, as far as it is made
+ * @property {boolean} [lines] whether lines lead from a shape to those most alike
+ * @property {object} [alike] changes as soon as more is known of who is alike
  * @property {"move" | "select" | "lasso"} drag what dragging does: with "select" it draws a box
  * @property {Join} [join] what a drawn area does to the selection, where no key says it
  */
@@ -39,6 +42,9 @@ const CROWD = 1500;
 
 /** What says how present a shape is. */
 const WEIGHED = ["hidden", "selection", "matches", "pointedGroup", "pointedShapes"];
+
+/** And what rings and lines are about. */
+const RINGED = ["pointed", "opened", "lines", "alike"];
 
 export const HIDDEN = 0;
 export const FAINT = 1;
@@ -93,12 +99,14 @@ export class Scene {
     this.moving = false;
     /** @type {MapView[]} */
     this.views = [];
+    /** @type {TrueNeighbours | null} */
+    this.alike = null;
     this.weigh();
     state.listen((changed) => {
       if (changed.has("method")) this.#travel(state.get("method"), changed.has(camera));
       if (WEIGHED.some((name) => changed.has(name))) this.weigh();
       if ([camera, ...WEIGHED, "exact"].some((name) => changed.has(name))) this.draw();
-      else if (changed.has("pointed") || changed.has("opened")) for (const view of this.views) view.drawRings();
+      else if (RINGED.some((name) => changed.has(name))) for (const view of this.views) view.drawRings();
     });
   }
 

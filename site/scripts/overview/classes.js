@@ -6,9 +6,13 @@ import { unstep } from "../base/place.js";
 import { count, figure } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
+import { drawShepard, tellFaith } from "./faith.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
+
+/** @param {Element} node */
+const topOf = (node) => node.getBoundingClientRect().top;
 
 export class ClassList {
   /**
@@ -23,7 +27,12 @@ export class ClassList {
     this.all = document.getElementById("show-all");
     this.asked = document.getElementById("how-good");
     this.asked.open = this.#asksItself;
-    this.asked.addEventListener("toggle", () => this.start());
+    this.asked.addEventListener("toggle", async () => {
+      await this.start();
+      // Below a long list the answer would be out of sight.
+      const panel = this.asked.parentElement;
+      if (this.asked.open && !this.#asksItself) panel.scrollTop += topOf(this.asked) - topOf(panel);
+    });
     this.all.addEventListener("click", () => state.set({ hidden: new Set() }));
     this.list.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
     watchSize([this.node], () => this.#mark());
@@ -68,6 +77,7 @@ export class ClassList {
     this.list.replaceChildren(...[...this.buttons.values()].map((button) => element("li", {}, button)));
     if (kept !== undefined) this.buttons.get(Number(kept))?.focus();
     document.getElementById("quality").replaceChildren(...this.#quality());
+    drawShepard(this.database.methods[this.state.get("method")]);
     this.#mark();
   }
 
@@ -179,7 +189,7 @@ export class ClassList {
           "This database has no labels, so there is no neighbourhood hit to tell how well classes keep together. ",
         ),
         element("p", {}, "The map needs none: it places shapes by their surfaces alone."),
-        faithful(method),
+        ...tellFaith(database, method, this.state),
       ];
     }
     const headline = element(
@@ -209,9 +219,11 @@ export class ClassList {
           {},
           "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.",
         ),
+        ...tellFaith(database, method, this.state),
       ];
     }
     return [
+      element("h3", {}, `Do ${database.data.standIn ? "clusters" : "classes"} keep together?`),
       headline,
       element(
         "p",
@@ -229,27 +241,7 @@ export class ClassList {
           this.#chosen(features),
         ],
       ),
-      faithful(method),
+      ...tellFaith(database, method, this.state),
     ];
   }
-}
-
-/**
- * How far a map shows who is like whom, whatever the labels say.
- * @param {Method} method
- */
-function faithful({ faith, neighbours, title }) {
-  if (!faith) return "";
-  const { mean, chance, trustworthiness, continuity, random } = faith;
-  /** @param {number} share */
-  const many = (share) => (share * neighbours).toFixed(1);
-  return element(
-    "p",
-    {},
-    `Who is like whom: of the ${count(neighbours, "shape")} most alike by what it compares, the ${title} map has `,
-    element("b", {}, many(mean)),
-    ` among the ${neighbours} nearest on average; a map at random, ${many(chance)}. `,
-    trustworthiness !== null &&
-      `Trustworthiness ${figure(trustworthiness)}, continuity ${figure(continuity)}; at random ${figure(random)}.`,
-  );
 }

@@ -45,7 +45,8 @@ export class OverviewMaps {
     this.#watch(this.main);
     this.#arrange();
     state.listen((changed) => {
-      if (["view", "by", "pictures"].some((name) => changed.has(name))) this.#show();
+      const other = changed.has("method") && state.get("coloring")?.of !== undefined;
+      if (other || ["view", "by", "pictures"].some((name) => changed.has(name))) this.#show();
       if (changed.has("method")) this.#tellReadings();
     });
     wide.addEventListener("change", () => this.start());

@@ -6,8 +6,11 @@ import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
 import { firstKey } from "../colors/colors.js";
+import { loadBins } from "../database/bins.js";
 import { Database } from "../database/database.js";
+import { TrueNeighbours } from "../database/true-neighbours.js";
 import { Card } from "../map/card.js";
+import { watchLines } from "../map/lines.js";
 import { dragging, NOTHING_POINTED } from "../map/scene.js";
 import { mapTables } from "../map/tables.js";
 import { ClassList } from "../overview/classes.js";
@@ -26,7 +29,7 @@ async function main() {
   const { state, written, announce, ready } = await openPage({
     address: overviewAddress(database),
     settle: async (found) => knownView(database, await addressedMap(database, found)),
-    values: { ...NOTHING_POINTED, ...dragging(), matches: null, by: firstKey(), coloring: null },
+    values: { ...NOTHING_POINTED, ...dragging(), matches: null, by: firstKey(), coloring: null, alike: null },
   });
   const maps = new OverviewMaps(database, state, viewColors(database, state), announce);
   // Pictures beside the map point at their shape on it.
@@ -52,6 +55,8 @@ async function main() {
   watchTables(() => mapTables(database, state, state.get("coloring") ?? null));
   if (database.data.subsets) new FeatureChoice(database, state);
   watchIntroduction();
+  maps.scene.alike = new TrueNeighbours(database, loadBins, () => state.set({ alike: {} }));
+  watchLines(state);
   watchControls(database, state, maps);
   watchKeys(state, maps);
 

@@ -33,10 +33,10 @@ async function main() {
   const { state, written, announce, ready } = await openPage({
     address: workAddress(database, data),
     settle: knownColor,
-    values: { ...NOTHING_POINTED, ...dragging(), ...nothingMade(), coloring: null },
+    values: { ...NOTHING_POINTED, ...dragging(), ...nothingMade(), coloring: null, alike: null },
   });
   const answers = new Answers(database, data, bins);
-  const maps = new WorkMaps(overview, database, state, chosenColors(database, state), announce);
+  const maps = new WorkMaps(overview, database, state, bins, chosenColors(database, state), announce);
   const desk = new Desk(database, data, bins, state, answers, maps.scenes, announce);
   await pause();
   new Card(state);

@@ -113,7 +113,7 @@ export class Surroundings {
   #tell(shape, near, method) {
     const { database } = this;
     const { title, hit, hitOfClass, faith } = method;
-    const kept = Math.round((faith?.kept[shape] ?? 0) * near.length);
+    const kept = Math.round((faith?.kept?.[shape] ?? 0) * near.length);
     /** @type {(string | Node)[]} */
     const words = [
       `Near on the ${title} map means alike in features. `,

@@ -3,12 +3,15 @@
 import { pause, watchSize } from "../base/dom.js";
 import { currentTheme } from "../base/theme.js";
 import { Database } from "../database/database.js";
+import { TrueNeighbours } from "../database/true-neighbours.js";
 import { Gestures } from "../map/gestures.js";
+import { watchLines } from "../map/lines.js";
 import { LiveScene } from "../map/live-scene.js";
 import { MapView } from "../map/map.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Colors } from "../colors/colors.js" */
+/** @import { Bins } from "../database/bins.js" */
 /** @import { Which } from "./desk.js" */
 
 /** @type {Which[]} */
@@ -19,10 +22,11 @@ export class WorkMaps {
    * @param {Chunk.Overview} overview
    * @param {Database} database
    * @param {WorkState} state
+   * @param {Bins} bins
    * @param {Colors} colors
    * @param {(text: string) => void} announce
    */
-  constructor(overview, database, state, colors, announce) {
+  constructor(overview, database, state, bins, colors, announce) {
     this.state = state;
     this.colors = colors;
     // Each map has a database of its own: the same shapes, one layout.
@@ -32,6 +36,13 @@ export class WorkMaps {
     );
     /** @type {Record<Which, LiveScene>} */
     this.scenes = { original: scenes[0], refined: scenes[1] };
+    for (const scene of scenes)
+      scene.alike = new TrueNeighbours(
+        database,
+        () => Promise.resolve(bins),
+        () => state.set({ alike: {} }),
+      );
+    watchLines(state);
     this.views = scenes.map((scene, place) => {
       const figure = document.querySelector(`figure[data-map="${WHICH[place]}"]`);
       const view = new MapView(scene, figure, { charted: false });

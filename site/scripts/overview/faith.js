@@ -1,0 +1,205 @@
+// How far the map in view shows who is like whom, whatever labels say: in words, in a few figures, and in a diagram.
+
+import { element, svg } from "../base/dom.js";
+import { capitalised, count, figure, grouped, listed, numberWord } from "../base/words.js";
+
+/** @import { OverviewState } from "../addresses/overview.js" */
+/** @import { Database, Faith, Method } from "../database/database.js" */
+
+/** A shape that keeps no more of its neighbours than this share is in the wrong place. */
+const FEW = 0.2;
+
+/** The units of a diagram: what is the largest distance in the features, and what stands beside it. */
+const SIDE = 240;
+const TEXT = 15;
+
+/**
+ * @param {Database} database
+ * @param {Method} method
+ * @param {OverviewState} state
+ */
+export function tellFaith(database, method, state) {
+  const { faith, neighbours } = method;
+  if (!faith) return [];
+  /** @param {number} share */
+  const many = (share) => (share * neighbours).toFixed(1);
+  return [
+    element("h3", {}, "Does it show who is like whom?"),
+    element(
+      "p",
+      { class: "headline" },
+      element("output", { class: "share" }, many(faith.mean)),
+      element("span", { class: "of" }, `of ${neighbours}`),
+      element("span", { class: "beside" }, element("b", {}, many(faith.chance)), element("br"), "on a map at random"),
+    ),
+    element(
+      "p",
+      {},
+      `Of the ${count(neighbours, "shape")} most alike by features, so many are among the ${neighbours} nearest on this map, on average. No label has part in it.`,
+    ),
+    ...lost(database, method),
+    colorings(method, state),
+    ...figures(faith),
+  ];
+}
+
+/**
+ * How many shapes keep hardly any of their neighbours, here and on the other maps.
+ * @param {Database} database
+ * @param {Method} method
+ */
+function lost(database, { faith, neighbours, base }) {
+  const few = Math.floor(FEW * neighbours + 1e-9);
+  if (!faith?.kept || few < 1) return [];
+  /** @param {Pick<Faith, "kept"> | null | undefined} of */
+  const lostOn = (of) => (of?.kept ?? []).filter((share) => share !== null && share <= FEW + 1e-9).length;
+  const here = lostOn(faith);
+  const others = database.data.methods.filter((other, index) => index !== base && other.faith);
+  const most = few === 1 ? "one" : numberWord(few);
+  const there = others.map((other) => `on the ${other.title} map ${lostOn(other.faith) || "none"}`);
+  return [
+    element(
+      "p",
+      {},
+      here === 0
+        ? [element("b", {}, `All ${count(database.count, "shape")}`), ` keep more than ${most} of them.`]
+        : [
+            element("b", {}, `${grouped(here)} of ${count(database.count, "shape")}`),
+            ` ${here === 1 ? "keeps" : "keep"} ${most} of them at most.`,
+          ],
+      there.length > 0 &&
+        ` ${capitalised(listed(there))} ${lostOn(others.at(-1)?.faith) > 1 ? "keep" : "keeps"} ${most} at most.`,
+    ),
+  ];
+}
+
+/**
+ * The maps that show it shape by shape.
+ * @param {Method} method
+ * @param {OverviewState} state
+ */
+function colorings({ faith }, state) {
+  /** @type {[string, string, string][]} */
+  const ways = [
+    ["map:kept", "neighbours kept", "The share of its neighbours that each shape keeps"],
+    ["map:false", "false", "Where shapes stand near each other that are not alike"],
+    ["map:missing", "missing", "Where alike shapes stand apart"],
+  ];
+  const known = faith?.trustworthiness === null ? ways.slice(0, 1) : ways;
+  return element(
+    "p",
+    { class: "ways on-screen" },
+    "Colour the map by ",
+    known.map(([by, words, title], place) => [
+      place > 0 && (place === known.length - 1 ? " or " : ", "),
+      element(
+        "button",
+        { type: "button", class: "link", title, onclick: () => state.set({ view: "color", by }) },
+        words,
+      ),
+    ]),
+    known.length > 1 ? " neighbours." : ".",
+  );
+}
+
+/** @param {Faith} faith */
+function figures({ trustworthiness, continuity, random, stress, randomStress }) {
+  /** @type {[string, string, number | null, number | null][]} */
+  const rows = [
+    ["Trustworthiness", "What is near on the map is alike: 1 at best", trustworthiness, random],
+    ["Continuity", "What is alike is near on the map: 1 at best", continuity, random],
+    ["Stress", "How far distances are out of proportion: 0 at best", stress, randomStress],
+  ];
+  const known = rows.filter(([, , value]) => value !== null);
+  if (known.length === 0) return [];
+  return [
+    element(
+      "table",
+      { class: "measures" },
+      element(
+        "thead",
+        {},
+        element(
+          "tr",
+          {},
+          element("td"),
+          element("th", { scope: "col" }, "this map"),
+          element("th", { scope: "col" }, "at random"),
+        ),
+      ),
+      element(
+        "tbody",
+        {},
+        known.map(([name, meaning, value, chance]) =>
+          element(
+            "tr",
+            {},
+            element("th", { scope: "row" }, name, element("small", {}, meaning)),
+            element("td", {}, element("b", {}, figure(value))),
+            element("td", {}, figure(chance)),
+          ),
+        ),
+      ),
+    ),
+  ];
+}
+
+/**
+ * Draw every pair of shapes by its distance in the features and on the map, where it is known.
+ * @param {Method} method
+ */
+export function drawShepard({ faith }) {
+  const node = document.getElementById("shepard");
+  const { shepard = null } = faith ?? {};
+  node.hidden = shepard === null;
+  node.querySelector("svg")?.remove();
+  if (shepard !== null) node.prepend(shepardOf(shepard));
+}
+
+/** @param {Chunk.Shepard} shepard */
+function shepardOf({ columns, fit, height }) {
+  const wide = SIDE / columns.length;
+  const unit = SIDE / Math.max(height, 1);
+  const high = (unit * height) / columns.length;
+  /** @param {number} share */
+  const y = (share) => SIDE - share * unit;
+  const digits = Array.from({ length: 9 }, (_, place) => String(place + 1));
+  const cells = digits.map((digit) => {
+    const path = columns.flatMap((column, x) =>
+      Array.from(column, (own, row) =>
+        own === digit
+          ? `M${round(x * wide)} ${round(SIDE - (row + 1) * high)}h${round(wide)}v${round(high)}h${round(-wide)}z`
+          : "",
+      ),
+    );
+    return svg("path", { d: path.join(""), "fill-opacity": Number(digit) / 9 });
+  });
+  const line = fit.flatMap((value, x) => (value === null ? [] : [`${round((x + 0.5) * wide)} ${round(y(value))}`]));
+  return svg(
+    "svg",
+    {
+      viewBox: `0 0 ${SIDE + TEXT} ${SIDE + TEXT + 4}`,
+      role: "img",
+      "aria-label": "Shepard diagram: distances on the map, upwards, against distances in the features, to the right",
+    },
+    svg(
+      "g",
+      { transform: `translate(${TEXT} 0)` },
+      svg("rect", { class: "frame", x: 0, y: 0, width: SIDE, height: SIDE }),
+      svg("g", { class: "cells" }, cells),
+      svg("path", { class: "proportion", d: `M0 ${SIDE}L${SIDE} ${round(y(1))}` }),
+      svg("polyline", { class: "fit", points: line.join(" ") }),
+      svg("text", { x: SIDE / 2, y: SIDE + TEXT, "text-anchor": "middle" }, "distance in features"),
+      svg(
+        "text",
+        { transform: `translate(-5 ${SIDE / 2}) rotate(-90)`, "text-anchor": "middle" },
+        "distance on the map",
+      ),
+    ),
+  );
+}
+
+/** @param {number} value */
+function round(value) {
+  return Math.round(value * 100) / 100;
+}
