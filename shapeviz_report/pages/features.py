@@ -256,6 +256,7 @@ def _context(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[st
         "shapes": len(search.rows),
         "shape_count": search.shape_count,
         "labelled": labelled,
+        "measured": labelled or search.subsets.faithfulness is not None,
         "neighbours": search.k,
         "highest": _range(report, search).highest,
         "greedy": [greedy.s for greedy in search.greedy],

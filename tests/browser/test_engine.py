@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from engine_page import make_table
+from scipy.spatial.distance import cdist
 
-from shapeviz_report import quality
+from shapeviz_report import faithfulness, quality
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import TSNE_METHOD, UMAP_METHOD, project, squared_distances
@@ -62,6 +63,81 @@ def test_bins_grow_as_in_python(engine_page, random, unlabelled):
     path = grow(space, groups, 10, 12)
     assert len(path) > 4
     assert found.tolist() == path[-1][0]
+
+
+FAITH = ("mean", "chance", "trustworthiness", "continuity", "random", "stress", "randomStress")
+
+
+def python_faith(points, xy, k):
+    """As the engine answers, by the names that it has."""
+    found = faithfulness.rate_distances(cdist(points, points, "sqeuclidean"), xy.reshape(-1, 2), k)
+    nothing = np.full(len(points), np.nan)
+    return {
+        "kept": found.kept,
+        "false": nothing if found.false is None else found.false,
+        "missing": nothing if found.missing is None else found.missing,
+        "mean": found.kept.mean(),
+        "chance": found.chance,
+        "trustworthiness": found.trustworthiness,
+        "continuity": found.continuity,
+        "random": found.random,
+        "stress": found.stress,
+        "randomStress": found.random_stress,
+    }
+
+
+@pytest.mark.parametrize(
+    ("rows", "grid", "k"),
+    [
+        (60, None, 10),
+        (61, 4, 10),  # on a grid: many points are equally far, on the map and in the features
+        (30, 1, 10),  # all in one place
+        (12, None, 10),  # too few for ranks
+        (7, None, 10),
+        (2, None, 10),
+    ],
+)
+def test_who_is_like_whom_is_that_of_python(engine_page, random, rows, grid, k):
+    shape = (rows, 5)
+    points = (
+        np.round(random.normal(size=shape) * 4096) / 4096
+        if grid is None
+        else random.integers(0, 3, shape) * 1.0
+    )
+    xy = random.uniform(-1, 1, 2 * rows) if grid is None else random.integers(0, grid, 2 * rows) / 3
+    engine_page.start(points, scaling="plain")
+    found = engine_page.run("faith", **_laid_out(rows, 5), xy=xy, k=k)
+    for name, expected in python_faith(points, xy, k).items():
+        value = np.nan if expected is None else expected
+        np.testing.assert_allclose(found[name], value, rtol=0, atol=1e-9, err_msg=name)
+
+
+def test_who_is_like_whom_of_many_is_asked_of_some(engine_page, random):
+    points = np.round(random.normal(size=(1200, 3)) * 4096) / 4096
+    xy = points[:, :2].ravel() + random.normal(size=2400) / 4
+    engine_page.start(points, scaling="plain")
+    found = engine_page.run("faith", **_laid_out(1200, 3), xy=xy, k=10)
+    expected = python_faith(points, xy, 10)
+    asked = np.flatnonzero(~np.isnan(found["kept"]))
+    np.testing.assert_array_equal(asked, np.arange(300) * 4)
+    for name in ("kept", "false", "missing"):
+        np.testing.assert_allclose(found[name][asked], expected[name][asked], rtol=0, atol=1e-9)
+    for name in FAITH:
+        assert found[name] == pytest.approx(expected[name], abs=0.02), name
+
+
+def test_one_shape_is_like_nobody(engine_page):
+    engine_page.start(np.zeros((1, 2)), scaling="plain")
+    found = engine_page.run("faith", **_laid_out(1, 2), xy=np.zeros(2), k=10)
+    assert all(np.isnan(found[name]) for name in FAITH)
+
+
+def _laid_out(rows, columns):
+    return {
+        "rows": np.arange(rows, dtype=np.int32),
+        "columns": np.arange(columns, dtype=np.int32),
+        "by": "bins",
+    }
 
 
 @pytest.mark.parametrize("groups", [[0], [-1, -1, -1]])

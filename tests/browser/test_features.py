@@ -1,5 +1,6 @@
 """The Features page as a reader uses it, and the Overview's offer of feature subsets."""
 
+import csv
 import json
 import re
 
@@ -18,6 +19,18 @@ def subsets_of(site) -> list[dict]:
     """What the search found, from best to worst, as the site's data says it."""
     search = json.loads((site / "data" / "summary.json").read_text())["search"]
     return (search["exhaustive"] or search["evaluated"])["subsets"]
+
+
+def kept_of(site, column="kept") -> dict[str, float]:
+    """What the map of each subset reaches without labels, by its features."""
+    with (site / "data" / "subsets.csv").open() as lines:
+        rows = list(csv.DictReader(lines))
+    return {
+        " ".join(name[8:] for name, has in row.items() if name.startswith("feature:") and has == "1"): float(
+            row[column]
+        )
+        for row in rows
+    }
 
 
 def address(page) -> str:
@@ -253,11 +266,43 @@ class TestTables:
         page.click("#open-tables")
         text = page.locator("#tables").inner_text()
         for subset in subsets_of(site("searched")):
-            assert f"{subset['nh_s']:.3f}\t{', '.join(subset['features'])}" in text
+            assert re.search(rf"\t{subset['nh_s']:.3f}\t[^\n]*\t{', '.join(subset['features'])}\n", text)
         assert page.locator("#tables table").nth(1).locator("tbody tr").count() == 5
         assert page.locator("#tables table").last.locator("tbody tr").count() == 50
         page.keyboard.press("Escape")
         assert page.locator("#tables").is_hidden()
+
+
+class TestRankedWithoutLabels:
+    @pytest.mark.parametrize(
+        ("name", "title", "low"), [("kept", "Neighbours kept", False), ("stress", "Stress", True)]
+    )
+    def test_subsets_stand_in_another_order_and_lead_on_in_it(self, open_page, site, name, title, low):
+        page = open_page("searched", "features.html")
+        values = sorted(kept_of(site("searched"), name).values(), reverse=not low)
+        page.select_option("#rank", name)
+        eventually(page, lambda: f"rank={name}" in address(page))
+
+        def reads(place):
+            eventually(page, lambda: f"rank {place + 1} of {len(values)}" in reading(page))
+            assert f"{title} {values[place]:.3f}" in reading(page)
+
+        for place in (0, 3, len(values) - 1):
+            page.mouse.move(*place_on_screen(page, place, len(values)))
+            reads(place)
+        page.mouse.move(5, 5)
+        page.click("#panel [data-key=best]")
+        reads(0)
+        page.click("#panel [data-key=next]")
+        reads(1)
+        table = page.locator("#panel .measures tbody th").all_inner_texts()
+        assert table == ["Neighbours kept", "Trustworthiness", "Continuity", "Stress"]
+
+    def test_an_address_says_what_ranks(self, open_page, site):
+        page = open_page("searched", "features.html#rank=continuity")
+        assert page.locator("#rank").input_value() == "continuity"
+        assert page.locator("[data-rule=nh]").first.is_hidden()
+        assert "a map at random" in page.locator("[data-rule=chance]").inner_text()
 
 
 class TestTheme:
@@ -368,10 +413,18 @@ class TestStates:
         before = drawn(page, MAP)
         page.locator(".chip").first.click()
         eventually(page, lambda: (drawn(page, MAP) != before).any())
-        assert page.locator("#subset-bars").is_hidden()
+        # What needs no labels ranks all the same.
+        kept = kept_of(site("searched without labels"))
+        best = max(kept, key=kept.get)
         page.focus("#ranking")
         page.keyboard.press("Home")
-        assert reading(page) == "Pointed at Gc"
+        assert reading(page) == f"Pointed at rank 1 of 7 Neighbours kept {kept[best]:.3f} {best}"
+        assert [text.strip() for text in page.locator("#rank option").all_inner_texts()] == [
+            "Neighbours kept",
+            "Trustworthiness",
+            "Continuity",
+            "Stress",
+        ]
         page.click("#open-tables")
         subsets, shapes = page.locator("#tables table").all()
         assert subsets.locator("tbody tr").count() == 7

@@ -114,6 +114,7 @@ const subsets = {
   everything: 0,
   features: ["Gc", "FPFH"],
   data: search,
+  measures: [{ name: "nh" }, { name: "kept" }],
   names: (place) => SUBSETS[place],
   find: (names) => [0, 1, 2].find((place) => SUBSETS[place].join() === names.join()),
 };
@@ -135,7 +136,7 @@ const PAGES = {
     overviewAddress(database),
     [
       "",
-      "view=three&exact=",
+      "view=three&exact=&lines=none",
       "color=column%3Aplace&pictures=",
       "map=pca&color=hit&hide=ant&hide=cup+%26+plate&hide-unlabelled=",
       "select=ant%2F1&select=lost&open=bee%2F1&find=two+words&at=0.5%2C-0.25%2C3",
@@ -143,7 +144,11 @@ const PAGES = {
   ],
   features: [
     featuresAddress(subsets, database),
-    ["", "features=Gc&s=3&color=hit&select=lost&open=ant%2F1&at=0%2C1%2C40", "features=FPFH&s=none&color=bin%3AGc%3A1"],
+    [
+      "",
+      "features=Gc&s=3&rank=kept&color=map%3Afalse&select=lost&open=ant%2F1&lines=none&at=0%2C1%2C40",
+      "features=FPFH&s=none&color=bin%3AGc%3A1",
+    ],
   ],
   bins: [
     binsAddress(database, bins, selection, { bin: 5, group: 1 }),

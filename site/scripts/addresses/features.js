@@ -1,6 +1,6 @@
 // The state of the Features page in its address: the chosen subset, the greedy path, and the colours of the map.
 
-import { Address, named } from "../base/address.js";
+import { Address, choice, named } from "../base/address.js";
 import { CAMERA } from "./camera.js";
 import { coloredBy } from "./colors.js";
 import { LINES } from "./lines.js";
@@ -19,6 +19,7 @@ import { selected } from "./selected.js";
  * @property {number} chosen place of a subset
  * @property {number | null} pointedPlace
  * @property {number | null} s of the greedy path
+ * @property {string | null} rank the measure that subsets are ranked by
  * @property {string} color what it says: `class`, `hit`, or the key of a field or a bin
  * @property {number | null} method the map, once it is there
  * @property {import("../map/scene.js").Camera | null} camera
@@ -55,6 +56,13 @@ export function featuresAddress(subsets, database) {
         write: (/** @type {number | null} */ s) => [String(s ?? "none")],
       },
       standard: sizes[0] ?? null,
+    },
+    {
+      name: "rank",
+      key: "rank",
+      kind: choice(subsets.measures.map(({ name }) => name)),
+      standard: subsets.measures[0]?.name ?? null,
+      words: "what subsets are ranked by",
     },
     coloredBy(database),
     selected(database),

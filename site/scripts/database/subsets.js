@@ -4,6 +4,15 @@ import { chunk } from "../base/chunks.js";
 
 /** @import { Faith, ShapeMap } from "./database.js" */
 
+/**
+ * What each subset's map reaches by a measure, and what it is at random where that is the same for all.
+ * @typedef {object} SubsetMeasure
+ * @property {"nh" | "kept" | "trustworthiness" | "continuity" | "stress"} name
+ * @property {(number | null)[] | null} values by place
+ * @property {number | null} chance
+ * @property {boolean} low whether lower is better
+ */
+
 export class Subsets {
   /** @param {Chunk.Search} data */
   constructor(data) {
@@ -13,6 +22,38 @@ export class Subsets {
     this.labelled = data.hit[0] !== null;
     this.places = new Map(data.members.map((code, place) => [code, place]));
     this.everything = /** @type {number} */ (this.find(this.features));
+    this.measures = this.#measures();
+  }
+
+  /** What subsets can be ranked by, that of the labels first; places stand in its order. */
+  #measures() {
+    const { hit, chance, faith } = this.data;
+    /** @type {SubsetMeasure[]} */
+    const all = [
+      { name: "nh", values: this.labelled ? hit : null, chance, low: false },
+      ...(faith
+        ? /** @type {SubsetMeasure[]} */ ([
+            { name: "kept", values: faith.mean, chance: faith.chance, low: false },
+            { name: "trustworthiness", values: faith.trustworthiness, chance: faith.random, low: false },
+            { name: "continuity", values: faith.continuity, chance: faith.random, low: false },
+            { name: "stress", values: faith.stress, chance: null, low: true },
+          ])
+        : []),
+    ];
+    return all.filter(({ values }) => values?.some((value) => value !== null));
+  }
+
+  /**
+   * The places from the best to the worst by a measure; as they are where there is none.
+   * @param {SubsetMeasure | undefined} measure
+   */
+  ranked(measure) {
+    const places = Array.from({ length: this.count }, (_, place) => place);
+    if (measure === undefined || measure.name === "nh") return places;
+    const sign = measure.low ? 1 : -1;
+    /** @param {number} place */
+    const worth = (place) => sign * (measure.values?.[place] ?? sign * Infinity);
+    return places.sort((one, other) => worth(one) - worth(other) || one - other);
   }
 
   /**

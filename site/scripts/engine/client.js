@@ -53,7 +53,7 @@ export class Engine {
   }
 
   /**
-   * Run a task: "layout", "hit" or "score".
+   * Run a task: "layout", "hit", "faith" or "score".
    *
    * @param {string} name
    * @param {object} parameters copied to the worker

@@ -2,9 +2,11 @@
 
 import { element, focused } from "../base/dom.js";
 import { figure } from "../base/words.js";
+import { MEASURES, measuresOf } from "../map/measures.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Subsets } from "../database/subsets.js" */
+/** @import { MeasureName } from "../map/measures.js" */
 /** @import { Marks } from "./ranking.js" */
 
 export class Panel {
@@ -21,7 +23,7 @@ export class Panel {
     this.link = link;
     this.node = document.getElementById("panel");
     state.listen((changed) => {
-      if (changed.has("chosen") || changed.has("theme")) this.render();
+      if (["chosen", "rank", "theme"].some((name) => changed.has(name))) this.render();
     });
     this.render();
   }
@@ -41,6 +43,7 @@ export class Panel {
           subsets.data.order.map((feature) => this.#chip(place, feature)),
         ),
         this.#moves(place),
+        this.#truth(place),
         this.link &&
           element(
             "p",
@@ -52,13 +55,19 @@ export class Panel {
     if (kept !== undefined) this.node.querySelector(`[data-key="${kept}"]`)?.focus();
   }
 
+  /** The measure that subsets are ranked by. */
+  get #measure() {
+    return this.subsets.measures.find(({ name }) => name === this.state.get("rank"));
+  }
+
   #hint() {
-    if (!this.subsets.labelled)
+    const measure = this.#measure;
+    if (measure === undefined)
       return element("span", { class: "on-screen" }, "Switch a feature on or off to get to another subset.");
     return [
       element("span", { class: "on-screen" }, "Switch a feature on or off. "),
-      "Beside each stands by how much NH",
-      element("sub", {}, "s"),
+      "Beside each stands by how much ",
+      measure.name === "nh" ? ["NH", element("sub", {}, "s")] : MEASURES[measure.name].title.toLowerCase(),
       " would change.",
     ];
   }
@@ -109,10 +118,9 @@ export class Panel {
     const pressed = subsets.has(place, feature);
     const mark = element("i", { class: "hued" });
     mark.style.background = this.marks().features[subsets.data.hues[feature]];
+    const values = this.#measure?.values ?? null;
     const change =
-      target === undefined || !subsets.labelled
-        ? ""
-        : difference((subsets.data.hit[target] ?? 0) - (subsets.data.hit[place] ?? 0));
+      target === undefined || values === null ? "" : difference((values[target] ?? 0) - (values[place] ?? 0));
     const reason =
       pressed && subsets.single(place) >= 0 ? "A map needs at least one feature" : "This subset was not evaluated";
     return element(
@@ -132,12 +140,33 @@ export class Panel {
     );
   }
 
+  /**
+   * How truly its map shows who is alike by these features.
+   * @param {number} place
+   */
+  #truth(place) {
+    const faith = this.subsets.faith(place);
+    if (faith === null) return "";
+    const names = /** @type {MeasureName[]} */ (Object.keys(MEASURES));
+    return element(
+      "details",
+      { class: "truth", open: this.#opened, ontoggle: (event) => (this.#opened = event.target.open) },
+      element("summary", {}, "Does its map show who is alike by these features?"),
+      measuresOf(faith, names),
+    );
+  }
+
+  /** Whether the reader has asked how true maps are. */
+  #opened = true;
+
   /** @param {number} place */
   #moves(place) {
+    const measure = this.#measure;
+    const order = this.subsets.ranked(measure);
     /**
      * @param {string} key
      * @param {string} words
-     * @param {number} target
+     * @param {number | undefined} target
      */
     const move = (key, words, target) =>
       element(
@@ -146,18 +175,19 @@ export class Panel {
           type: "button",
           class: "plain",
           "data-key": key,
-          disabled: target === place || target < 0 || target >= this.subsets.count,
+          disabled: target === place || target === undefined,
           onclick: () => this.state.set({ chosen: target }),
         },
         words,
       );
+    const position = order.indexOf(place);
     return element(
       "div",
       { class: "moves" },
-      this.subsets.labelled && move("best", "Best", 0),
+      measure && move("best", "Best", order[0]),
       move("all", "All features", this.subsets.everything),
-      move("previous", this.subsets.labelled ? "‹ Better" : "‹ Previous", place - 1),
-      move("next", this.subsets.labelled ? "Worse ›" : "Next ›", place + 1),
+      move("previous", measure ? "‹ Better" : "‹ Previous", order[position - 1]),
+      move("next", measure ? "Worse ›" : "Next ›", order[position + 1]),
     );
   }
 }

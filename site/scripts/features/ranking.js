@@ -4,9 +4,10 @@ import { drawChart } from "../base/chart.js";
 import { element, pause, svg } from "../base/dom.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
+import { MEASURES } from "../map/measures.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
-/** @import { Subsets } from "../database/subsets.js" */
+/** @import { SubsetMeasure, Subsets } from "../database/subsets.js" */
 
 const BARS = 150;
 const ROW = 15;
@@ -29,6 +30,10 @@ export class Ranking {
   bars = null;
   width = 0;
   step = 0;
+  /** @type {number[]} the places of subsets, from left to right, and where each stands */
+  order = [];
+  /** @type {number[]} */
+  position = [];
 
   /**
    * @param {Subsets} subsets
@@ -44,7 +49,8 @@ export class Ranking {
     this.surface = document.getElementById("ranking");
     this.scroll = this.surface.parentElement;
     this.reading = document.getElementById("reading");
-    this.height = (subsets.labelled ? BARS : 0) + ROW * subsets.features.length;
+    this.top = subsets.measures.length > 0 ? BARS : 0;
+    this.height = this.top + ROW * subsets.features.length;
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
     this.levels = this.overlay.appendChild(svg("g", { class: "levels" }));
     this.pointed = this.overlay.appendChild(svg("rect", { class: "column pointed", y: 0, height: this.height }));
@@ -52,11 +58,44 @@ export class Ranking {
     this.path = this.overlay.appendChild(svg("g", { class: "path" }));
     this.surface.append(this.overlay);
     this.surface.style.height = `${this.height}px`;
-    if (subsets.labelled) {
-      document.getElementById("chance").textContent = figure(subsets.data.chance);
-      document.getElementById("chance-best").textContent = figure(subsets.data.chanceBest);
-    }
+    if (subsets.labelled) document.getElementById("chance-best").textContent = figure(subsets.data.chanceBest);
+    this.#offer();
+    this.#rank();
     this.#listen();
+  }
+
+  /** The measure that subsets are ranked by; undefined where nothing is known of any. */
+  get measure() {
+    return this.subsets.measures.find(({ name }) => name === this.state.get("rank"));
+  }
+
+  /** What subsets can be ranked by. */
+  #offer() {
+    const select = document.getElementById("rank");
+    if (!select) return;
+    select.replaceChildren(
+      ...this.subsets.measures.map(({ name }) => element("option", { value: name }, measureTitle(name))),
+    );
+    select.addEventListener("change", () => this.state.set({ rank: select.value }));
+  }
+
+  /** Put the subsets in their order, and say what it is. */
+  #rank() {
+    const { subsets, measure } = this;
+    this.order = subsets.ranked(measure);
+    this.position = [];
+    for (const [position, place] of this.order.entries()) this.position[place] = position;
+    if (measure === undefined) return;
+    const labelled = measure.name === "nh";
+    document.getElementById("rank").value = measure.name;
+    document.getElementById("rank-words").textContent =
+      measure.name === "nh"
+        ? ""
+        : `${MEASURES[measure.name].meaning}. The map of each subset is held to distances by its own features: whether these are worth comparing, it does not say.`;
+    for (const rule of document.querySelectorAll("[data-rule]"))
+      rule.hidden = rule.dataset.rule === "nh" ? !labelled : measure.chance === null;
+    document.getElementById("chance").textContent = figure(measure.chance);
+    document.querySelector("[data-rule=chance] > span").textContent = labelled ? "random labels" : "a map at random";
   }
 
   #listen() {
@@ -72,6 +111,7 @@ export class Ranking {
     state.listen((changed) => {
       if (changed.has("chosen") || changed.has("pointedPlace")) this.#point();
       if (changed.has("s")) this.#trace();
+      if (changed.has("rank")) this.#reorder();
     });
   }
 
@@ -87,11 +127,10 @@ export class Ranking {
     );
     this.matrix?.finalize();
     this.matrix = matrix.height(ROW * subsets.data.order.length);
-    if (subsets.labelled) {
+    if (subsets.measures.length > 0) {
       const bars = await drawChart(document.getElementById("subset-bars"), charts.bars, this.marks().config, "svg");
-      const rows = subsets.data.hit.map((hit, place) => ({ place, hit, feature: this.#hue(place) }));
       this.bars?.finalize();
-      this.bars = bars.signal("bar", this.marks().bar).height(BARS).data("subsets", rows);
+      this.bars = bars.signal("bar", this.marks().bar).height(BARS).data("subsets", this.#rows());
     }
     document
       .getElementById("rows")
@@ -102,6 +141,24 @@ export class Ranking {
       );
     this.step = 0;
     await this.resize();
+  }
+
+  #rows() {
+    return this.order.map((place, position) => ({
+      place: position,
+      hit: this.measure?.values?.[place] ?? null,
+      feature: this.#hue(place),
+    }));
+  }
+
+  async #reorder() {
+    this.#rank();
+    if (!this.step) return;
+    this.#level();
+    this.#point();
+    this.#trace();
+    this.bars?.data("subsets", this.#rows()).runAsync();
+    await this.matrix.data("rows", this.#cells(this.step > 2 ? this.step - 1 : this.step)).runAsync();
   }
 
   /** @param {number} place */
@@ -139,13 +196,13 @@ export class Ranking {
    */
   #cells(wide) {
     const { subsets, step } = this;
-    const places = Array.from({ length: subsets.count }, (_, place) => place);
     return subsets.data.order.map((feature, row) => {
       const [top, foot] = [row * ROW, (row + CELL) * ROW];
-      const coordinates = places
+      const coordinates = this.order
         .filter((place) => subsets.has(place, feature))
         .map((place) => {
-          const [left, right] = [place * step, place * step + wide];
+          const left = this.position[place] * step;
+          const right = left + wide;
           return [
             [
               [left, top],
@@ -161,41 +218,43 @@ export class Ranking {
   }
 
   #level() {
-    const { chance, chanceBest, highest } = this.subsets.data;
+    const { measure } = this;
+    const { chanceBest, highest } = this.subsets.data;
     /**
      * @param {number | null} value
      * @param {string} kind
      */
     const rule = (value, kind) =>
       value !== null && svg("line", { class: kind, x1: 0, x2: this.width, y1: this.#y(value), y2: this.#y(value) });
-    if (!this.subsets.labelled) return;
+    if (measure === undefined) return;
+    const labelled = measure.name === "nh";
     this.levels.replaceChildren(
       ...[
         rule(0.25, "grid"),
         rule(0.5, "grid"),
         rule(0.75, "grid"),
         rule(1, "grid"),
-        rule(chance, "rule"),
-        rule(chanceBest, "rule strong"),
-        isBelowOne(highest) && rule(highest, "rule most"),
+        rule(measure.chance, "rule"),
+        labelled && rule(chanceBest, "rule strong"),
+        labelled && isBelowOne(highest) && rule(highest, "rule most"),
       ].filter(Boolean),
     );
   }
 
   /** @param {number} place */
   #x(place) {
-    return (place + 0.5) * this.step;
+    return (this.position[place] + 0.5) * this.step;
   }
 
-  /** @param {number | null} hit */
-  #y(hit) {
-    return BARS * (1 - (hit ?? 0));
+  /** @param {number | null | undefined} value */
+  #y(value) {
+    return BARS * (1 - (value ?? 0));
   }
 
   /** @param {PointerEvent & Targeted} event */
   #at(event) {
-    const place = Math.floor((event.clientX - this.surface.getBoundingClientRect().left) / this.step);
-    return place >= 0 && place < this.subsets.count ? place : null;
+    const position = Math.floor((event.clientX - this.surface.getBoundingClientRect().left) / this.step);
+    return this.order[position] ?? null;
   }
 
   /** @param {KeyboardEvent & Targeted} event */
@@ -205,7 +264,8 @@ export class Ranking {
     const steps = { ArrowLeft: -1, ArrowRight: 1, PageUp: -LEAP, PageDown: LEAP, Home: -Infinity, End: Infinity };
     const from = this.state.get("pointedPlace") ?? this.state.get("chosen");
     if (event.key in steps) {
-      const place = Math.min(Math.max(from + steps[event.key], 0), this.subsets.count - 1);
+      const position = Math.min(Math.max(this.position[from] + steps[event.key], 0), this.subsets.count - 1);
+      const place = this.order[position];
       this.state.set({ pointedPlace: place });
       this.#reveal(place);
       this.announce(this.#words(place));
@@ -223,9 +283,11 @@ export class Ranking {
 
   /** @param {number} place */
   #words(place) {
-    const rank = this.subsets.labelled
-      ? `Rank ${place + 1} of ${this.subsets.count}, NH ${figure(this.subsets.data.hit[place])}: `
-      : "";
+    const { measure } = this;
+    const rank =
+      measure === undefined
+        ? ""
+        : `Rank ${this.position[place] + 1} of ${this.subsets.count}, ${measureTitle(measure.name)} ${figure(measure.values?.[place])}: `;
     return `${rank}${this.subsets.names(place).join(", ")}`;
   }
 
@@ -234,28 +296,28 @@ export class Ranking {
     const [pointed, chosen] = [this.state.get("pointedPlace"), this.state.get("chosen")];
     this.pointed.classList.toggle("shown", pointed !== null);
     if (pointed !== null) {
-      this.pointed.setAttribute("x", pointed * this.step - 1);
+      this.pointed.setAttribute("x", this.position[pointed] * this.step - 1);
       this.pointed.setAttribute("width", this.step + 1);
     }
-    this.chosen.setAttribute("x", chosen * this.step - 1);
+    this.chosen.setAttribute("x", this.position[chosen] * this.step - 1);
     this.chosen.setAttribute("width", this.step + 1);
     const place = pointed ?? chosen;
-    const { subsets } = this;
-    const scored = () => [
-      element("span", {}, "rank ", element("b", {}, String(place + 1)), ` of ${subsets.count}`),
+    const { subsets, measure } = this;
+    /** @param {SubsetMeasure} by */
+    const scored = ({ name, values }) => [
+      element("span", {}, "rank ", element("b", {}, String(this.position[place] + 1)), ` of ${subsets.count}`),
       element(
         "span",
         {},
-        "NH",
-        element("sub", {}, "s"),
+        name === "nh" ? ["NH", element("sub", {}, "s")] : measureTitle(name),
         " ",
-        element("b", {}, figure(subsets.data.hit[place])),
-        ofAtMost(subsets.data.highest),
+        element("b", {}, figure(values?.[place])),
+        name === "nh" && ofAtMost(subsets.data.highest),
       ),
     ];
     this.reading.replaceChildren(
       element("span", { class: "which" }, pointed === null ? "Chosen" : "Pointed at"),
-      ...(subsets.labelled ? scored() : []),
+      ...(measure === undefined ? [] : scored(measure)),
       element(
         "span",
         { class: "members" },
@@ -282,7 +344,7 @@ export class Ranking {
     words.replaceChildren();
     if (!greedy) return;
     const { hit } = this.subsets.data;
-    const places = greedy.path.map((place) => [this.#x(place), this.#y(hit[place])]);
+    const places = greedy.path.map((place) => [this.#x(place), this.#y(this.measure?.values?.[place])]);
     // Numbers that would touch the one before are left out; the words below have them all.
     const numbered = places.filter(([x], index) => index === 0 || Math.abs(x - places[index - 1][0]) >= CLOSEST);
     this.path.append(
@@ -318,4 +380,11 @@ export class Ranking {
       ` with ${count(greedy.runs, "map")} of ${this.subsets.count}; ${behind > 0 ? `rank ${last + 1}, ${figure(behind)} below the best.` : "the best of all."}`,
     );
   }
+}
+
+/**
+ * @param {SubsetMeasure["name"]} name
+ */
+export function measureTitle(name) {
+  return name === "nh" ? "NH" : MEASURES[name].title;
 }

@@ -4,6 +4,7 @@ import { dataLink, element } from "../base/dom.js";
 import { table } from "../base/tables.js";
 import { count, figure } from "../base/words.js";
 import { shapesTable } from "../map/tables.js";
+import { measureTitle } from "./ranking.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Database } from "../database/database.js" */
@@ -45,10 +46,12 @@ export function subsetTables(database, subsets, state, retrieval) {
       ),
     table(
       "Subsets",
-      subsets.labelled ? ["Rank", "NH", "Features"] : ["Number", "Features"],
-      places.map((place) =>
-        [String(place + 1), subsets.labelled && figure(data.hit[place]), names(place)].filter(Boolean),
-      ),
+      [subsets.labelled ? "Rank" : "Number", ...subsets.measures.map(({ name }) => measureTitle(name)), "Features"],
+      places.map((place) => [
+        String(place + 1),
+        ...subsets.measures.map(({ values }) => figure(values?.[place])),
+        names(place),
+      ]),
     ),
     subsets.count > MOST_ROWS &&
       element(

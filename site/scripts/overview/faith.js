@@ -1,7 +1,8 @@
 // How far the map in view shows who is like whom, whatever labels say: in words, in a few figures, and in a diagram.
 
 import { element, svg } from "../base/dom.js";
-import { capitalised, count, figure, grouped, listed, numberWord } from "../base/words.js";
+import { capitalised, count, grouped, listed, numberWord } from "../base/words.js";
+import { measuresOf } from "../map/measures.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Faith, Method } from "../database/database.js" */
@@ -39,7 +40,7 @@ export function tellFaith(database, method, state) {
     ),
     ...lost(database, method),
     colorings(method, state),
-    ...figures(faith),
+    measuresOf(faith),
   ];
 }
 
@@ -100,48 +101,6 @@ function colorings({ faith }, state) {
     ]),
     known.length > 1 ? " neighbours." : ".",
   );
-}
-
-/** @param {Faith} faith */
-function figures({ trustworthiness, continuity, random, stress, randomStress }) {
-  /** @type {[string, string, number | null, number | null][]} */
-  const rows = [
-    ["Trustworthiness", "What is near on the map is alike: 1 at best", trustworthiness, random],
-    ["Continuity", "What is alike is near on the map: 1 at best", continuity, random],
-    ["Stress", "How far distances are out of proportion: 0 at best", stress, randomStress],
-  ];
-  const known = rows.filter(([, , value]) => value !== null);
-  if (known.length === 0) return [];
-  return [
-    element(
-      "table",
-      { class: "measures" },
-      element(
-        "thead",
-        {},
-        element(
-          "tr",
-          {},
-          element("td"),
-          element("th", { scope: "col" }, "this map"),
-          element("th", { scope: "col" }, "at random"),
-        ),
-      ),
-      element(
-        "tbody",
-        {},
-        known.map(([name, meaning, value, chance]) =>
-          element(
-            "tr",
-            {},
-            element("th", { scope: "row" }, name, element("small", {}, meaning)),
-            element("td", {}, element("b", {}, figure(value))),
-            element("td", {}, figure(chance)),
-          ),
-        ),
-      ),
-    ),
-  ];
 }
 
 /**

@@ -220,7 +220,11 @@ export class Answers {
       (_, place) => (place % 2 === 0 ? x : y)[rows[place >> 1]],
     );
     // Told is what the unrounded map reaches.
-    return { ...(await this.#measured(run, projection, rows, xy)), hitOfAll: found.nh };
+    const columns = Int32Array.from(found.bins).sort();
+    return {
+      ...(await this.#measured(run, { method: projection, rows, columns, by: "bins" }, xy)),
+      hitOfAll: found.nh,
+    };
   }
 
   /**
@@ -417,7 +421,7 @@ export class Answers {
       if (told.partial) partial(this.#spread(rows, told.partial.xy, 0), this.#spread(rows, told.partial.xy, 1));
     };
     const { xy } = await run("layout", { method, rows, columns, by, start, seed: data.seed }, listen);
-    return this.#measured(run, method, rows, xy);
+    return this.#measured(run, { method, rows, columns, by }, xy);
   }
 
   /**
@@ -434,33 +438,53 @@ export class Answers {
   }
 
   /**
-   * A map of some shapes with its neighbourhood hits.
+   * A map of some shapes with its neighbourhood hits, and with how far it shows who is like whom.
    * @param {Run} run
-   * @param {string} method
-   * @param {ArrayLike<number> & Iterable<number>} rows
+   * @param {Layout} layout
    * @param {ArrayLike<number>} xy
    * @returns {Promise<ShapeMap>}
    */
-  async #measured(run, method, rows, xy) {
-    const { database, data } = this;
+  async #measured(run, { method, rows, columns, by }, xy) {
+    const { database, data, bins } = this;
     const groups = Int32Array.from(rows, (row) => database.groups[row]);
     const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
+    const { kept, false: wrong, missing, ...means } = await run("faith", { rows, columns, by, xy, k: data.neighbours });
+    /** @param {Float64Array} values */
+    const spread = (values) => {
+      const all = new Array(database.count).fill(null);
+      for (let index = 0; index < rows.length; index += 1) all[rows[index]] = known(values[index]);
+      return all;
+    };
     // Neighbours of one class cannot disagree.
     const several = new Set(groups.filter((group) => group >= 0)).size > 1;
-    const hits = new Array(database.count).fill(null);
-    for (let index = 0; index < rows.length; index += 1) hits[rows[index]] = known(hit[index]);
     return {
       key: "live",
       ...(this.titles.get(method) ?? { title: method }),
       features: [],
       x: this.#spread(rows, xy, 0),
       y: this.#spread(rows, xy, 1),
-      hit: hits,
+      hit: spread(hit),
       neighbours: Math.min(data.neighbours, rows.length - 1),
       hitOfClass: database.classes.map((_, group) => (several ? known(hitOfClass[group]) : null)),
       hitOfAll: several ? known(hitOfAll) : null,
       chance: several ? chance(groups) : null,
       chanceSpread: null,
+      compares:
+        by === "bins"
+          ? { columns: [...columns] }
+          : { features: [...new Set([...columns].map((column) => bins.featureOf(column)))] },
+      faith: {
+        kept: spread(kept),
+        false: spread(wrong),
+        missing: spread(missing),
+        mean: means.mean,
+        chance: means.chance,
+        trustworthiness: known(means.trustworthiness),
+        continuity: known(means.continuity),
+        random: known(means.random),
+        stress: known(means.stress),
+        randomStress: known(means.randomStress),
+      },
     };
   }
 

@@ -2,7 +2,7 @@
 
 import { element, focused } from "../base/dom.js";
 import { walk } from "../base/place.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, percent } from "../base/words.js";
 import { pictureOfMap } from "../map/plot.js";
 import { changes, turns } from "./history.js";
 
@@ -75,6 +75,7 @@ export class HistoryStrip {
     const map = mapOf(step);
     // Where steps were made by different projections, each says by which.
     const mixed = new Set(history.steps.map((one) => mapOf(one)?.title).filter(Boolean)).size > 1;
+    const kept = map?.faith ? percent(map.faith.mean) : "";
     const changed = place === 0 ? [] : changes(history.steps[place - 1], step);
     const turned = place === 0 ? [] : turns(history.steps[place - 1], step);
     const words =
@@ -100,16 +101,17 @@ export class HistoryStrip {
         "data-step": place,
         tabindex: place === history.at ? "0" : "-1",
         "aria-current": place === history.at ? "step" : null,
-        "aria-label": `Step ${place + 1}: ${words}${map?.hitOfAll ? `, NH ${figure(map.hitOfAll)}` : ""}`,
-        title: `Step ${place + 1}: ${words}. ${step.bins.size > 0 ? `The map of ${count(step.bins.size, "bin")}.` : "The original map; no bins were chosen."}`,
+        "aria-label": `Step ${place + 1}: ${words}${map?.hitOfAll ? `, NH ${figure(map.hitOfAll)}` : ""}${kept && `, ${kept} of the neighbours kept`}`,
+        title: `Step ${place + 1}: ${words}. ${step.bins.size > 0 ? `The map of ${count(step.bins.size, "bin")}.` : "The original map; no bins were chosen."}${kept && ` It keeps ${kept} of the neighbours.`}`,
         onclick: () => this.go(place),
       },
       map ? this.#pictureOf(step, map) : element("span", { class: "no-map" }),
       element(
         "span",
         { class: "told" },
-        map?.hitOfAll !== null &&
-          element("b", {}, map ? figure(map.hitOfAll) : "…", mixed && map && element("i", {}, map.title)),
+        // Without labels there is no NH.
+        (map?.hitOfAll ?? kept) !== "" &&
+          element("b", {}, map ? hitOrKept(map, kept) : "…", mixed && map && element("i", {}, map.title)),
         element("span", { class: "changed" }, parts),
       ),
     );
@@ -145,6 +147,14 @@ export class HistoryStrip {
  */
 function mapOf(step) {
   return step.bins.size > 0 ? step.refinedMap : step.originalMap;
+}
+
+/**
+ * @param {ShapeMap} map
+ * @param {string} kept
+ */
+function hitOrKept({ hitOfAll }, kept) {
+  return hitOfAll === null ? `${kept} kept` : figure(hitOfAll);
 }
 
 /** @param {string} word */

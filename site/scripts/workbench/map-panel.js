@@ -4,12 +4,14 @@ import { element } from "../base/dom.js";
 import { difference, symbol } from "../base/figures.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, rangeOf } from "../database/hit-range.js";
+import { MEASURES, measureOf } from "../map/measures.js";
 import { emptyMap } from "./empty-map.js";
 import { StatusLine } from "./status-line.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Database, Faith, ShapeMap } from "../database/database.js" */
+/** @import { MeasureName } from "../map/measures.js" */
 /** @import { Answers } from "./answers.js" */
 /** @import { Desk, Question, Which } from "./desk.js" */
 
@@ -59,6 +61,7 @@ class MapPanel {
     this.figure = document.querySelector(`figure[data-map="${which}"]`);
     this.madeFrom = this.figure.querySelector(".made-from");
     this.nh = this.figure.querySelector(".nh");
+    this.faith = this.figure.querySelector(".faith");
     this.blank = this.figure.querySelector(".empty");
     this.also = also;
     this.status = new StatusLine(this.figure.querySelector(".status"), {
@@ -96,6 +99,7 @@ class MapPanel {
         ? featureWords(this.state.get("features"), this.bins.features)
         : chosenWords(this.state.get("bins"));
     this.#showEmpty(map);
+    this.faith.replaceChildren(...(map?.faith ? faithParts(map.faith, map.neighbours) : []));
     this.figure.classList.toggle("stale", status.kind !== "answered" && map !== null);
     this.figure.classList.toggle("without", map === null);
     this.nh.replaceChildren(
@@ -151,6 +155,41 @@ class MapPanel {
     this.blank.hidden = map !== null || this.state.get(`${this.which}Status`).kind !== "none";
     if (!this.blank.hidden) this.blank.replaceChildren(...this.empty());
   }
+}
+
+/**
+ * How far a map shows who is like whom by what it is made from: another map is made from something else, so that there is
+ * nothing to compare with but chance.
+ * @param {Faith} faith
+ * @param {number} neighbours
+ */
+function faithParts(faith, neighbours) {
+  /** @param {number} share */
+  const many = (share) => (share * neighbours).toFixed(1);
+  /**
+   * @param {MeasureName} name
+   * @param {string} short
+   */
+  const part = (name, short) => {
+    const { value, chance } = measureOf(faith, name);
+    if (value === null) return "";
+    const title = `${MEASURES[name].meaning}; ${figure(chance)} on a map at random`;
+    return element("span", { class: "more", title }, `${short} `, element("b", {}, figure(value)));
+  };
+  return [
+    element(
+      "span",
+      {
+        title: `Of the ${neighbours} most alike by what this map is made from, so many are among the ${neighbours} nearest on it`,
+      },
+      "kept ",
+      element("b", {}, `${many(faith.mean)} of ${neighbours}`),
+      ` (at random ${many(faith.chance)})`,
+    ),
+    part("trustworthiness", "trust"),
+    part("continuity", "continuity"),
+    part("stress", "stress"),
+  ];
 }
 
 /** @param {Set<number>} bins */

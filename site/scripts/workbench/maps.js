@@ -55,7 +55,10 @@ export class WorkMaps {
       announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
     };
     this.gestures = new Map(this.views.map((view) => [view.surface, new Gestures(view, does)]));
-    state.listen((changed) => changed.has("color") && this.redraw());
+    state.listen((changed) => {
+      const made = changed.has("originalMap") || changed.has("refinedMap");
+      if (changed.has("color") || (made && state.get("coloring")?.of)) this.redraw();
+    });
   }
 
   /**
@@ -94,6 +97,7 @@ export class WorkMaps {
     if (!(await this.colors.make())) return;
     for (const view of this.views) {
       await pause();
+      if (this.state.get("coloring")?.of) await view.database.methods[0].know?.();
       view.colorBy(this.state.get("color"), this.state.get("coloring") ?? null);
       await view.start();
     }

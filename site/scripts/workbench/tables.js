@@ -4,12 +4,16 @@ import { difference } from "../base/figures.js";
 import { table } from "../base/tables.js";
 import { figure } from "../base/words.js";
 import { binTables } from "../bins-kit/bin-list.js";
+import { MEASURES, measureOf } from "../map/measures.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { MeasureName } from "../map/measures.js" */
 
 const MOST_ROWS = 500;
+
+const MEASURE_NAMES = /** @type {MeasureName[]} */ (Object.keys(MEASURES));
 
 /**
  * @param {Database} database
@@ -44,6 +48,14 @@ export function workTables(database, bins, state) {
    * @param {number} index
    */
   const place = (map, index) => (map === null ? ["–", "–"] : [figure(map.x[index]), figure(map.y[index])]);
+  /**
+   * @param {ShapeMap | null} map
+   * @param {MeasureName} name
+   */
+  const measured = (map, name) => {
+    const { value, chance } = map?.faith ? measureOf(map.faith, name) : { value: null, chance: null };
+    return [figure(value), figure(chance)];
+  };
   return {
     title: "The Workbench in figures",
     tables: [
@@ -53,6 +65,11 @@ export function workTables(database, bins, state) {
           ["Class", "Original map", "Refined map", "Change"],
           [row("All classes in use", original?.hitOfAll ?? null, refined?.hitOfAll ?? null), ...groups.map(hits)],
         ),
+      table(
+        "Who is like whom, by what each map is made from",
+        ["Measure", "Original map", "at random", "Refined map", "at random"],
+        MEASURE_NAMES.map((name) => [MEASURES[name].title, ...measured(original, name), ...measured(refined, name)]),
+      ),
       ...(scores === null ? [] : binTables(bins, scores, state.get("bins"))),
       table(
         "Shapes",
