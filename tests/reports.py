@@ -18,6 +18,7 @@ from shapeviz_report.bins import features_of, scale_bins
 from shapeviz_report.clusters import describe_clusters, part
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.exemplars import choose_exemplars
+from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS, compared_values, scale
@@ -139,6 +140,11 @@ def make_report(
         versions={"shapeviz-report": "0.1.0", "Python": "3.11"},
         seconds={"read": 0.1, "prepare": 12.5, "project": 3.25},
         cpu_seconds={"read": 0.1, "prepare": 24.0, "project": 3.0},
+        faithfulness=rate_maps(
+            scale(table, PRESETS["default"]),
+            {method: projection.xy for method, (projection, _) in projections.items()},
+            quality.NEIGHBOURS,
+        ),
     )
 
 

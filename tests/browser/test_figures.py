@@ -189,7 +189,7 @@ def test_a_sheet_is_the_same_from_a_page_of_any_theme_and_any_width(open_page, f
     page.wait_for_selector("html[data-ready]")
     # The charts of the Overview come when they are asked for; a printer waits for none.
     if file == "index.html":
-        page.locator("#how-good summary").click()
+        page.locator("#how-good > summary").click()
     for chart in page.locator("#boxes, #effect-dots, #bars").all():
         chart.locator("svg").first.wait_for(state="attached")
     page.evaluate(f"window.addEventListener('beforeprint', () => {{ window.drawn = ({DRAWN})() }})")

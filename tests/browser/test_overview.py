@@ -293,6 +293,127 @@ class TestColors:
         page.wait_for_selector("figure[data-slot=large][data-view=hit]")
 
 
+def truth_of(site, method) -> dict:
+    """How far a map shows who is like whom, as the site's data says it."""
+    return json.loads((site / "data" / "summary.json").read_text())["projections"][method]["faithfulness"]
+
+
+def shares_of(site, column) -> dict[str, float]:
+    """Of every shape, by its name."""
+    with (site / "data" / "shapes.csv").open() as lines:
+        return {row["name"]: float(row[column]) for row in csv.DictReader(lines)}
+
+
+def lines(page, kind) -> int:
+    """How many lines of a kind lead from a shape on the large map."""
+    return page.eval_on_selector(
+        f"{LARGE} .ties.{kind}",
+        "node => node.classList.contains('shown') ? node.getAttribute('d').split('M').length - 1 : 0",
+    )
+
+
+class TestWhoIsLikeWhom:
+    def test_it_is_told_in_words_and_figures_each_beside_chance(self, open_page, site):
+        page = open_page("plain", "index.html#map=umap")
+        words = re.sub(r"\s+", " ", asked(page))
+        truth = truth_of(site("plain"), "umap")
+        assert (
+            f"{10 * truth['kept']:.1f} of 10 {10 * truth['chance']['kept']:.1f} on a map at random" in words
+        )
+        for name in ("trustworthiness", "continuity", "stress"):
+            row = page.locator(".measures tbody tr", has_text=name.capitalize()).inner_text().split("\t")
+            assert row[1:] == [f"{truth[name]:.3f}", f"{truth['chance'][name]:.3f}"]
+        few = {
+            method: sum(share <= 0.2 for share in shares_of(site("plain"), f"kept:{method}").values())
+            for method in ("tsne", "umap", "pca")
+        }
+        assert f"{few['umap']} of 120 shapes keep two of them at most." in words
+        assert f"On the t-SNE map {few['tsne']} and on the PCA map {few['pca']} keep two at most." in words
+        assert page.locator("#shepard svg").is_visible()
+        assert page.locator("#shepard .cells path").count() == 9
+
+    def test_the_diagram_is_that_of_the_map_in_view(self, open_page):
+        page = open_page("plain")
+        asked(page)
+        before = page.locator("#shepard .fit").get_attribute("points")
+        page.click("#methods label:has-text('PCA')")
+        eventually(page, lambda: page.locator("#shepard .fit").get_attribute("points") != before)
+        assert page.locator("#shepard svg").count() == 1
+
+    @pytest.mark.parametrize(
+        ("words", "key", "title"),
+        [
+            ("neighbours kept", "kept", "Neighbours kept"),
+            ("false", "false", "False neighbours"),
+            ("missing", "missing", "Missing neighbours"),
+        ],
+    )
+    def test_the_map_is_coloured_a_click_away_by_what_is_in_view(self, open_page, site, words, key, title):
+        page = open_page("plain")
+        asked(page)
+        page.get_by_role("button", name=words, exact=True).click()
+        eventually(page, lambda: f"color=map:{key}" in address(page))
+        assert page.locator("#color-legend h2").inner_text() == title
+        for method, label in (("tsne", "t-SNE"), ("pca", "PCA")):
+            page.click(f"#methods label:has-text('{label}')")
+            # The shapes take less than a second on their way.
+            page.wait_for_timeout(900)
+            point(page, "ArrowRight")
+            shares = shares_of(site("plain"), f"{key}:{method}")
+            share = 100 * shares[page.locator("#card .name").inner_text()]
+            found = re.search(rf"{title}: ([\d.]+) %", page.locator("#card").inner_text())
+            assert float(found[1]) == pytest.approx(share, abs=0.51 if share >= 9.95 else 0.051)
+
+    def test_lines_lead_to_the_most_alike_near_and_elsewhere(self, open_page, site):
+        page = open_page("plain")
+        kept = shares_of(site("plain"), "kept:tsne")
+        for key in ("ArrowRight", "ArrowDown", "ArrowLeft"):
+            point(page, key)
+            eventually(page, lambda: "most alike" in page.locator("#card").inner_text())
+            near = round(10 * kept[page.locator("#card .name").inner_text()])
+            assert (lines(page, "kept"), lines(page, "missing"), lines(page, "false")) == (
+                near,
+                10 - near,
+                10 - near,
+            )
+            number = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"][
+                10 - near
+            ]
+            said = {
+                0: "All of the ten most alike are near it.",
+                10: "All of the ten most alike are elsewhere on the map.",
+            }
+            told = said.get(
+                10 - near,
+                f"{number.capitalize()} of the ten most alike {'is' if near == 9 else 'are'} elsewhere on the map.",
+            )
+            assert told in page.locator("#card").inner_text()
+        page.uncheck("#lines")
+        eventually(page, lambda: "lines=none" in address(page))
+        assert lines(page, "kept") == lines(page, "missing") == 0
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert not page.is_checked("#lines")
+
+    def test_an_opened_shape_keeps_its_lines(self, open_page):
+        page = open_page("plain")
+        point(page, "ArrowRight")
+        page.keyboard.press("Enter")
+        page.wait_for_selector("#detail h2")
+        eventually(page, lambda: lines(page, "kept") + lines(page, "missing") == 10)
+        page.evaluate("document.activeElement.blur()")
+        page.mouse.move(5, 5)
+        eventually(page, lambda: lines(page, "kept") + lines(page, "missing") == 10)
+        page.uncheck("#lines")
+        eventually(page, lambda: lines(page, "near") == 10)
+
+    def test_without_labels_it_is_told_all_the_same(self, open_page):
+        page = open_page("searched without labels", "index.html")
+        page.click("#how-good summary")
+        assert "Does it show who is like whom?" in page.locator("#quality").inner_text()
+        assert page.locator("#shepard svg").is_visible()
+
+
 class TestPointing:
     def test_hover_shows_picture_name_class_and_neighbours(self, open_page):
         page = open_page("plain")

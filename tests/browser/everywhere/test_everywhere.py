@@ -136,6 +136,16 @@ def test_the_mouse_shows_a_shape_and_a_click_opens_it(visit):
     window.until("() => document.getElementById('detail').hidden")
 
 
+def test_lines_lead_from_a_shape_to_those_most_alike(visit):
+    window = visit("plain", "index.html#view=class")
+    point_at_a_shape(window)
+    window.until("() => document.getElementById('card').innerText.includes('most alike')")
+    window.until("() => document.querySelector('.ties.kept.shown, .ties.missing.shown') !== null")
+    window.evaluate("() => document.getElementById('lines').click()")
+    window.until("() => document.querySelector('.ties.shown') === null")
+    addressed(window, "lines=none")
+
+
 def test_keys_go_through_a_map_and_select(visit):
     window = visit("plain", "index.html")
     window.evaluate("(selector) => document.querySelector(selector).focus()", LARGE)
