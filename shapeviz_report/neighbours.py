@@ -13,11 +13,17 @@ import numpy.typing as npt
 from scipy.cluster.hierarchy import leaves_list, linkage
 from scipy.spatial import KDTree
 from scipy.spatial.distance import pdist
+from threadpoolctl import threadpool_limits
 
+from shapeviz_report.diffusion import diffuse
+from shapeviz_report.projections import canonical_order, squared_distances
 from shapeviz_report.types import FloatArray, IntArray
 
 KIN = 5
 """Nearest shapes of a class that say how far one is from it. Three to five find swapped labels best."""
+
+RELATED = 48
+"""Most similar shapes by neighbourhood that are kept of each."""
 
 _BLOCK = 8_000_000
 """Distances at a time."""
@@ -72,6 +78,35 @@ def find_nearest(points: FloatArray, k: int) -> IntArray:
         order = np.argsort(np.take_along_axis(squared, candidates, axis=1), axis=1, kind="stable")
         nearest[rows] = np.take_along_axis(candidates, order, axis=1)
     return nearest
+
+
+def find_related(points: FloatArray, count: int) -> IntArray:
+    """The rows most similar to each by distances that know their neighbourhood, the most similar first.
+
+    Parameters
+    ----------
+    points : (n, d) float array
+        At most :data:`~shapeviz_report.projections.base.PAIRWISE_LIMIT` rows.
+    count : int
+        Most rows to find for each.
+
+    Returns
+    -------
+    (n, min(count, n - 1)) int32 array
+        Of rows that are equally near by :func:`~shapeviz_report.diffusion.diffuse`, those first that are nearer by
+        plain distances.
+    """
+    order = canonical_order(points)
+    with threadpool_limits(limits=1):
+        squared = squared_distances(points[order])
+        diffused = diffuse(squared)
+    for distances in (squared, diffused):
+        np.fill_diagonal(distances, np.inf)
+    # Rounding makes no order.
+    nearest = np.lexsort((squared, np.round(diffused, 9)))[:, : min(count, len(points) - 1)]
+    found = np.empty(nearest.shape, np.int32)
+    found[order] = order[nearest]
+    return found
 
 
 def find_fits(points: FloatArray, codes: npt.NDArray[np.int_]) -> Fits:

@@ -16,6 +16,7 @@ from solids import ball
 from shapeviz_report import quality
 from shapeviz_report.bins import features_of, scale_bins
 from shapeviz_report.clusters import describe_clusters, part
+from shapeviz_report.diffusion import diffuse
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.faithfulness import rate_maps
@@ -273,6 +274,7 @@ def with_retrieval(report: Report) -> Report:
             subsets=tuple(rate_subsets(space.squared, codes, list(subsets))),
             bins=bins,
             by_bins=by_bins,
+            by_neighbourhood=rate(diffuse(space.squared.sum(axis=0)), codes),
             chance=rate_chance(codes),
         ),
     )

@@ -22,6 +22,7 @@ from shapeviz_report.building.questions import (
     paint_all,
     project_all,
     rate_all,
+    relate_all,
     score_all,
     search_all_bins,
     search_subsets,
@@ -171,6 +172,7 @@ def build_report(
         space = make_space(features, scaled, labels, seed=config.seed)
         mapped = scaled if bins is None else scale_bins(features, preset, bins)
         projections = project_all(run, space, features, bins, mapped, config.seed)
+        related = relate_all(run, scaled)
         search = search_subsets(run, space, labels, groups, config)
         scores = score_all(run, compared_values(features, preset), labels, config.seed)
         found = search_all_bins(run, features, scaled, labels, groups, config)
@@ -244,6 +246,7 @@ def build_report(
         copies=copies,
         without_copies=without_copies,
         faithfulness=faithfulness,
+        related=related,
     )
     with clock.stage("write", "Writing the site"):
         write_site(report, destination, single_file=config.single_file)

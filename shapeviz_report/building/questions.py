@@ -19,6 +19,7 @@ from shapeviz_report.building.stages import (
     COMPARE,
     PAINT,
     PROJECT,
+    RELATE,
     RETRIEVE,
     SCORE,
     SEARCH,
@@ -28,11 +29,12 @@ from shapeviz_report.building.stages import (
 from shapeviz_report.clusters import describe_clusters
 from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline, join_copies, pair_outlines
+from shapeviz_report.diffusion import diffuse
 from shapeviz_report.features import BINS
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS
-from shapeviz_report.projections import PROJECTIONS, align, squared_distances
+from shapeviz_report.projections import PAIRWISE_LIMIT, PROJECTIONS, align, squared_distances
 from shapeviz_report.retrieval import query_classes, rate_chance
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, planned_runs, search_features
@@ -126,18 +128,20 @@ def project_all(
     values: FloatArray,
     seed: int,
 ) -> dict[str, Projection]:
-    """The map of every method from the scaled values of all columns or of some bins, turned to agree with the first."""
+    """The map of every method that takes so many rows, turned to agree with the first; from the scaled values of all
+    columns or of some bins."""
     names = features_of(features, features.columns if bins is None else bins)
     # Where the search takes all shapes, its map of all features is the map: t-SNE and UMAP make another one of sums
     # that differ in their last digits.
     whole = bins is None and len(space.rows) == len(values)
-    methods = [method.name for method in PROJECTIONS]
-    shared = {method.name for method in PROJECTIONS if method.rounds and whole}
+    offered = [method for method in PROJECTIONS if method.takes(len(values))]
+    methods = [method.name for method in offered]
+    shared = {method.name for method in offered if method.rounds and whole}
     everything = (space.everything,)
     content = sha256(values.tobytes()).hexdigest()
     own = {
         method.name: Task.of(PROJECT.key(method.name, values.shape, content, seed), method.name, values, seed)
-        for method in PROJECTIONS
+        for method in offered
         if method.name not in shared
     }
     of_search = {
@@ -158,6 +162,15 @@ def project_all(
             found[method][space.rows] = made.xy[0]
     maps = {method: Projection(method, names, seed, found[method], bins) for method in methods}
     return {method: align(maps[method], maps[methods[0]]) for method in methods}
+
+
+def relate_all(run: Runner, scaled: FloatArray) -> IntArray | None:
+    """The shapes most similar to each by distances that know their neighbourhood; None where there are too many for
+    these."""
+    if len(scaled) > PAIRWISE_LIMIT:
+        return None
+    key = RELATE.key(scaled.shape, sha256(scaled.tobytes()).hexdigest())
+    return run.all(RELATE, {"all": Task.of(key, scaled)})["all"]
 
 
 def search_subsets(
@@ -291,7 +304,8 @@ def rate_all(
     by_bins: FloatArray | None,
 ) -> Retrieval | None:
     """How well shapes of a class are found by each feature alone, all of them, the subsets of the search, and by some
-    bins, whose scaled values of all shapes are ``by_bins``."""
+    bins, whose scaled values of all shapes are ``by_bins``; all features by distances that know their neighbourhood
+    too."""
     classes, codes = query_classes([labels[row] for row in space.rows])
     if not classes:
         return None
@@ -302,6 +316,10 @@ def rate_all(
     questions = [
         ("subsets", tuple(subsets[i : i + RATINGS_A_TASK])) for i in range(0, len(subsets), RATINGS_A_TASK)
     ]
+    if space.shape_count <= PAIRWISE_LIMIT:
+        squared = diffuse(space.squared.sum(axis=0, dtype=np.float64))[None]
+        distances["neighbourhood"] = (sha256(squared.tobytes()).hexdigest(), squared)
+        questions.append(("neighbourhood", (1,)))
     if by_bins is not None:
         squared = squared_distances(by_bins[space.rows])[None]
         distances["bins"] = (sha256(squared.tobytes()).hexdigest(), squared)
@@ -324,6 +342,7 @@ def rate_all(
             rating for question in questions if question[0] == "subsets" for rating in found[question]
         ),
         bins=bins,
+        by_neighbourhood=found["neighbourhood", (1,)][0] if "neighbourhood" in distances else None,
         by_bins=None if by_bins is None else found["bins", (1,)][0],
         chance=rate_chance(codes),
     )

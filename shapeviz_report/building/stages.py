@@ -33,6 +33,7 @@ from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, PosedShape
 from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
 from shapeviz_report.mesh.clean import bounding_diagonal
 from shapeviz_report.models import pack_model, simplify
+from shapeviz_report.neighbours import RELATED, find_related
 from shapeviz_report.projections import PROJECTIONS, project
 from shapeviz_report.render import (
     choose_view,
@@ -241,6 +242,12 @@ def project_features(method: str, values: FloatArray, seed: int) -> bytes:
     return _pack_array(project(next(m for m in PROJECTIONS if m.name == method), values, (), seed).xy)
 
 
+def relate_shapes(values: FloatArray) -> bytes:
+    """The rows most similar to each of ``values`` by neighbourhood; an array (n, m) as a file. See
+    :func:`~shapeviz_report.neighbours.find_related`."""
+    return _pack_array(find_related(values, RELATED))
+
+
 def cluster_features(values: FloatArray, seed: int) -> bytes:
     """The rows of ``values`` in groups, for :func:`read_partition`; see :func:`shapeviz_report.clusters.part`."""
     found = part(values, seed=seed)
@@ -389,6 +396,10 @@ PROJECT = Stage(
     "project", "Projecting", "projected", project_features, read_array,
     "The projection {task} failed: {reason}.",
 )  # fmt: skip
+RELATE = Stage(
+    "relate", "Finding neighbourhoods", "related", relate_shapes, read_array,
+    "Finding the neighbourhoods of the shapes failed: {reason}.",
+)  # fmt: skip
 SEARCH = Stage(
     "search", "Searching features", "searched", map_features, read_maps,
     "The search for the best features failed: {reason}; --search none leaves it out.",
@@ -438,7 +449,7 @@ def _read_arrays(content: bytes) -> dict[str, Any]:
         return dict(archive)
 
 
-def _pack_array(values: FloatArray) -> bytes:
+def _pack_array(values: npt.NDArray[Any]) -> bytes:
     buffer = io.BytesIO()
     np.save(buffer, values)
     return buffer.getvalue()

@@ -372,6 +372,7 @@ class Retrieval(TypedDict):
     subsets: list[Rated]
     bins: list[str] | None
     byBins: Rated | None
+    byNeighbourhood: Rated | None
     chance: Rated
     marks: dict[ThemeName, FeatureMarks]
 
@@ -679,6 +680,8 @@ class Chunks(TypedDict, total=False):
 
     Attributes
     ----------
+    related : list of list of int, or None
+        The shapes most similar to each by neighbourhood, the most similar first; None where there are too many.
     neighbours : bytes
         Of each of the ``spaces`` of a comparison, the nearest shapes of every shape; little-endian uint32.
     bins : bytes
@@ -700,6 +703,7 @@ class Chunks(TypedDict, total=False):
     neighbours: bytes
     retrieval: Retrieval
     search: Search
+    related: list[list[int]] | None
     subsets: SubsetMaps
     faith: SubsetNeighbours
     workbench: Workbench

@@ -76,6 +76,9 @@ def retrieval_chunk(report: Report, retrieval: Retrieval) -> chunks.Retrieval:
         "subsets": [_rated(retrieval, rating) for rating in retrieval.subsets],
         "bins": None if retrieval.bins is None else list(retrieval.bins),
         "byBins": None if retrieval.by_bins is None else _rated(retrieval, retrieval.by_bins),
+        "byNeighbourhood": (
+            None if retrieval.by_neighbourhood is None else _rated(retrieval, retrieval.by_neighbourhood)
+        ),
         "chance": _rated(retrieval, retrieval.chance),
         "marks": feature_marks(),
     }

@@ -34,8 +34,8 @@ class Method:
         The fewest rows it can lay out; fewer are laid out by principal components.
     arrange : callable
         ``(squared distances (n, n), seed) -> (n, 2)``, for up to ``PAIRWISE_LIMIT`` rows.
-    embed : callable
-        ``(values (n, w), seed) -> (n, 2)``, for more.
+    embed : callable or None
+        ``(values (n, w), seed) -> (n, 2)``, for more; None where more cannot be laid out.
     rounds : int
         Seeds by which a search of the features repeats its maps (paper, Table 2); 0 where none is offered.
     """
@@ -45,8 +45,12 @@ class Method:
     explanation: str
     smallest: int
     arrange: Callable[[FloatArray, int], FloatArray]
-    embed: Callable[[FloatArray, int], FloatArray]
+    embed: Callable[[FloatArray, int], FloatArray] | None
     rounds: int = 0
+
+    def takes(self, count: int) -> bool:
+        """Whether it can lay out so many rows."""
+        return self.embed is not None or count <= PAIRWISE_LIMIT
 
 
 def principal_components(values: FloatArray) -> FloatArray:
@@ -98,7 +102,7 @@ def project(method: Method, values: FloatArray, features: Sequence[str], seed: i
     ----------
     method : Method
     values : (n, w) float array
-        Scaled features, one row a shape; at least one row.
+        Scaled features, one row a shape; at least one row, and as many as the method takes.
     features : names of the features in ``values``
         Recorded in the result.
     seed : int
@@ -109,7 +113,7 @@ def project(method: Method, values: FloatArray, features: Sequence[str], seed: i
     """
     order = canonical_order(values)
     with threadpool_limits(limits=1):
-        if len(values) <= PAIRWISE_LIMIT:
+        if method.embed is None or len(values) <= PAIRWISE_LIMIT:
             placed = arrange(method, squared_distances(values[order]), seed)
         else:
             placed = _upright(method.embed(values[order], seed))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from shapeviz_report.order import classes_of, natural
-from shapeviz_report.types.arrays import FloatArray
+from shapeviz_report.types.arrays import FloatArray, IntArray
 from shapeviz_report.types.bins import BinScores, BinSearch, Painting
 from shapeviz_report.types.clusters import Clusters
 from shapeviz_report.types.copies import Copy, WithoutCopies
@@ -70,6 +70,9 @@ class Report:
         None where there are no copies.
     faithfulness : mapping of str to Faithfulness
         By projection; empty for one shape.
+    related : (n, m) int32 array, or None
+        The shapes most similar to each by distances that know their neighbourhood, the most similar first; None where
+        there are too many for these.
     """
 
     database: Database
@@ -97,6 +100,7 @@ class Report:
     copies: tuple[Copy, ...] = ()
     without_copies: WithoutCopies | None = None
     faithfulness: Mapping[str, Faithfulness] = field(default_factory=dict)
+    related: IntArray | None = None
 
     def __post_init__(self) -> None:
         """Check what templates and scripts take for granted; a ``ValueError`` is an error of the caller."""
@@ -138,6 +142,8 @@ class Report:
         if self.models is not None:
             _require(len(self.models) == count, "models do not match the shapes")
             _require(all(model[:2] == b"\x1f\x8b" for model in self.models), "a model is not gzipped")
+        if self.related is not None:
+            _require(len(self.related) == count, "related shapes of another number of shapes")
         if self.clusters is not None:
             found = self.clusters
             _require(found.of.shape == (count,), "clusters do not match the shapes")

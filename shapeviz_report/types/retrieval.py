@@ -50,6 +50,8 @@ class Retrieval:
         separate all classes, if a search found some.
     by_bins : Rating or None
         By these.
+    by_neighbourhood : Rating or None
+        All features, by distances that know their neighbourhood; None where there are too many shapes for these.
     chance : Rating
         What a random order reaches on average.
     """
@@ -63,6 +65,7 @@ class Retrieval:
     subsets: tuple[Rating, ...]
     bins: tuple[str, ...] | None
     by_bins: Rating | None
+    by_neighbourhood: Rating | None
     chance: Rating
 
     def over_shapes(self, values: FloatArray) -> FloatArray:

@@ -224,6 +224,7 @@ declare namespace Chunk {
     subsets: Rated[];
     bins: string[] | null;
     byBins: Rated | null;
+    byNeighbourhood: Rated | null;
     chance: Rated;
     marks: Record<"light" | "dark", FeatureMarks>;
   }
@@ -475,6 +476,7 @@ declare namespace Chunk {
     neighbours: ArrayBuffer;
     retrieval: Retrieval;
     search: Search;
+    related: number[][] | null;
     subsets: SubsetMaps;
     faith: SubsetNeighbours;
     workbench: Workbench;

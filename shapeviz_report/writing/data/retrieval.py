@@ -19,7 +19,7 @@ def retrieval_summary(retrieval: Retrieval) -> dict[str, object]:
         }
 
     best = best_subset(retrieval)
-    by_bins = None
+    by_bins, neighbourhood = None, retrieval.by_neighbourhood
     if retrieval.bins is not None and retrieval.by_bins is not None:
         by_bins = {"bins": list(retrieval.bins), **rated(retrieval.by_bins)}
     return {
@@ -30,6 +30,7 @@ def retrieval_summary(retrieval: Retrieval) -> dict[str, object]:
         "features": {name: rated(retrieval.subsets[retrieval.place((name,))]) for name in retrieval.features},
         "everything": rated(retrieval.subsets[retrieval.place(retrieval.features)]),
         "best": {"features": list(retrieval.names(best)), **rated(retrieval.subsets[best])},
+        "neighbourhood": None if neighbourhood is None else rated(neighbourhood),
         "bins": by_bins,
         "chance": rated(retrieval.chance),
     }
@@ -70,6 +71,8 @@ def _rated(retrieval: Retrieval) -> list[tuple[list[str], Rating]]:
     flags = np.where(retrieval.members, "1", "0").tolist()
     rated = [([*row, "features"], rating) for row, rating in zip(flags, retrieval.subsets, strict=True)]
     nothing = [""] * len(retrieval.features)
+    if retrieval.by_neighbourhood is not None:
+        rated.append(([*nothing, "neighbourhood"], retrieval.by_neighbourhood))
     if retrieval.by_bins is not None:
         rated.append(([*nothing, "bins"], retrieval.by_bins))
     return [*rated, ([*nothing, "random order"], retrieval.chance)]

@@ -1,7 +1,7 @@
 // What the page of a shape shows, in its address: the shape by its id, what similar means, the map, the painted bin, the
 // parts of features in sight, another shape beside it, and the selection that came along.
 
-import { Address, named, text } from "../base/address.js";
+import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { selected } from "./selected.js";
 
@@ -18,6 +18,7 @@ import { selected } from "./selected.js";
  * @property {number} method the map
  * @property {string} features
  * @property {string} bins
+ * @property {boolean} neighbourhood whether similar shapes are those by neighbourhood, of all features
  * @property {string | null} bin
  * @property {string} parts
  * @property {number | null} beside a shape whose surface is compared with this one's
@@ -37,6 +38,7 @@ export function shapePageAddress(database) {
     { name: "method", key: "map", kind: named(database.methods.map(({ key }) => key)), standard: 0 },
     { name: "features", key: "features", kind: text, standard: "", words: "what similar means" },
     { name: "bins", key: "bins", kind: text, standard: "" },
+    { name: "neighbourhood", key: "neighbourhood", kind: flag, standard: false, words: "the order by neighbourhood" },
     { name: "bin", key: "bin", kind: text, standard: null },
     { name: "parts", key: "parts", kind: text, standard: "" },
     { name: "beside", key: "beside", kind: shapeId(database), standard: null, words: "the shape beside it" },

@@ -51,8 +51,20 @@ export class Similarity {
    */
   rank(row, choice, count) {
     const squared = this.#choose(row, choice);
+    return this.tell(row, first(squared, row, count), choice);
+  }
+
+  /**
+   * How far some shapes are from the one of a row, and in what they are like it.
+   * @param {number} row
+   * @param {number[]} others
+   * @param {Choice} choice
+   * @returns {Similar[]}
+   */
+  tell(row, others, choice) {
+    const squared = this.#choose(row, choice);
     const { byFeature, sorted } = this.#know(row);
-    return first(squared, row, count).map((other) => ({
+    return others.map((other) => ({
       row: other,
       distance: Math.sqrt(squared[other]),
       closer: byFeature.map((own, feature) => shareFarther(sorted[feature], own[other])),

@@ -4,7 +4,7 @@
  * What is drawn and listed: what is compared, and what it reaches; `row` is that of a subset.
  * @typedef {object} Choice
  * @property {string} key
- * @property {"chosen" | "everything" | "best" | "feature" | "bins" | "chance"} kind
+ * @property {"chosen" | "everything" | "best" | "feature" | "neighbourhood" | "bins" | "chance"} kind
  * @property {number} [row]
  * @property {number} [feature]
  * @property {Chunk.Rated} rating
@@ -48,8 +48,8 @@ export class Ratings {
   }
 
   /**
-   * What is drawn and listed: the chosen subset, all features, the best subset where there was a choice, each feature
-   * alone, bins, chance. What is two of these stands there once. `row` is that of a subset, else undefined.
+   * What is drawn and listed: the chosen subset, all features and these by neighbourhood, the best subset where there was a
+   * choice, each feature alone, bins, chance. What is two of these stands there once. `row` is that of a subset, else undefined.
    * @param {number} chosen
    * @returns {Choice[]}
    */
@@ -77,12 +77,16 @@ export class Ratings {
     const once = given
       .filter(({ row }, place) => rows.indexOf(row) === place)
       .map((choice) => ({ ...choice, rating: data.subsets[choice.row] }));
-    const bins = data.byBins;
-    return [
-      ...once,
-      ...(bins ? [/** @type {Choice} */ ({ key: "bins", kind: "bins", rating: bins })] : []),
-      { key: "chance", kind: "chance", rating: data.chance },
+    /** @type {["neighbourhood" | "bins" | "chance", Chunk.Rated | null][]} */
+    const others = [
+      ["neighbourhood", data.byNeighbourhood],
+      ["bins", data.byBins],
+      ["chance", data.chance],
     ];
+    const rated = others.flatMap(([kind, rating]) => (rating ? [{ key: kind, kind, rating }] : []));
+    const beside = rated.filter(({ kind }) => kind === "neighbourhood");
+    const place = once.findIndex(({ row }) => row === this.everything) + 1;
+    return [...once.slice(0, place), ...beside, ...once.slice(place), ...rated.slice(beside.length)];
   }
 
   /**

@@ -191,6 +191,7 @@ class RetrievalSection {
    * @param {Choice} choice
    */
   #others({ kind }) {
+    if (kind === "neighbourhood") return "All features, by neighbourhood";
     return kind === "chance" ? "random order" : count(this.ratings.data.bins?.length ?? 0, "chosen bin");
   }
 

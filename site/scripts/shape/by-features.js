@@ -47,9 +47,15 @@ export async function showFeatures(database, state, { links, portrait }) {
   const waiting = document.getElementById("waiting");
   waiting.textContent =
     database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
-  const [data, bytes, selection, details] = await chunks("workbench", "bins", "selection", "details");
+  const [data, bytes, selection, details, related] = await chunks(
+    "workbench",
+    "bins",
+    "selection",
+    "details",
+    "related",
+  );
   const bins = new Bins(data, bytes);
-  const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, state);
+  const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, related, state);
   const histograms = new Histograms(database, bins, state, {
     spread: new Spread(database, bins),
     dimensions: selection.dimensions,

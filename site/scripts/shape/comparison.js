@@ -13,10 +13,12 @@ export class Comparison {
   /**
    * @param {Chunk.Workbench} data
    * @param {number[] | null} selected the bins of the site's own search
+   * @param {number[][] | null} related the shapes most similar to each by neighbourhood
    * @param {ShapeState} state
    */
-  constructor(data, selected, state) {
+  constructor(data, selected, related, state) {
     this.data = data;
+    this.related = related;
     this.state = state;
     this.names = data.features.map(({ name }) => name);
     /** @type {(BinSet | null)[]} */
@@ -32,9 +34,13 @@ export class Comparison {
     this.sets = sets.filter((set) => set !== null);
   }
 
-  /** @returns {Choice} */
+  /**
+   * What distances are of; of all features too where these only order what a neighbourhood has found.
+   * @returns {Choice}
+   */
   get choice() {
     const { data, names, state } = this;
+    if (this.byNeighbourhood) return { features: [...names.keys()] };
     const columns = [...readShortNames(state.get("bins"), data.features)].sort((a, b) => a - b);
     if (columns.length > 0) return { columns };
     const features = splitNames(state.get("features"), names).map((/** @type {string} */ name) => names.indexOf(name));
@@ -42,12 +48,22 @@ export class Comparison {
     return data.bins ? { columns: data.bins } : { features: [...names.keys()] };
   }
 
+  /** Whether shapes are similar that have the same neighbours, where the site knows these. */
+  get byNeighbourhood() {
+    return this.related !== null && this.state.get("neighbourhood");
+  }
+
+  /** Whether all features are compared, by their plain distances. */
   get everything() {
-    return this.choice.features?.length === this.names.length;
+    return !this.byNeighbourhood && this.choice.features?.length === this.names.length;
   }
 
   compareAll() {
     this.#compare(this.data.bins ? joinNames(this.names) : "", "");
+  }
+
+  compareByNeighbourhood() {
+    this.state.set({ features: "", bins: "", neighbourhood: true });
   }
 
   /**
@@ -57,7 +73,7 @@ export class Comparison {
   toggle(feature) {
     const { features } = this.choice;
     const kept =
-      features === undefined || this.everything
+      features === undefined || this.everything || this.byNeighbourhood
         ? [feature]
         : features.includes(feature)
           ? features.filter((other) => other !== feature)
@@ -77,6 +93,6 @@ export class Comparison {
    * @param {string} bins
    */
   #compare(features, bins) {
-    this.state.set({ features, bins });
+    this.state.set({ features, bins, neighbourhood: false });
   }
 }

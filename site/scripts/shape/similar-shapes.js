@@ -43,7 +43,7 @@ export class SimilarShapes extends Comparing {
     state.listen((changed) => {
       if (changed.has("shape")) this.shown = FIRST;
       if (changed.has("theme")) this.buttons = null;
-      if (["shape", "features", "bins", "theme"].some((name) => changed.has(name))) this.render();
+      if (["shape", "features", "bins", "neighbourhood", "theme"].some((name) => changed.has(name))) this.render();
     });
   }
 
@@ -55,8 +55,11 @@ export class SimilarShapes extends Comparing {
     const shape = state.get("shape");
     this.section.hidden = shape === null || database.count === 1;
     if (shape === null || this.section.hidden) return;
-    const { choice } = this.comparison;
-    this.found = this.similarity.rank(shape, choice, this.shown);
+    const { choice, byNeighbourhood, related } = this.comparison;
+    this.found =
+      related && byNeighbourhood
+        ? this.similarity.tell(shape, related[shape].slice(0, this.shown), choice)
+        : this.similarity.rank(shape, choice, this.shown);
     this.#offer();
     document.getElementById("similar-words").replaceChildren(...this.#tell(shape, choice));
     this.list.replaceChildren(...this.found.map((found) => this.#card(shape, found)));
@@ -85,12 +88,25 @@ export class SimilarShapes extends Comparing {
         null,
         () => comparison.everything,
       ),
+      ...(comparison.related
+        ? [
+            this.#chip(
+              ["By neighbourhood"],
+              () => comparison.compareByNeighbourhood(),
+              "By all features, and by which shapes have the same neighbours",
+              () => comparison.byNeighbourhood,
+            ),
+          ]
+        : []),
       ...bins.features.map(({ title }, feature) =>
         this.#chip(
           [hue(bins.colorOf(feature)), element("bdi", {}, shortened(bins.features[feature].name, 24))],
           () => comparison.toggle(feature),
           title,
-          () => !comparison.everything && comparison.choice.features?.includes(feature) === true,
+          () =>
+            !comparison.everything &&
+            !comparison.byNeighbourhood &&
+            comparison.choice.features?.includes(feature) === true,
         ),
       ),
       ...comparison.sets.map(({ columns, words, title }) =>
@@ -135,6 +151,10 @@ export class SimilarShapes extends Comparing {
       const fellows = found.filter(({ row }) => database.groups[row] === own).length;
       words.push(element("b", {}, `${fellows} of these ${found.length}`), ` are of its ${kind(database)}. `);
     }
+    if (this.comparison.byNeighbourhood)
+      words.push(
+        "First come shapes that are near and have the same neighbours. Such an order finds more of a kind, but no feature can be said to make it: distances and bars below are those of all features, and need not rise in step. ",
+      );
     return [
       ...words,
       `Two shapes of this database are typically ${figure(this.similarity.typical(choice))} apart. The bars, one a feature, say how many of all shapes are farther away in it alone.`,
