@@ -41,8 +41,13 @@ def test_every_choice_has_a_row_and_a_line_with_the_figures_of_the_report(open_p
     page = open_page("", address=address)
     rows = listed(page)
     retrieval = report.retrieval
-    assert set(rows) >= {"chosen", "bins", "chance"}
-    for key, rating in (("bins", retrieval.by_bins), ("chance", retrieval.chance)):
+    assert set(rows) >= {"chosen", "neighbourhood", "bins", "chance"}
+    others = {
+        "neighbourhood": retrieval.by_neighbourhood,
+        "bins": retrieval.by_bins,
+        "chance": retrieval.chance,
+    }
+    for key, rating in others.items():
         assert rows[key] == [f"{value:.3f}" for value in retrieval.over_shapes(rating.scores)]
     lines = page.locator("#retrieval-curves .rating-line")
     assert sorted(line.get_attribute("data-key") for line in lines.all()) == sorted(rows)

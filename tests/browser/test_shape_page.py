@@ -12,7 +12,8 @@ from reports import make_report, with_copies, with_external
 from similar_cases import similar_cases
 from waiting import drawn_again, eventually
 
-from shapeviz_report.presets import PRESETS
+from shapeviz_report.neighbours import find_related
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.similarity import rank_similar, typical_distance
 from shapeviz_report.wording import WORDINGS
 from shapeviz_report.writing import write_site
@@ -211,6 +212,37 @@ def test_similar_under_any_choice(shape, reports):
     assert again.evaluate(
         "document.activeElement.closest('.similar') === document.querySelectorAll('.similar')[12]"
     )
+
+
+def test_similar_by_neighbourhood(shape, reports, tmp_path):
+    report = reports("bins")
+    compared = scale(report.features, PRESETS["default"])
+    related = find_related(compared, 20)
+    write_site(replace(report, related=related), tmp_path / "site")
+    page = shape(address=f"{(tmp_path / 'site').as_uri()}/shape.html#id=class001/0003")
+    names = [entry.name for entry in report.shapes]
+    plain = similar(page)
+    chip = page.locator(".compared", has_text="By neighbourhood")
+    chip.click()
+    assert pressed(page) == ["By neighbourhood"]
+    assert similar(page) == [names[row] for row in related[11][:12]] != plain
+    assert "no feature can be said to make it" in page.locator("#similar-words").inner_text()
+    # Distances are the plain ones of all features.
+    distances = np.linalg.norm(compared[related[11][:12]] - compared[11], axis=1)
+    told = [float(text.split()[-1]) for text in page.locator(".similar .quiet").all_inner_texts()]
+    assert told == pytest.approx(distances, abs=0.002)
+    page.click("#similar-more")
+    assert page.locator(".similar").count() == 20
+    # Another shape is seen in the same way, and so is this one by a link.
+    page.locator(".similar .name a").first.click()
+    assert pressed(featured(page)) == ["By neighbourhood"]
+    assert address(page)["neighbourhood"] == [""]
+    page.locator(".compared", has_text="Gc").click()
+    assert pressed(page) == ["Gc"]
+    assert "neighbourhood" not in address(page)
+    chip.click()
+    page.locator(".compared", has_text="All 3").click()
+    assert pressed(page) == ["All 3 features"]
 
 
 def test_reasons_and_ways_to_go_on(shape, reports):

@@ -163,6 +163,7 @@ def test_what_runs_is_reached() -> None:
         for method in ("tsne", "umap", "pca"):
             call("PROJECT", method, values, 0)
         call("CLUSTER", values, 0)
+        call("RELATE", values)
         call("SCORE", values[:, :40], list(range(12)), list(range(12, 24)), 0)
         squared = random.random((2, 24, 24))
         squared = squared + squared.transpose(0, 2, 1)

@@ -81,7 +81,7 @@ def test_summary_and_tables_agree_with_the_report(report) -> None:
 
     files = data_files(report, "0")
     rows = list(csv.DictReader(io.StringIO(files["retrieval.csv"].decode())))
-    assert len(rows) == 2 * (7 + 1 + 1)
+    assert len(rows) == 2 * (7 + 1 + 1 + 1)
     (own,) = [
         row
         for row in rows
