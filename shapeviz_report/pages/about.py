@@ -50,7 +50,6 @@ class AboutPage:
                 "repairs": _repairs(report),
                 "open": sum(not facts.watertight for facts in report.facts),
                 "features": _features(report),
-                "projections": [METHODS[method].title for method in report.projections],
                 "whole": PRESETS[str(report.parameters["preset"])].whole,
                 "feature_columns": sum(block.width for block in report.features.blocks),
                 "downloads": _downloads(report),
