@@ -93,7 +93,7 @@ def test_summary_and_tables_agree_with_the_report(report) -> None:
     offered = [file for file, _ in AboutPage().content(report).context["downloads"]]
     assert {"retrieval.csv", "retrieval-classes.csv"} <= set(offered)
     classes = list(csv.DictReader(io.StringIO(files["retrieval-classes.csv"].decode())))
-    assert len(classes) == 3 * (7 + 1 + 1)
+    assert len(classes) == 3 * (7 + 1 + 1 + 1)
     assert {(row["class"], row["queries"]) for row in classes} == {("ant", "6"), ("bird", "6"), ("cup", "6")}
 
 

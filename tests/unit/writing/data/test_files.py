@@ -207,7 +207,9 @@ class TestSearch:
         search = json.loads(files["summary.json"])["search"]
         assert search["greedy"] is None
         assert [subset["nh_s"] for subset in search["exhaustive"]["subsets"]] == [None] * 3
-        assert files["subsets.csv"].decode().splitlines()[0] == "feature:Gc,feature:Sc,nh_s,nh_max"
+        faithful = "kept,trustworthiness,continuity,stress,stress_by_chance"
+        head = f"feature:Gc,feature:Sc,nh_s,nh_max,{faithful}"
+        assert files["subsets.csv"].decode().splitlines()[0] == head
 
     @pytest.mark.slow
     def test_a_search_that_could_not_be_exhaustive_says_so(self):
