@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,7 +24,15 @@ from shapeviz_report.types import (
     IntArray,
     ShapeEntry,
 )
-from shapeviz_report.wording import Dimension, agreed, call_bins, dimensions_of, word_whole
+from shapeviz_report.wording import (
+    GLOBAL_WORDINGS,
+    Dimension,
+    agreed,
+    call_bins,
+    dimensions_of,
+    word_whole,
+)
+from shapeviz_report.wording.base import percent
 
 SMALLEST = 8
 """Fewer shapes are seen at a glance, and no number of groups among them could be told from chance."""
@@ -302,8 +310,12 @@ def _word_typical(
                 number, step = divmod(best, block.bins - 1)
                 sentence = _word_shares(own_dimensions[number], step, here[best], there[best], preset)
             else:
-                called = calls[table.slice_of(block.name).start + best]
-                sentence = _word_values(called or block.columns[best], here[best], there[best])
+                called = calls[table.slice_of(block.name).start + best] or block.columns[best]
+                rooted = block.name in GLOBAL_WORDINGS and GLOBAL_WORDINGS[block.name].rooted
+                shown = np.square(values[:, best]) if rooted else values[:, best]
+                mean = float(shown[own].mean())
+                others_mean = float((shown.sum() - size * mean) / others)
+                sentence = _word_values(called, mean, others_mean, percent if rooted else _number)
             hard = block.dimensions > 1 or effects[best] < CLEAR
             candidates.append((hard, -effects[best], sentence))
     return [tuple(sentence for _, _, sentence in sorted(candidates)[:TYPICAL]) for candidates in found]
@@ -319,16 +331,14 @@ def _word_shares(dimension: Dimension, step: int, here: float, there: float, pre
         said = dimension.say(None, edge)
     said = agreed(said, preset.by_area)
     trend = f"{said.trend[0].upper()}{said.trend[1:]}: " if said.trend else ""
-    return (
-        f"{trend}{_number(100 * here)}\u00a0% of {word_whole(preset.by_area)} {said.clause}, "
-        f"in other shapes {_number(100 * there)}\u00a0%."
-    )
+    return f"{trend}{percent(here)} of {word_whole(preset.by_area)} {said.clause}, in other shapes {percent(there)}."
 
 
-def _word_values(called: str, here: float, there: float) -> str:
+def _word_values(called: str, here: float, there: float, told: Callable[[float], str]) -> str:
     """That a value of the whole shape, or one that was brought along, is larger or smaller."""
     side = "higher" if here > there else "lower"
-    return f"{called[:1].upper()}{called[1:]} is {side} than in other shapes: {_number(here)} against {_number(there)}."
+    words = f"{called[:1].upper()}{called[1:]} is {side} than in other shapes"
+    return f"{words}: {told(here)} against {told(there)}."
 
 
 def _number(value: float) -> str:

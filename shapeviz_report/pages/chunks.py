@@ -492,7 +492,10 @@ class SubsetNeighbours(TypedDict):
 
 
 class FeatureWords(TypedDict):
-    """What a feature is; ``sought`` are other words for small and for large values of each dimension."""
+    """What a feature is; ``sought`` are other words for small and for large values of each dimension.
+
+    Values that are ``rooted`` are square roots of shares, which readers are told.
+    """
 
     title: str
     aspect: str
@@ -500,6 +503,7 @@ class FeatureWords(TypedDict):
     lowMeans: str
     highMeans: str
     sought: list[tuple[str, str]]
+    rooted: bool
     ease: float
 
 

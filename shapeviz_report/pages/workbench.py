@@ -111,6 +111,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
             "lowMeans": "",
             "highMeans": "",
             "sought": [("", "")] * block.dimensions,
+            "rooted": False,
             "ease": 1,
         }
     wording = WORDINGS.get(block.name) or GLOBAL_WORDINGS[block.name]
@@ -121,6 +122,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
         "lowMeans": wording.low,
         "highMeans": wording.high,
         "sought": list(wording.sought),
+        "rooted": wording.rooted,
         "ease": wording.ease,
     }
 

@@ -48,7 +48,9 @@ class Match:
         """The evidence as a reader finds it; begins with the kind."""
         said = [self.kind]
         if self.kind in (SAME_SURFACE, NEARLY_SAME_SURFACE):
-            said[0] += f", {100 * self.distance:.2g} % of its size apart ({100 * self.largest:.2g} % at most)"
+            said[0] += (
+                f", {100 * self.distance:.2g}\u00a0% of its size apart ({100 * self.largest:.2g}\u00a0% at most)"
+            )
         if self.mirrored:
             said.append("mirrored")
         if abs(self.scale - 1) > 1e-3:

@@ -86,7 +86,7 @@ class Dimension(NamedTuple):
         """Where the surface lies that a bin counts, exactly, as it stands after "where"."""
         quantity = self.block.name if self.wording is None else self.wording.quantities[self.number]
         low, high = (f"{edge:.3g}".replace("-", "−") for edge in self.edges[place : place + 2])
-        unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
+        unit = self.unit if self.unit in ("", "°") else f"\u00a0{self.unit}"
         if place == 0:
             return f"{quantity} is below {high}{unit}"
         if place == self.block.bins - 1:

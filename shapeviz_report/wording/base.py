@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -71,6 +72,8 @@ class Wording:
     ease: float
     say: Callable[[int, float | None, float | None], Said]
 
+    rooted = False
+
 
 @dataclass(frozen=True)
 class GlobalWording:
@@ -81,14 +84,20 @@ class GlobalWording:
     aspect : str
         What it looks at, as it stands in "alike in ... and ...".
     names : tuple of str
-        What each value is, in few words.
+        What each value is, in few words, as it stands before "is higher in bird than in fish".
     quantities : tuple of str
         What it is exactly, as it stands after "The value is".
+    seek : callable
+        From the number of a value, other words by which readers may look for it, whatever its size.
+    rooted : bool
+        Whether the values are square roots of shares: readers are told the shares, in per cent.
     """
 
     aspect: str
     names: tuple[str, ...]
     quantities: tuple[str, ...]
+    seek: Callable[[int], str]
+    rooted: bool = False
 
     low = ""
     high = ""
@@ -96,12 +105,15 @@ class GlobalWording:
 
     @property
     def sought(self) -> tuple[tuple[str, str], ...]:
-        """Other words for small and for large values of each: there are none."""
-        return (("", ""),) * len(self.names)
+        """Other words for small and for large values of each, as :class:`Wording` has them: the same for both."""
+        return tuple((self.seek(number),) * 2 for number in range(len(self.names)))
 
 
 AXES = ("longest", "middle", "shortest")
 """The axes of a shape."""
+
+ENDS = ("end", "narrow side", "broad side")
+"""What of a shape one sees who looks along each axis."""
 
 
 def count_waves(number: int) -> str:
@@ -109,41 +121,48 @@ def count_waves(number: int) -> str:
     return f"{number} wave" if number == 1 else f"{number} waves"
 
 
+def list_waves(waves: tuple[int, int]) -> Iterator[tuple[int, int]]:
+    """The waves of a spectrum in the order of its values: (in its rows, in its columns)."""
+    return product(range(waves[0]), range(waves[1]))
+
+
 def name_waves_around(waves: tuple[int, int]) -> Iterator[str]:
-    """What the values of a panorama count, in few words: "longest axis: 2 waves around, 1 along"; without, the mean."""
+    """Where around each axis a panorama measures, in few words: a wave has as many crests as there are such places."""
     for axis in AXES:
-        for along in range(waves[0]):
-            for around in range(waves[1]):
-                parts = [f"{count_waves(around)} around"] if around else []
-                parts += [f"{count_waves(along) if not around else along} along"] if along else []
-                yield f"{axis} axis{': ' if parts else ''}{', '.join(parts)}"
+        for along, around in list_waves(waves):
+            sides = f"on {'one side' if around == 1 else f'{around} sides'} of the {axis} axis"
+            places = f"at {'one place' if along == 1 else f'{along} places'} along"
+            if around:
+                yield f"{sides}, {places} it" if along else sides
+            else:
+                yield f"{places} the {axis} axis" if along else f"around the {axis} axis on average"
 
 
 def place_waves_around(waves: tuple[int, int]) -> Iterator[str]:
     """The same, exactly."""
     for axis in AXES:
-        for along in range(waves[0]):
-            for around in range(waves[1]):
-                own = f"strength of {count_waves(around)} around the {axis} axis and {along} along it"
-                yield own if around or along else f"mean around the {axis} axis"
+        for along, around in list_waves(waves):
+            own = f"strength of {count_waves(around)} around the {axis} axis and {along} along it"
+            yield own if around or along else f"mean around the {axis} axis"
 
 
 def name_waves_across(waves: tuple[int, int]) -> Iterator[str]:
-    """What the values of an image along an axis count, in few words: "2 waves across, 1 up"; nothing for the mean."""
-    for up in range(waves[0]):
-        for across in range(waves[1]):
-            parts = [f"{count_waves(across)} across"] if across else []
-            parts += [f"{count_waves(up) if not across else up} up"] if up else []
-            yield ", ".join(parts)
+    """How an image along an axis repeats, in few words: " (2 parts across, 1 up)"; nothing for the mean."""
+    for up, across in list_waves(waves):
+        parts = [f"{across} {'part' if across == 1 else 'parts'} across"] if across else []
+        unit = "" if across else " part" if up == 1 else " parts"
+        parts += [f"{up}{unit} up"] if up else []
+        yield f" ({', '.join(parts)})" if parts else ""
 
 
 def place_waves_across(axis: int, waves: tuple[int, int]) -> Iterator[str]:
     """The same, exactly: across is along the axis that follows, up along the one after it."""
     across_axis, up_axis = AXES[(axis + 1) % 3], AXES[(axis + 2) % 3]
-    for up in range(waves[0]):
-        for across in range(waves[1]):
-            own = f"strength of {count_waves(across)} along the {across_axis} axis and {up} along the {up_axis} one"
-            yield own if across or up else "mean"
+    for up, across in list_waves(waves):
+        own = (
+            f"strength of {count_waves(across)} along the {across_axis} axis and {up} along the {up_axis} one"
+        )
+        yield own if across or up else "mean"
 
 
 def as_degrees(radians: FloatArray) -> FloatArray:
@@ -182,6 +201,14 @@ def radii(value: float) -> str:
     return f"{text} radius" if text == "1" else f"{text} radii"
 
 
+def percent(share: float) -> str:
+    """A share in per cent, short, as ``percent`` of ``base/words.js`` tells it."""
+    value = 100 * share
+    if 0 < value < 0.05:
+        return "<0.1\u00a0%"
+    return f"{value:.{0 if value == 0 or value >= 9.95 else 1}f}\u00a0%"
+
+
 def amount(low: float | None, high: float | None) -> str:
     """How much a share is, in per cent: "hardly any of", "more than 64 % of"."""
     if low is None:
@@ -213,4 +240,5 @@ def _digits(value: float, digits: int) -> str:
 
 
 def _attached(unit: str) -> str:
-    return f" {unit}" if unit and unit != "°" else unit
+    # A number and its unit stay in one line.
+    return f"\u00a0{unit}" if unit and unit != "°" else unit

@@ -27,35 +27,32 @@ def _name_part(dimension: int) -> str:
     side = _side(dimension)
     if angle == 0:
         return (
-            f"tilted {'right' if side > 0 else 'left'} by {near} to {far}°"
+            f"twisted {'right' if side > 0 else 'left'} by {near} to {far}°"
             if side
-            else f"upright within {far}°"
+            else f"untwisted within {far}°"
         )
     if angle == 1:
         return (
-            f"{'rising' if side > 0 else 'falling off'} by {near} to {far}°"
-            if side
-            else f"level within {far}°"
+            f"{'rising' if side > 0 else 'dropping'} by {near} to {far}°" if side else f"level within {far}°"
         )
-    way = "outwards" if side > 0 else "inwards"
-    return f"bent {way} by {near} to {far}°" if side else f"straight within {far}°"
+    return f"{'rounded' if side > 0 else 'hollow'} by {near} to {far}°" if side else f"straight within {far}°"
 
 
 def _look_for(dimension: int) -> str:
     """Words for surface that is mostly as a dimension counts it."""
     angle, side = dimension // 11, _side(dimension)
     if angle == 0:
-        return "twisted leaning" if side else "even"
+        return "twisted leaning skewed" if side else "even"
     if side == 0:
         return "flat even smooth"
     # What falls off around a point, or turns outwards, is round.
-    return "round rounded convex edge" if (side > 0) == (angle == 2) else "hollow concave groove"
+    return "round rounded convex edge bent" if (side > 0) == (angle == 2) else "hollow concave groove bent"
 
 
 def _say(dimension: int, low: float | None, high: float | None) -> Said:
     part = _name_part(dimension)
     return Said(
-        f"around it {part}: {span(low, high, '%')}", f"has {amount(low, high)} what surrounds it {part}"
+        f"surroundings {part}: {span(low, high, '%')}", f"has {amount(low, high)} its surroundings {part}"
     )
 
 

@@ -68,9 +68,14 @@ GAUSSIAN_CURVATURE = Wording(
     quantities=("the angle by which the triangles around a point fall short of a full turn",),
     unit="°",
     shown=as_degrees,
-    low="saddles, as where a limb leaves the body",
+    low="saddles, as where a limb leaves the body or inside a handle",
     high="bumps and tips",
-    sought=(("neck fork branch", "round rounded bulge ball corner pointed sharp"),),
+    sought=(
+        (
+            "saddle neck fork branch handle hole ring loop",
+            "bump round rounded bulge ball corner pointed sharp spiky spike",
+        ),
+    ),
     ease=2,
     say=_say,
 )

@@ -36,7 +36,7 @@ GEODESIC_DISTANCE = Wording(
     shown=np.asarray,
     low="the middle of the shape",
     high="the ends of its limbs",
-    sought=(("centre center core near compact", "far remote limb leg arm finger tail tip long"),),
+    sought=(("centre center core near compact", "far remote limb leg arm finger tail tip long tall"),),
     ease=2,
     say=_say,
 )

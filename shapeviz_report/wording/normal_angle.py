@@ -32,7 +32,7 @@ NORMAL_ANGLE = Wording(
     shown=as_slope,
     low="surface that runs along the longest direction",
     high="surface that faces the ends",
-    sought=(("side along lengthways", "across end front back cap"),),
+    sought=(("side along lengthways long tall elongated slender", "across end front back cap"),),
     ease=2,
     say=_say,
 )

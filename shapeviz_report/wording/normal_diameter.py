@@ -24,7 +24,7 @@ NORMAL_DIAMETER = Wording(
     shown=np.asarray,
     low="thin sheets and limbs",
     high="full bodies",
-    sought=(("slim slender plate narrow", "thick fat stout massive wide"),),
+    sought=(("thin slim slender plate narrow", "thick fat stout massive bulky"),),
     ease=2,
     say=_say,
 )

@@ -10,24 +10,24 @@ MIDDLE = 2
 """The fifth of an angle that is nothing special."""
 
 LEANS = (
-    ("tilted far left", "leans more than 37° to the left"),
-    ("tilted left", "leans 12 to 37° to the left"),
-    ("upright", "leans sideways by less than 12°"),
-    ("tilted right", "leans 12 to 37° to the right"),
-    ("tilted far right", "leans more than 37° to the right"),
+    ("twisted far left", "leans more than 37° to the left"),
+    ("twisted left", "leans 12 to 37° to the left"),
+    ("untwisted", "leans sideways by less than 12°"),
+    ("twisted right", "leans 12 to 37° to the right"),
+    ("twisted far right", "leans more than 37° to the right"),
 )
 HEIGHTS = (
-    ("far lower", "more than 37° below"),
-    ("lower", "12 to 37° below"),
+    ("dropping steeply", "more than 37° below"),
+    ("dropping", "12 to 37° below"),
     ("level", "within 12° of"),
-    ("higher", "12 to 37° above"),
-    ("far higher", "more than 37° above"),
+    ("rising", "12 to 37° above"),
+    ("rising steeply", "more than 37° above"),
 )
 TURNS = (
     ("folded inwards", "folds inwards by more than 108°"),
-    ("bent inwards", "bends inwards by 36 to 108°"),
+    ("hollow", "bends inwards by 36 to 108°"),
     ("straight", "turns by less than 36°"),
-    ("bent outwards", "bends outwards by 36 to 108°"),
+    ("rounded", "bends outwards by 36 to 108°"),
     ("folded outwards", "folds outwards by more than 108°"),
 )
 """What the fifths of alpha, phi and theta say of the second point of a pair, as seen from the first: in few words, and
@@ -49,9 +49,9 @@ def _look_for(dimension: int) -> str:
     """Words for patches that are mostly as a dimension counts."""
     alpha, phi, theta = _fifths(dimension)
     if alpha != MIDDLE:
-        return "twisted leaning"
+        return "twisted leaning skewed"
     if theta != MIDDLE:
-        return "round rounded convex edge" if theta > MIDDLE else "hollow concave groove"
+        return "round rounded convex edge bent" if theta > MIDDLE else "hollow concave groove bent"
     return "even smooth" if phi == MIDDLE else "step layers"
 
 

@@ -7,7 +7,12 @@ from shapeviz_report.wording.base import Said, Wording, amount, as_percent, span
 
 COUNT = 24
 DISTANCES = ("close", "some way", "far")
-WAYS = ("outwards", "inwards lengthways", "inwards crossways", "inwards")
+WAYS = (
+    "away from the middle",
+    "towards the middle lengthways only",
+    "towards the middle crossways only",
+    "towards the middle",
+)
 
 
 def _place(dimension: int) -> tuple[str, str, str]:
@@ -48,7 +53,7 @@ SHAPE_CONTEXT = Wording(
     shown=as_percent,
     low="points with little of the shape in that part of their surroundings",
     high="points with much of the shape in that part of their surroundings",
-    sought=(("empty free", "crowded enclosed"),) * COUNT,
+    sought=(("empty free open", "crowded enclosed"),) * COUNT,
     ease=1.5,
     say=_say,
 )

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from shapeviz_report.global_descriptors.posed_shape import WAVES_ACROSS
-from shapeviz_report.wording.base import AXES, GlobalWording, name_waves_across, place_waves_across
+from shapeviz_report.wording.base import AXES, ENDS, GlobalWording, name_waves_across, place_waves_across
+
+_VALUES = WAVES_ACROSS[0] * WAVES_ACROSS[1]
 
 SILHOUETTES = GlobalWording(
     aspect="silhouette",
     names=tuple(
-        f"shadow along the {axis} axis, {waves}" if waves else f"mean shadow along the {axis} axis"
-        for number, axis in enumerate(AXES)
+        f"shadow of the {end}{waves}" if waves else f"size of the shadow of the {end}"
+        for end in ENDS
         for waves in name_waves_across(WAVES_ACROSS)
     ),
     quantities=tuple(
@@ -17,4 +19,5 @@ SILHOUETTES = GlobalWording(
         for number, axis in enumerate(AXES)
         for waves in place_waves_across(number, WAVES_ACROSS)
     ),
+    seek=lambda number: "outline" if number % _VALUES else "outline large wide broad",
 )

@@ -322,6 +322,7 @@ declare namespace Chunk {
     lowMeans: string;
     highMeans: string;
     sought: ([string, string])[];
+    rooted: boolean;
     ease: number;
   }
   /** A feature: its columns, its words, and between which values the chunk "bins" is cut into steps. */
@@ -332,6 +333,7 @@ declare namespace Chunk {
     lowMeans: string;
     highMeans: string;
     sought: ([string, string])[];
+    rooted: boolean;
     ease: number;
     name: string;
     start: number;

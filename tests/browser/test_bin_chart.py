@@ -144,7 +144,7 @@ class TestReading:
             label: 100 * np.median(shares[np.array(report.labels) == label]) for label in sorted(CLASSES)
         }
         labels = card.locator(".names li").all_inner_texts()
-        told = [float(text.removesuffix(" %")) for text in card.locator(".medians li").all_inner_texts()]
+        told = [float(text.removesuffix("\u00a0%")) for text in card.locator(".medians li").all_inner_texts()]
         assert labels == sorted(medians, key=lambda label: -medians[label])
         np.testing.assert_allclose(told, [medians[label] for label in labels], atol=0.6)
         assert "What share of the surface" in card.inner_text()

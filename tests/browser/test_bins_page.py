@@ -143,7 +143,7 @@ def test_a_bin_is_told_and_pictured_on_a_contrast(bins, site):
     page = bins()
     words = page.locator("#bin-words")
     assert "What share of the surface" in words.locator(".exactly").text_content()
-    assert re.search(r"The middle shape of \w+ has [\d.<]+ %", words.locator(".who").inner_text())
+    assert re.search(r"The middle shape of \w+ has [\d.<]+\u00a0%", words.locator(".who").inner_text())
     pictures = page.locator(".painting")
     assert pictures.count() == 2
     shapes = pictures.evaluate_all("nodes => nodes.map((node) => Number(node.dataset.shape))")
@@ -229,7 +229,7 @@ def test_the_shape_is_chosen_by_name_by_its_share_and_on_the_map(bins):
     shares = {}
     for end in ("most", "least"):
         page.click(f"#{end}-of-it")
-        shares[end] = float(re.search(r"([\d.]+) %", name.inner_text())[1])
+        shares[end] = float(re.search(r"([\d.]+)\u00a0%", name.inner_text())[1])
     assert shares["most"] > shares["least"]
     assert "shape=least" in address(page)
     find(page, "#shape-search", "cup 3")

@@ -163,7 +163,7 @@ class TestTwoGroups:
         assert first.locator(".bin-chip .in-words").inner_text() == called(report)[best]
         shares = report.features.values[:, report.features.columns.index(best)]
         means = [100 * shares[rows_of(report, label)].mean() for label in ("kind a", "kind b")]
-        shown = [float(text.removesuffix(" %")) for text in first.locator(".mean").all_inner_texts()[:2]]
+        shown = [float(text.removesuffix("\u00a0%")) for text in first.locator(".mean").all_inner_texts()[:2]]
         assert shown == pytest.approx(means, abs=0.51)
         # Each shape is a mark.
         assert first.locator(".dots-of circle").count() == 32
@@ -182,7 +182,7 @@ class TestTwoGroups:
             assert not re.search("cosine|normal|tangent|radian|geodesic|histogram", text)
             # Both sides read differently, and are parts of a whole.
             figures = re.findall(
-                r"(<?[\d.]+) %(?=[.,; ]| on average)", re.sub(r"(has|have) [^;:]*", "", text)
+                r"(<?[\d.]+)\u00a0%(?=[.,; ]| on average)", re.sub(r"(has|have) [^;:]*", "", text)
             )
             assert len(figures) == len(set(figures)), text
             assert all(float(figure.removeprefix("<")) <= 100 for figure in figures), text

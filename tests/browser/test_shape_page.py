@@ -114,7 +114,7 @@ def test_a_shape_is_told_whole(shape, tmp_path):
     for words in (
         "1\u2009011 faces, 502 vertices",
         "1 × 2 × 11.5",
-        "0.120 % of its diagonal",
+        "0.120\u00a0% of its diagonal",
         "surface\nwatertight",
     ):
         assert words in facts
@@ -478,7 +478,7 @@ def test_on_a_phone(shape):
 
 
 def percent(share) -> str:
-    return f"{100 * share:.{0 if share >= 0.0995 else 1}f} %"
+    return f"{100 * share:.{0 if share >= 0.0995 else 1}f}\u00a0%"
 
 
 def changed(before: np.ndarray, after: np.ndarray) -> float:

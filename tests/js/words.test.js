@@ -6,15 +6,15 @@ import { percent, percents } from "../../site/scripts/base/words.js";
 import { ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
 
 test("shares that differ read differently, with no more digits than that takes", () => {
-  assert.deepEqual(percents(0.28, 0.019), ["28 %", "1.9 %"]);
-  assert.deepEqual(percents(0.281, 0.279), ["28.1 %", "27.9 %"]);
-  assert.deepEqual(percents(0.0001, 0.0003), ["0.01 %", "0.03 %"]);
-  assert.deepEqual(percents(0, 0.0004), ["0 %", "<0.1 %"]);
+  assert.deepEqual(percents(0.28, 0.019), ["28\u00a0%", "1.9\u00a0%"]);
+  assert.deepEqual(percents(0.281, 0.279), ["28.1\u00a0%", "27.9\u00a0%"]);
+  assert.deepEqual(percents(0.0001, 0.0003), ["0.01\u00a0%", "0.03\u00a0%"]);
+  assert.deepEqual(percents(0, 0.0004), ["0\u00a0%", "<0.1\u00a0%"]);
   assert.equal(new Set(percents(1, 0.9996)).size, 2);
-  assert.deepEqual(percents(0.5, 0.5), ["50 %", "50 %"]);
+  assert.deepEqual(percents(0.5, 0.5), ["50\u00a0%", "50\u00a0%"]);
   // Of three, the first two are told apart from the last one only.
-  assert.deepEqual(percents(0.134, 0.134, 0.08), ["13 %", "13 %", "8.0 %"]);
-  assert.deepEqual(percents(0.5, 0.5 + 1e-9), ["50 %", "50 %"]);
+  assert.deepEqual(percents(0.134, 0.134, 0.08), ["13\u00a0%", "13\u00a0%", "8.0\u00a0%"]);
+  assert.deepEqual(percents(0.5, 0.5 + 1e-9), ["50\u00a0%", "50\u00a0%"]);
   for (const share of [0, 1e-6, 0.001, 0.0995, 0.5, 1])
     assert.ok(Number.parseFloat(percent(share).replace("<", "")) <= 100);
 });

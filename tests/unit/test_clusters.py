@@ -14,6 +14,7 @@ from sklearn.metrics import adjusted_rand_score, silhouette_samples
 from shapeviz_report.clusters import STEADY, describe_clusters, find_communities, part, silhouettes
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.types import FeatureBlock, FeatureTable, ShapeEntry
+from shapeviz_report.wording import GLOBAL_WORDINGS
 
 PRESET = PRESETS["default"]
 
@@ -155,6 +156,23 @@ def test_what_is_typical_is_said_with_the_right_figures() -> None:
     assert all("of the shape" not in sentence for sentence in thick)
     assert "Own is lower than in other shapes: −3 against 5." in found.clusters[1].typical
     assert any(sentence.startswith("Bodies are thinner: ") for sentence in found.clusters[2].typical)
+
+
+def test_roots_of_shares_are_told_as_the_mean_of_the_shares() -> None:
+    values, truth = blobs(12, 10, 9)
+    block = FeatureBlock("Sfl", len(GLOBAL_WORDINGS["Sfl"].names), 1)
+    roots = np.full((31, block.width), 0.05)
+    # Shares of 16 and 36 % have a mean of 26 %, where the root of the mean root is 25 %.
+    roots[truth == 0, 7] = np.tile([0.4, 0.6], 6)
+    roots[truth != 0, 7] = 0.1
+    table = FeatureTable(tuple(f"{i:03}" for i in range(31)), (block,), roots)
+    edges = np.empty((0, 11))
+    found = describe_clusters(part(values), entries(["x"] * 31), table, values, edges, PRESET, stand_in=False)
+    assert (
+        found.clusters[0]
+        .typical[0]
+        .endswith(" is higher than in other shapes: 26\u00a0% against 1.0\u00a0%.")
+    )
 
 
 def test_clusters_stand_in_only_where_no_shape_has_a_label() -> None:

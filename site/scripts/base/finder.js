@@ -13,6 +13,7 @@ const MOST = 12;
  * @property {(value: Value) => Children} label the content of a line
  * @property {(value: Value) => void} choose is told of the chosen one
  * @property {() => unknown} [prepare] is told when the reader comes to the field
+ * @property {() => string} [none] what is said where nothing is found
  */
 
 /** @template Value */
@@ -22,10 +23,11 @@ export class Finder {
    * @param {string} list id of the list below it
    * @param {Finding<Value>} finding
    */
-  constructor(field, list, { find, label, choose, prepare = () => {} }) {
+  constructor(field, list, { find, label, choose, prepare = () => {}, none = () => "none found" }) {
     this.find = find;
     this.label = label;
     this.choose = choose;
+    this.none = none;
     this.field = document.getElementById(field);
     this.list = document.getElementById(list);
     /** @type {Value[]} */
@@ -82,7 +84,7 @@ export class Finder {
         this.label(value),
       ),
     );
-    const rest = this.found.length === 0 ? "none found" : this.more > 0 ? `and ${this.more} more` : null;
+    const rest = this.found.length === 0 ? this.none() : this.more > 0 ? `and ${this.more} more` : null;
     this.list.replaceChildren(
       ...lines,
       ...(rest ? [element("li", { class: "quiet", role: "presentation" }, rest)] : []),

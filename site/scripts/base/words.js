@@ -54,8 +54,25 @@ export function shortened(text, length) {
 export function percent(share, more = 0) {
   const value = 100 * share;
   const least = 10 ** -(more + 1);
-  if (value > 0 && value < least / 2) return `<${least} %`;
-  return `${value.toFixed(value === 0 || value >= 9.95 ? more : more + 1)} %`;
+  if (value > 0 && value < least / 2) return `<${least}\u00a0%`;
+  return `${value.toFixed(value === 0 || value >= 9.95 ? more : more + 1)}\u00a0%`;
+}
+
+/**
+ * A share in whole percent; all and nothing only where it is just that.
+ * @param {number} share
+ */
+export function wholePercent(share) {
+  const value = Math.round(100 * share);
+  return `${share >= 1 ? 100 : share <= 0 ? 0 : value === 0 ? "<1" : Math.min(value, 99)}\u00a0%`;
+}
+
+/**
+ * A number that is no share, in three digits.
+ * @param {number} value
+ */
+export function measured(value) {
+  return String(Number(value.toPrecision(3))).replace("-", "−");
 }
 
 /** Digits beyond those of `percent` at which two shares are told as the same. */

@@ -3,7 +3,7 @@
 import { element, penOf, swatch } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 import { styleColor } from "../base/theme.js";
-import { figure, grouped, percent } from "../base/words.js";
+import { figure, grouped } from "../base/words.js";
 import { axisEnd } from "./bin-bars.js";
 import { binName } from "./bin-name.js";
 
@@ -126,7 +126,7 @@ export class BinCard {
   classes(column) {
     const rows = this.rows(column);
     const shown = rows.slice(0, MOST_ROWS);
-    const share = this.bins.isShare(column);
+    const share = this.bins.inPercent(column);
     const lowest = Math.min(...shown.map(({ values }) => values[0]));
     const highest = Math.max(...shown.map(({ values }) => values.at(-1)));
     const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest];
@@ -138,9 +138,7 @@ export class BinCard {
      * @param {...(Node | string | null)} content
      */
     const item = (place, ...content) => element("li", { class: place === edge && edge > 0 ? "first" : null }, content);
-    const told = share
-      ? percent
-      : (/** @type {number} */ value) => String(Number(value.toPrecision(3))).replace("-", "−");
+    const told = this.bins.telling(column);
     return element(
       "div",
       { class: "of-bin" },

@@ -1,6 +1,7 @@
 // The ten colours of a descriptor's values, with the values between them and the range of one bin marked.
 
 import { element } from "../base/dom.js";
+import { measured } from "../base/words.js";
 
 export class Legend {
   /** @param {Chunk.Selection} selection */
@@ -26,7 +27,7 @@ export class Legend {
     const ticks = edges
       .slice(1, -1)
       .map((edge, between) =>
-        element("span", { class: between === place || between === place - 1 ? "own" : null }, number(edge)),
+        element("span", { class: between === place || between === place - 1 ? "own" : null }, measured(edge)),
       );
     this.node.replaceChildren(
       element("p", {}, `Colours: ${quantityInWords(quantity, unit)}`),
@@ -51,9 +52,4 @@ export class Legend {
  */
 export function quantityInWords(quantity, unit) {
   return unit === "" ? quantity : `${quantity}, in ${unit === "°" ? "degrees" : unit}`;
-}
-
-/** @param {number} value */
-function number(value) {
-  return String(Number(value.toPrecision(3))).replace("-", "−");
 }

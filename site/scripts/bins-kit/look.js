@@ -3,7 +3,6 @@
 import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
-import { percent, percents } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 
@@ -40,6 +39,7 @@ export class Look {
     new Finder("bin-search", "bin-found", {
       find: (text) => bins.find(text),
       prepare: () => bins.prepareToFind(),
+      none: () => bins.searchHint,
       label: (column) => binName(bins, column),
       choose: (column) => state.set({ bin: column, group: null }),
     });
@@ -101,7 +101,6 @@ export class Look {
   #tell(column) {
     const { bins, card, database } = this;
     const feature = bins.features[bins.featureOf(column)];
-    const measured = bins.isShare(column) && feature.measures !== "";
     const group = this.state.get("group");
     const groups = database.labelled ? [...database.sizes.keys()].sort((a, b) => a - b) : [];
     card.know({
@@ -112,7 +111,15 @@ export class Look {
     });
     return [
       element("h3", {}, binName(bins, column)),
-      measured && element("p", { class: "quiet" }, element("b", {}, feature.title), ": ", lowered(feature.measures)),
+      feature.measures !== "" &&
+        element(
+          "p",
+          { class: "quiet" },
+          element("b", {}, feature.title),
+          ": ",
+          lowered(feature.measures),
+          !bins.isShare(column) && " A value of the whole shape, so nothing on the surface is painted.",
+        ),
       element("p", { class: "who" }, this.#who(column)),
       element("div", { class: "bin-card" }, card.classes(column)),
       exactly(bins, column),
@@ -126,9 +133,7 @@ export class Look {
   #who(column) {
     const { bins, card, database } = this;
     if (!database.separable) return [];
-    const told = bins.isShare(column)
-      ? percent
-      : (/** @type {number} */ value) => String(Number(value.toPrecision(3))).replace("-", "−");
+    const told = bins.telling(column);
     const rows = card.rows(column).sort((a, b) => b.median - a.median || b.mean - a.mean);
     const [most, ...rest] = rows;
     const least = rest.at(-1);
@@ -169,21 +174,18 @@ export class Look {
     const [row, rival] = [named(own.group), named(own.other)];
     if (row === undefined || rival === undefined) return null;
     const rank = rows.indexOf(row);
-    const place = rank === 0 ? ", most of all classes" : rank === rows.length - 1 ? ", least of all classes" : "";
-    const [share, other] =
-      told === percent ? percents(row.median, rival.median) : [told(row.median), told(rival.median)];
+    const [most, least] = [rows[0], rows.at(-1)].map(({ median }) => told(median));
+    const extreme = rank === 0 ? ", most of all classes" : rank === rows.length - 1 ? ", least of all classes" : "";
+    const place = most === least ? "" : extreme;
+    const [share, other] = this.bins.tell(column, [row.median, rival.median]);
     return [
       "The middle shape of ",
       name(row),
       ` has ${share}${place}; that of `,
       name(rival),
       `, its nearest class on the Overview, has ${share === other ? "as much" : other}.`,
-      ...(rank > 0
-        ? [
-            this.bins.isShare(column) ? " Most of it is on " : " It is highest in ",
-            name(rows[0]),
-            `, with ${told(rows[0].median)}.`,
-          ]
+      ...(rank > 0 && most !== told(row.median)
+        ? [this.bins.isShare(column) ? " Most of it is on " : " It is highest in ", name(rows[0]), `, with ${most}.`]
         : []),
     ];
   }
@@ -274,11 +276,7 @@ export function shapeLine(database, bins, column, shape) {
   return [
     database.labelled && swatch(database.symbol(group), database.color(group)),
     element("bdi", {}, database.labelled ? database.className(group) : database.names[shape]),
-    element(
-      "span",
-      { class: "quiet" },
-      bins.isShare(column) ? `${percent(value)} in the bin` : String(Number(value.toPrecision(3))),
-    ),
+    element("span", { class: "quiet" }, `${bins.telling(column)(value)}${bins.isShare(column) ? " in the bin" : ""}`),
   ].filter(Boolean);
 }
 

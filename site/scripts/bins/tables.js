@@ -21,7 +21,7 @@ export function binsTables(database, bins, selection, state, card) {
   /** @param {number[]} columns */
   const names = (columns) => columns.map((column) => bins.names[column]).join(", ");
   const bin = state.get("bin");
-  const told = bins.isShare(bin) ? percent : (/** @type {number} */ value) => String(Number(value.toPrecision(3)));
+  const told = bins.telling(bin);
   /** @param {string} kind */
   const fold =
     (kind) =>

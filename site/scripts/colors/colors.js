@@ -119,6 +119,7 @@ export class Colors {
     this.#finder ??= new Finder("color-search", "color-found", {
       find: (text) => bins.find(text),
       prepare: () => bins.prepareToFind(),
+      none: () => bins.searchHint,
       label: (column) => binName(bins, column),
       choose: (column) => this.choose(BIN + bins.names[column]),
     });

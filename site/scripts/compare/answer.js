@@ -4,7 +4,7 @@ import { element } from "../base/dom.js";
 import { count, percent, percents } from "../base/words.js";
 import { worth } from "./contrasts.js";
 import { mean } from "./distribution.js";
-import { binCount, called, inBoth, moreOf, share, statement } from "./words.js";
+import { binCount, called, inBoth, moreOf, statement } from "./words.js";
 
 /** @import { Contrast } from "./contrasts.js" */
 /** @import { Group } from "./groups.js" */
@@ -40,10 +40,10 @@ const WELL = 0.8;
  */
 export function answer(contrast, a, b, data, kin) {
   const { apart, beyond, bins } = contrast;
-  const deals = `${share(apart.all.chance)} on average, and more than ${share(apart.all.limit)} in one of 100 deals`;
+  const deals = `${percent(apart.all.chance)} on average, and more than ${percent(apart.all.limit)} in one of 100 deals`;
   const spread = [
     "Of all that these shapes differ in, ",
-    element("b", {}, share(apart.all.share)),
+    element("b", {}, percent(apart.all.share)),
     ` goes with the group; groups of the same sizes dealt at random reach ${deals}.`,
   ];
   if (!contrast.differ) {

@@ -5,7 +5,6 @@ import { exactly, inWords } from "../bins-kit/bin-name.js";
 import { distribution, mean } from "./distribution.js";
 import { inBoth, meaning, pairs, statement } from "./words.js";
 
-/** @import { Contrast } from "./contrasts.js" */
 /** @import { View } from "./groups-view.js" */
 /** @import { Group } from "./groups.js" */
 
@@ -19,7 +18,6 @@ export function binCard(column, view, { shared = false } = {}) {
   const { contrast, a, b, bins, data, rest } = view;
   const hue = element("i", { class: "hued" });
   hue.style.background = bins.color(column);
-  const share = bins.isShare(column);
   /**
    * @param {Group | View["rest"]} group
    * @param {number[]} rows
@@ -55,8 +53,8 @@ export function binCard(column, view, { shared = false } = {}) {
       ),
     ),
     element("p", { class: "says" }, shared ? inBoth(column, means, view) : statement(column, contrast, a, b, data)),
-    distribution(rows, share),
-    !shared && element("p", { class: "quiet" }, ahead(column, contrast, a, b)),
+    distribution(rows, bins.inPercent(column)),
+    !shared && element("p", { class: "quiet" }, ahead(column, view)),
     exactly(bins, column, meaning(column, bins)),
   );
 }
@@ -64,15 +62,13 @@ export function binCard(column, view, { shared = false } = {}) {
 /**
  * How sure one may be for two single shapes.
  * @param {number} column
- * @param {Contrast} contrast
- * @param {Group} a
- * @param {Group} b
+ * @param {View} view
  */
-function ahead(column, contrast, a, b) {
+function ahead(column, { bins, contrast, a, b }) {
   const share = contrast.ahead(column);
   return [
     "Taken two by two, the one of ",
     element("bdi", {}, (share >= 0.5 ? a : b).name),
-    ` has more of it ${pairs(Math.max(share, 1 - share))}.`,
+    ` has ${bins.inPercent(column) ? "more of it" : "the higher value"} ${pairs(Math.max(share, 1 - share))}.`,
   ];
 }

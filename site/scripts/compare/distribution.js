@@ -1,7 +1,7 @@
 // How much of a bin each of some groups has: a row a group, all on one axis.
 
 import { element, svg } from "../base/dom.js";
-import { percent } from "../base/words.js";
+import { measured, percent } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 
 /**
@@ -16,7 +16,7 @@ const ROW = 22;
 
 /**
  * @param {Row[]} rows
- * @param {boolean} share whether values are shares of a surface
+ * @param {boolean} share whether values are shares
  */
 export function distribution(rows, share) {
   const all = rows.flatMap(({ values, at }) => (at === undefined ? values : [...values, at]));
@@ -24,7 +24,7 @@ export function distribution(rows, share) {
   const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest > lowest ? highest : lowest + 1];
   /** @param {number} value */
   const place = (value) => 2 + (96 * (value - least)) / (most - least);
-  const told = toldAs(share);
+  const told = share ? (/** @type {number} */ value) => percent(value) : measured;
   return element(
     "div",
     { class: "spread-of" },
@@ -100,12 +100,4 @@ function bars(rising, color, place) {
 /** @param {number[] | Float64Array} values */
 export function mean(values) {
   return Array.from(values).reduce((sum, value) => sum + value, 0) / values.length;
-}
-
-/**
- * How a value is told: a share in percent, any other as a short number.
- * @param {boolean} share
- */
-export function toldAs(share) {
-  return share ? percent : (/** @type {number} */ value) => String(Number(value.toPrecision(3))).replace("-", "−");
 }

@@ -1,7 +1,7 @@
 // Feature by feature: how much of what the shapes differ in goes with the group, beside what chance would make of it.
 
 import { element } from "../base/dom.js";
-import { share } from "./words.js";
+import { percent } from "../base/words.js";
 
 /** @import { View } from "./groups-view.js" */
 
@@ -33,7 +33,7 @@ export function featureRows(view) {
       element(
         "span",
         { class: "figure" },
-        share(row.share),
+        percent(row.share),
         element("span", { class: "quiet" }, beyond ? "" : " within chance"),
       ),
       element(

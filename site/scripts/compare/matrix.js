@@ -4,7 +4,7 @@ import { compareAddress } from "../addresses/compare.js";
 import { galleryOf } from "../addresses/shapes.js";
 import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { count, shortened } from "../base/words.js";
+import { count, shortened, wholePercent } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
@@ -91,7 +91,7 @@ export class Matrix {
             " → ",
             this.#name(to),
           ),
-          element("span", { class: "quiet" }, `${percents(most)}, back ${percents(least)}`),
+          element("span", { class: "quiet" }, `${wholePercent(most)}, back ${wholePercent(least)}`),
         );
       }),
     );
@@ -183,8 +183,8 @@ export class Matrix {
     const names = [row, column].map((group) => database.className(group));
     const all = (database.sizes.get(row) ?? 0) * neighbours.k;
     return row === column
-      ? `${names[0]}: ${percents(this.share(row, row))} of the neighbours of its shapes are of its own class`
-      : `${names[0]} to ${names[1]}: ${percents(this.share(row, column))}, ${this.counts[row][column]} of ${all} neighbours`;
+      ? `${names[0]}: ${wholePercent(this.share(row, row))} of the neighbours of its shapes are of its own class`
+      : `${names[0]} to ${names[1]}: ${wholePercent(this.share(row, column))}, ${this.counts[row][column]} of ${all} neighbours`;
   }
 
   /** @param {Found | null} cell */
@@ -287,7 +287,7 @@ export class Matrix {
                 ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? `of ${pairs.length === 1 ? "its" : "their"} own class` : "of "}`,
                 !own && element("bdi", {}, database.className(column)),
                 ": ",
-                `${percents(this.share(row, column))} of all their neighbours.`,
+                `${wholePercent(this.share(row, column))} of all their neighbours.`,
               ],
         ),
         element(
@@ -329,10 +329,4 @@ export class Matrix {
       picture(database, index, 64),
     );
   }
-}
-
-/** @param {number} share */
-function percents(share) {
-  const value = 100 * share;
-  return value > 0 && value < 0.5 ? "less than 1 %" : `${Math.round(value)} %`;
 }

@@ -112,8 +112,7 @@ export class OnShapes {
     if (dimension !== null) this.legend.show(selection.dimensions[dimension], bins.binOf(bin));
     else this.legend.clear();
     /** @param {number} index */
-    const told = (index) =>
-      share ? `${percent(bins.share(bin, index))} in the bin` : String(Number(bins.share(bin, index).toPrecision(3)));
+    const told = (index) => `${bins.telling(bin)(bins.share(bin, index))}${share ? " in the bin" : ""}`;
     for (const side of SIDES) {
       this.#side(side, told);
       this.#stage(side, this.chosen[side], share);

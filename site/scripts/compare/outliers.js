@@ -3,11 +3,10 @@
 import { compareAddress } from "../addresses/compare.js";
 import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { count, figure, percents } from "../base/words.js";
+import { count, figure } from "../base/words.js";
 import { inWords } from "../bins-kit/bin-name.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
-import { distribution, mean, toldAs } from "./distribution.js";
-import { numbers } from "./words.js";
+import { distribution, mean } from "./distribution.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -299,7 +298,7 @@ export class Outliers {
     const own = bins.share(column, index);
     const rows = [{ ...row(group), at: own }, row(other)];
     const means = rows.map(({ values }) => mean(values));
-    const [itself, usual] = (share ? percents : numbers)(own, means[0]);
+    const [itself, usual] = bins.tell(column, [own, means[0]]);
     const words = share
       ? [element("b", {}, itself), ` of its ${data.whole.replace("the ", "")} ${data.clauses[column]}`]
       : ["Its ", element("bdi", {}, bins.called[column] || bins.names[column]), " is ", element("b", {}, itself)];
@@ -314,11 +313,11 @@ export class Outliers {
         words,
         `, against ${usual} on average in `,
         element("bdi", {}, database.className(group)),
-        ` and ${toldAs(share)(means[1])} in `,
+        ` and ${bins.telling(column)(means[1])} in `,
         element("bdi", {}, database.className(other)),
         ".",
       ),
-      distribution(rows, share),
+      distribution(rows, bins.inPercent(column)),
       element("p", { class: "quiet" }, hue, element("bdi", {}, bins.shortName(column, 18)), inWords(bins, column)),
     );
   }

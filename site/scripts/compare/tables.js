@@ -1,11 +1,10 @@
 // What the page shows, as tables.
 
 import { table } from "../base/tables.js";
-import { figure } from "../base/words.js";
+import { figure, percent } from "../base/words.js";
 import { highestOf } from "../database/hit-range.js";
-import { mean, toldAs } from "./distribution.js";
+import { mean } from "./distribution.js";
 import { signed } from "./outliers.js";
-import { share } from "./words.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
@@ -40,7 +39,7 @@ function ofGroups(view) {
   const { apart, difference, sample } = contrast;
   /** @param {number} column */
   const line = (column) => {
-    const told = toldAs(bins.isShare(column));
+    const told = bins.telling(column);
     /** @param {number[]} rows */
     const average = (rows) => told(mean(rows.map((row) => bins.share(column, row))));
     return [
@@ -58,9 +57,9 @@ function ofGroups(view) {
    */
   const feature = (title, { share: own, chance, limit, exceeding }) => [
     title,
-    share(own),
-    share(chance),
-    share(limit),
+    percent(own),
+    percent(chance),
+    percent(limit),
     figure(exceeding),
   ];
   return [
@@ -92,7 +91,7 @@ function ofGroups(view) {
           .slice(0, MOST_BINS)
           .map((column) => [
             ...line(column).slice(0, 3),
-            toldAs(bins.isShare(column))(mean(sample.rest.map((row) => bins.share(column, row)))),
+            bins.telling(column)(mean(sample.rest.map((row) => bins.share(column, row)))),
           ]),
       ),
   ].filter(Boolean);

@@ -1,8 +1,8 @@
 // What a comparison says, in sentences a stranger understands. Names of groups come in elements of their own.
 
 import { element } from "../base/dom.js";
-import { capitalised, grouped, percents } from "../base/words.js";
-import { mean, toldAs } from "./distribution.js";
+import { capitalised, grouped } from "../base/words.js";
+import { mean } from "./distribution.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Contrast } from "./contrasts.js" */
@@ -32,7 +32,7 @@ export function statement(column, contrast, a, b, data) {
   };
   const means = { a: mean(values.a), b: mean(values.b) };
   const [more, less] = contrast.difference[column] > 0 ? [a, b] : [b, a];
-  const told = (bins.isShare(column) ? percents : numbers)(means[more.side], means[less.side]);
+  const told = bins.tell(column, [means[more.side], means[less.side]]);
   return bins.isShare(column)
     ? moreOf({ clause: /** @type {string} */ (data.clauses[column]), trend: "", fewer: false }, more, less, told, data)
     : [
@@ -89,7 +89,7 @@ function against([most, least]) {
  * @param {{ a: Group, b: Group, bins: Bins, data: Chunk.Comparison }} compared
  */
 export function inBoth(column, means, { a, b, bins, data }) {
-  const [first, second, others] = (bins.isShare(column) ? percents : numbers)(...means);
+  const [first, second, others] = bins.tell(column, means);
   const more = (means[0] + means[1]) / 2 > means[2];
   const figures = [
     ...(first === second
@@ -109,14 +109,6 @@ export function inBoth(column, means, { a, b, bins, data }) {
     `${more ? "More" : "Less"} of ${data.whole} of both than of other shapes ${data.clauses[column]}: `,
     ...figures,
   ];
-}
-
-/**
- * Values that are no shares, short.
- * @param {...number} values
- */
-export function numbers(...values) {
-  return values.map(toldAs(false));
 }
 
 /**
@@ -144,15 +136,6 @@ export function pairs(share) {
     : hundredths > 99
       ? "in nearly all pairs"
       : `in ${hundredths} of 100 pairs`;
-}
-
-/**
- * A share of the differences in percent, short.
- * @param {number} value
- */
-export function share(value) {
-  const percents = 100 * value;
-  return `${percents < 9.95 ? percents.toFixed(1) : percents.toFixed(0)} %`;
 }
 
 /**

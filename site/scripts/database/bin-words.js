@@ -31,10 +31,19 @@ export class BinWords {
   /** @type {Generator<void>} */
   #learning;
 
+  /** @type {Told["features"]} */
+  #features;
+
   /** @param {Told} told */
   constructor(told) {
+    this.#features = told.features;
     this.ease = told.features.flatMap(({ dimensions, bins, ease }) => Array(dimensions * bins).fill(ease));
     this.#learning = this.#learn(told);
+  }
+
+  /** The words that one may look for bins by, in the order of the alphabet. */
+  listed() {
+    return [...new Set(this.#features.flatMap(({ sought }) => wordsOf(sought.flat().join(" "))))].sort();
   }
 
   /** Learn what is said of the bins before it is asked for, in steps between which the page answers. */
@@ -66,6 +75,8 @@ export class BinWords {
           // From -1 at the low end to 1 at the high one.
           const height = bins > 1 ? (2 * place) / (bins - 1) - 1 : 0;
           if (height !== 0) this.#say(column, ends[Number(height > 0)], END * (1 + Math.abs(height)));
+          // What is a value of its own, and no end of a scale, is looked for whatever its size.
+          if (bins === 1) this.#say(column, ends[1], END);
         }
         yield;
       }

@@ -2,7 +2,7 @@
 
 import { chunk } from "../base/chunks.js";
 import { currentTheme } from "../base/theme.js";
-import { shortened } from "../base/words.js";
+import { measured, percent, percents, shortened } from "../base/words.js";
 import { BinWords } from "./bin-words.js";
 
 const STEPS = 65535;
@@ -130,13 +130,41 @@ export class Bins {
   }
 
   /**
-   * What a reader can picture: the share of a shape's surface that falls into a bin, in [0, 1]; else the value itself.
+   * What a reader can picture: the share of a shape's surface, or of its pairs of places, that falls into a bin, in
+   * [0, 1]; else the value itself.
    * @param {number} column
    * @param {number} row
    */
   share(column, row) {
     const value = this.value(column, row);
-    return this.balanced && this.isShare(column) ? value * value : value;
+    const { rooted } = this.features[this.#featureOf[column]];
+    return rooted || (this.balanced && this.isShare(column)) ? value * value : value;
+  }
+
+  /**
+   * Whether what `share` gives is a share, of the surface or of pairs of places.
+   * @param {number} column
+   */
+  inPercent(column) {
+    return this.isShare(column) || this.features[this.#featureOf[column]].rooted;
+  }
+
+  /**
+   * Values of a column, as `share` gives them, for readers: one by one.
+   * @param {number} column
+   * @returns {(value: number) => string}
+   */
+  telling(column) {
+    return this.inPercent(column) ? (value) => percent(value) : measured;
+  }
+
+  /**
+   * The same for values in one sentence, each told apart from the last one.
+   * @param {number} column
+   * @param {number[]} values
+   */
+  tell(column, values) {
+    return this.inPercent(column) ? percents(...values) : values.map(measured);
   }
 
   /**
@@ -161,6 +189,15 @@ export class Bins {
   /** Get ready to find: the first letter would else wait for it. */
   prepareToFind() {
     return this.#words.prepare();
+  }
+
+  /** What one may type instead, for who found nothing. */
+  get searchHint() {
+    const [first] = this.names;
+    const words = this.#words.listed();
+    return words.length === 0
+      ? `No bin is called so. They have names as ${first}.`
+      : `No bin is known by this. Words that find some: ${words.join(", ")}; or a name, as ${first}.`;
   }
 
   /** @type {string[] | null} */

@@ -23,7 +23,7 @@ export function meshFacts({ facesRead, verticesRead, faces, vertices, deviation 
   return [
     ["in the file", `${count(facesRead, "face")}, ${count(verticesRead, "vertex", "vertices")}`],
     ["as measured", `${count(faces, "face")}, ${count(vertices, "vertex", "vertices")}`],
-    ["off by", `${((deviation ?? 0) * 100).toFixed(3)} % of its diagonal at most`],
+    ["off by", `${((deviation ?? 0) * 100).toFixed(3)}\u00a0% of its diagonal at most`],
   ];
 }
 

@@ -92,12 +92,12 @@ const TRUST = {
   false: {
     title: "False neighbours",
     note: (k) =>
-      `How unlike the ${k} nearest on this map are: 0 % where they are the ${k} most alike, 100 % where none of all shapes are less alike.`,
+      `How unlike the ${k} nearest on this map are: 0\u00a0% where they are the ${k} most alike, 100\u00a0% where none of all shapes are less alike.`,
   },
   missing: {
     title: "Missing neighbours",
     note: (k) =>
-      `How far away the ${k} most alike are on this map: 0 % where they are the ${k} nearest, 100 % where none of all shapes are farther.`,
+      `How far away the ${k} most alike are on this map: 0\u00a0% where they are the ${k} nearest, 100\u00a0% where none of all shapes are farther.`,
   },
 };
 
@@ -158,10 +158,7 @@ export function fieldColoring(database, field) {
  */
 export function binColoring(database, bins, column) {
   const values = database.ids.map((_, row) => bins.share(column, row));
-  const percent = bins.isShare(column);
-  /** @param {number} value */
-  const textOf = (value) => (percent ? `${numberText(Number((100 * value).toPrecision(3)))} %` : numberText(value));
-  return { ...numberColoring(database, bins.names[column], values, textOf), note: bins.sentence(column) };
+  return { ...numberColoring(database, bins.names[column], values, bins.telling(column)), note: bins.sentence(column) };
 }
 
 /**

@@ -3,7 +3,7 @@
 import { drawChart } from "../base/chart.js";
 import { element, focused, watchSize } from "../base/dom.js";
 import { unstep } from "../base/place.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, wholePercent } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 import { drawShepard, tellFaith } from "./faith.js";
@@ -170,7 +170,7 @@ export class ClassList {
     const { highest } = rangeOf(this.database, method);
     if (!isBelowOne(highest)) return "1 is a map whose classes never mix.";
     const share = shareOfRange(method.hitOfAll, method.chance, highest);
-    const stands = share === null ? "" : ` This one is ${(share * 100).toFixed(0)} % of the way there from chance.`;
+    const stands = share === null ? "" : ` This one is ${wholePercent(share)} of the way there from chance.`;
     return `Some classes are too small to fill ${count(method.neighbours, "place")}: a map whose classes never mix has ${figure(highest)}.${stands}`;
   }
 
@@ -228,7 +228,7 @@ export class ClassList {
       element(
         "p",
         {},
-        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${((hitOfAll ?? 0) * 100).toFixed(0)} % share its ${database.data.standIn ? "cluster" : "class"} on average. `,
+        `Neighbourhood hit: of a shape’s ${count(neighbours, "nearest neighbour")} on this ${title} map, ${wholePercent(hitOfAll ?? 0)} share its ${database.data.standIn ? "cluster" : "class"} on average. `,
         database.data.standIn
           ? "The clusters come from the same features, so this says only how well the map shows them."
           : this.#best(method),

@@ -2,12 +2,11 @@
 
 import { joinNames } from "../addresses/names.js";
 import { element, focused } from "../base/dom.js";
-import { capitalised, percent, shortened } from "../base/words.js";
+import { capitalised, measured, percent, shortened, wholePercent } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { quantityInWords } from "../bins-kit/legend.js";
 import { hue } from "./hue.js";
 import { kind } from "./kind.js";
-import { whole } from "./similar-shapes.js";
 
 /** @import { Child } from "../base/dom.js" */
 /** @import { ShapeState } from "../addresses/shape.js" */
@@ -86,7 +85,7 @@ export class Histograms {
    * @param {number} shape
    */
   tell(column, shape) {
-    const told = this.bins.isShare(column) ? percent : measured;
+    const told = this.bins.telling(column);
     const fellows = this.spread.fellows(column, shape);
     const all = this.spread.all(column);
     /** @param {{ low: number, high: number }} band */
@@ -95,7 +94,7 @@ export class Histograms {
       own: told(this.bins.share(column, shape)),
       fellows: fellows && half(fellows),
       all: this.database.count > 1 ? half(all) : null,
-      rank: this.database.count > 1 ? `${whole(this.spread.rank(column, shape))} of all` : null,
+      rank: this.database.count > 1 ? `${wholePercent(this.spread.rank(column, shape))} of all` : null,
     };
   }
 
@@ -315,7 +314,7 @@ export class Histograms {
       element(
         "div",
         { class: "strip-ends", "aria-hidden": "true" },
-        [all.least, all.most].map((value) => element("span", {}, measured(value))),
+        [all.least, all.most].map((value) => element("span", {}, bins.telling(column)(value))),
       ),
       element(
         "p",
@@ -387,9 +386,4 @@ export class Histograms {
     for (const button of this.grid.querySelectorAll("button"))
       button.setAttribute("aria-pressed", String(Number(button.dataset.column) === column));
   }
-}
-
-/** @param {number} value */
-export function measured(value) {
-  return String(Number(value.toPrecision(3))).replace("-", "−");
 }

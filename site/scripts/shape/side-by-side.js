@@ -1,13 +1,12 @@
 // This shape and another: where on their surfaces the distance between them lies, feature by feature and in colours.
 
 import { calm, element, focused } from "../base/dom.js";
-import { figure, shortened } from "../base/words.js";
+import { figure, shortened, wholePercent } from "../base/words.js";
 import { byFeature, sumOf } from "../bins-kit/difference.js";
 import { Stage } from "../bins-kit/stage.js";
 import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
 import { copyEvidence } from "../database/facts.js";
 import { Comparing, isNone } from "./comparing.js";
-import { whole } from "./similar-shapes.js";
 
 /** @import { FeaturePart } from "../bins-kit/difference.js" */
 
@@ -86,8 +85,8 @@ export class SideBySide extends Comparing {
     if (pair === null) return [];
     return byFeature(this.#parts(pair), bins, pair).map(({ feature, share, on, beside }) => [
       bins.features[feature].name,
-      whole(share),
-      ...on.map((own) => (beside > 0 ? "–" : whole(own))),
+      wholePercent(share),
+      ...on.map((own) => (beside > 0 ? "–" : wholePercent(own))),
     ]);
   }
 
@@ -136,17 +135,17 @@ export class SideBySide extends Comparing {
         "p",
         {},
         "Of all that sets the two apart, ",
-        one && [element("bdi", {}, one.title), " makes ", element("b", {}, whole(told[0].share)), ": "],
-        element("b", {}, whole(here)),
+        one && [element("bdi", {}, one.title), " makes ", element("b", {}, wholePercent(told[0].share)), ": "],
+        element("b", {}, wholePercent(here)),
         " lies on ",
         this.#name(own),
         " and ",
-        element("b", {}, whole(there)),
+        element("b", {}, wholePercent(there)),
         " on ",
         this.#name(other),
         nowhere > 0 && [
           ", and ",
-          element("b", {}, whole(nowhere)),
+          element("b", {}, wholePercent(nowhere)),
           " lies in what is measured of whole shapes, not of a place on them",
         ],
         ". What one has and the other lacks is coloured; what both have as much of is not.",
@@ -186,7 +185,7 @@ export class SideBySide extends Comparing {
           },
           element("span", { class: "feature" }, element("bdi", {}, shortened(title, LONGEST))),
           element("span", { class: "length", "aria-hidden": "true" }, bar),
-          element("span", {}, whole(part.share)),
+          element("span", {}, wholePercent(part.share)),
         );
       }),
     );

@@ -3,7 +3,7 @@
 import { compareAddress } from "../addresses/compare.js";
 import { element, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { count, figure, shortened } from "../base/words.js";
+import { count, figure, shortened, wholePercent } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { Comparing, isNone } from "./comparing.js";
 import { hue } from "./hue.js";
@@ -235,7 +235,7 @@ export class SimilarShapes extends Comparing {
         return element(
           "span",
           {
-            title: `${bins.features[feature].aspect} (${bins.features[feature].name}): nearer than ${whole(share)} of all shapes`,
+            title: `${bins.features[feature].aspect} (${bins.features[feature].name}): nearer than ${wholePercent(share)} of all shapes`,
           },
           bar,
         );
@@ -256,11 +256,12 @@ export class SimilarShapes extends Comparing {
     const last = order.at(-1) ?? first;
     /** @param {number} feature */
     const nearer = (feature) =>
-      closer[feature] === 1 ? "nearer than all others" : `nearer than ${whole(closer[feature])} of all shapes`;
+      closer[feature] === 1 ? "nearer than all others" : `nearer than ${wholePercent(closer[feature])} of all shapes`;
     const words = ["Alike in ", name(first)];
     if (order.length > 2) words.push(" and ", name(second));
     words.push(` (${nearer(first)})`);
-    if (order.length > 1 && closer[last] < ALIKE) words.push("; least in ", name(last), ` (${whole(closer[last])})`);
+    if (order.length > 1 && closer[last] < ALIKE)
+      words.push("; least in ", name(last), ` (${wholePercent(closer[last])})`);
     return [...words, "."];
   }
 
@@ -274,15 +275,6 @@ export class SimilarShapes extends Comparing {
     writeSelection(query, this.database, new Set([shape, ...this.found.map(({ row }) => row)]));
     return pageAddress(file, query);
   }
-}
-
-/**
- * A share in whole percent; all and nothing only where it is just that.
- * @param {number} share
- */
-export function whole(share) {
-  const percent = Math.round(100 * share);
-  return `${share < 1 ? Math.min(percent, 99) : 100}\u00a0%`;
 }
 
 /**

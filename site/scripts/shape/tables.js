@@ -1,8 +1,7 @@
 // What the page of a shape shows, as tables.
 
 import { table } from "../base/tables.js";
-import { count, figure } from "../base/words.js";
-import { whole } from "./similar-shapes.js";
+import { count, figure, wholePercent } from "../base/words.js";
 
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
@@ -44,7 +43,7 @@ export function shapeTables(database, state, { facts, similar, beside, histogram
         table(
           "Most similar shapes, and the share of all shapes that are farther away in each feature",
           [...heads, "Distance", ...(bins?.features ?? []).map(({ name }) => name)],
-          found.map(({ row, distance, closer }) => [...named(row), figure(distance), ...closer.map(whole)]),
+          found.map(({ row, distance, closer }) => [...named(row), figure(distance), ...closer.map(wholePercent)]),
         ),
       beside?.pair &&
         table(

@@ -2,7 +2,7 @@
 // by range, or the best ones.
 
 import { element } from "../base/dom.js";
-import { count, figure, grouped, shortened } from "../base/words.js";
+import { count, figure, grouped } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 import { BinGestures } from "./bin-gestures.js";
 import { BinPlot } from "./bin-plot.js";
@@ -45,6 +45,8 @@ export class BinChart {
   field;
   /** @type {HTMLElement} */
   finding;
+  /** @type {HTMLElement} */
+  hint;
   /** @type {HTMLButtonElement} */
   take;
   /** @type {HTMLInputElement} */
@@ -122,11 +124,12 @@ export class BinChart {
     this.reading = element("p", { class: "reading" });
     this.key = element("p", { class: "key" });
     this.node.classList.add("bin-chart");
+    const search = this.#searchTools();
     this.node.replaceChildren(
       element(
         "div",
         { class: "bin-tools" },
-        this.#searchTools(),
+        search,
         radios("Order of the bars", "bin-order", ORDERS, this.order, (order) => {
           this.order = order;
           this.#arrange();
@@ -140,6 +143,7 @@ export class BinChart {
           button("All", "Show all bars (0)", () => plot.lookAtAll()),
         ),
       ),
+      this.hint,
       element("div", { class: "bin-tools" }, this.reading, this.#choiceTools()),
       plot.node,
       this.key,
@@ -153,13 +157,12 @@ export class BinChart {
 
   #searchTools() {
     const { bins } = this;
-    const examples = [shortened(bins.features[0].name, 12), bins.shortName(bins.count - 1, 16)];
     this.field = element("input", {
       type: "search",
       id: "bin-search",
-      placeholder: `Find bins: ${examples.join(", ")}`,
+      placeholder: `Find bins: thick, handle, ${bins.shortName(bins.count - 1, 16)}`,
       title: "Enter goes from match to match",
-      "aria-label": "Find bins by name",
+      "aria-label": "Find bins by a word or by name",
       autocomplete: "off",
       spellcheck: "false",
       onfocus: () => bins.prepareToFind(),
@@ -168,6 +171,7 @@ export class BinChart {
       onblur: () => this.point(null),
     });
     this.finding = element("span", { class: "finding" });
+    this.hint = element("p", { class: "quiet", hidden: true });
     this.take = element("button", {
       type: "button",
       class: "plain",
@@ -386,6 +390,9 @@ export class BinChart {
     this.take.hidden = matches.length === 0;
     this.take.textContent = `${matches.every((column) => this.chosen.has(column)) ? "Remove" : "Add"} ${grouped(matches.length)}`;
     this.finding.textContent = this.#finding(matches);
+    const none = this.found?.size === 0;
+    this.hint.hidden = !none;
+    if (none) this.hint.textContent = this.bins.searchHint;
   }
 
   /** @param {number[]} matches */

@@ -4,7 +4,7 @@ import { DEFAULT_SCORER, EVERY_CLASS } from "../addresses/workbench.js";
 import { element, swatch } from "../base/dom.js";
 import { difference } from "../base/figures.js";
 import { readHash } from "../base/place.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, wholePercent } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 import { inWords } from "../bins-kit/bin-name.js";
 
@@ -166,7 +166,7 @@ export class Guide {
       () => ({
         words: [
           ...pair,
-          ` are mixed: of their nearest neighbours on the map of all shapes, ${Math.round(example.mixed * 100)} % are of the other of the two.`,
+          ` are mixed: of their nearest neighbours on the map of all shapes, ${wholePercent(example.mixed)} are of the other of the two.`,
         ],
         action: "Show only these two",
         todo: () => act.use({ hidden: new Set(others) }),

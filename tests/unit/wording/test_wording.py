@@ -20,6 +20,7 @@ from shapeviz_report.wording import (
     explain_bins,
     say_bins,
 )
+from shapeviz_report.wording.base import percent
 
 #: A table of all our features, and of one that was brought along.
 HISTOGRAMS = sum(block.width for block in BLOCKS)
@@ -53,12 +54,17 @@ def test_every_descriptor_has_its_words(descriptor) -> None:
     assert (np.diff(shown) > 0).all(), "values as they are shown rise as they do"
 
 
+def test_shares_read_as_in_the_scripts_of_the_site() -> None:
+    told = [percent(share).replace("\u00a0", " ") for share in (0, 0.0004, 0.0005, 0.019, 0.0994, 0.0995, 1)]
+    assert told == ["0 %", "<0.1 %", "0.1 %", "1.9 %", "9.9 %", "10 %", "100 %"]
+
+
 class TestPlain:
     def test_every_bin_has_a_short_name_and_a_clause_of_its_own(self) -> None:
         assert len(PLAIN) == HISTOGRAMS
         for texts in ([said.name for said in PLAIN.values()], [said.clause for said in PLAIN.values()]):
             assert len(set(texts)) == HISTOGRAMS
-        assert max(len(said.name) for said in PLAIN.values()) <= 70
+        assert max(len(said.name) for said in PLAIN.values()) <= 74
 
     def test_no_word_of_a_formula(self) -> None:
         for said in PLAIN.values():
@@ -84,11 +90,13 @@ class TestPlain:
         assert PLAIN["Na:1"].clause == "keeps within 5.7° of the longest direction"
         assert PLAIN["Gc:5"].name == "flat, −0.57 to 0.57°"
         assert PLAIN["Gc:1"].name == "saddle over 4°"
-        assert PLAIN["Sc[12]:4"].clause == "has 5.8 to 10 % of the shape some way in front of it, outwards"
-        assert PLAIN["FPFH[14]:3"].name == "around it falling off by 16 to 27°: 4 to 9 %"
-        assert PLAIN["PFH[62]:10"].name == "patch flat: over 52 %"
+        assert PLAIN["Sc[12]:4"].clause == (
+            "has 5.8 to 10\u00a0% of the shape some way in front of it, away from the middle"
+        )
+        assert PLAIN["FPFH[14]:3"].name == "surroundings dropping by 16 to 27°: 4 to 9\u00a0%"
+        assert PLAIN["PFH[62]:10"].name == "patch flat: over 52\u00a0%"
         assert PLAIN["PFH[48]:4"].clause == (
-            "has 5.8 to 10 % of the patch around it bent outwards, far higher and tilted left"
+            "has 5.8 to 10\u00a0% of the patch around it rounded, rising steeply and twisted left"
         )
 
     def test_no_trend_says_more_than_its_range(self) -> None:
@@ -123,7 +131,7 @@ class TestExact:
     def test_a_bin_in_the_middle(self) -> None:
         assert EXACT["Agd:6"] == (
             "What share of the surface lies where the mean distance to all other points, walking on the surface, is "
-            "from 1.4 to 1.6 times the shape's radius."
+            "from 1.4 to 1.6\u00a0times the shape's radius."
         )
 
     def test_the_outer_bins_take_what_lies_beyond(self) -> None:
@@ -132,7 +140,7 @@ class TestExact:
         assert EXACT["Na:10"].endswith(" is 64.2° or more.")
 
     def test_fractions_are_told_in_per_cent(self) -> None:
-        assert EXACT["PFH[0]:2"].endswith(" is from 0.64 to 2.56 %.")
+        assert EXACT["PFH[0]:2"].endswith(" is from 0.64 to 2.56\u00a0%.")
 
     def test_every_bin_of_a_histogram_has_a_sentence_of_its_own(self) -> None:
         histograms = [text for name, text in EXACT.items() if not name.startswith("deep")]
@@ -153,9 +161,11 @@ def test_every_global_descriptor_has_its_words(descriptor) -> None:
     wording = GLOBAL_WORDINGS[descriptor.name]
     for texts in (wording.names, wording.quantities):
         assert len(texts) == len(set(texts)) == descriptor.width, "different words, one a value"
-    assert max(len(name) for name in wording.names) <= 70
+    assert max(len(name) for name in wording.names) <= 74
     assert not any(text.endswith(".") for text in (wording.aspect, *wording.names, *wording.quantities))
     assert not FORMULAS.search(" ".join((wording.aspect, *wording.names, *wording.quantities)))
+    assert len(wording.sought) == descriptor.width
+    assert wording.sought[0][0]
 
 
 def test_columns_are_called_and_explained_in_their_order() -> None:
@@ -163,12 +173,13 @@ def test_columns_are_called_and_explained_in_their_order() -> None:
     table = FeatureTable(("a",), blocks, np.zeros((1, sum(block.width for block in blocks))))
     called = dict(zip(table.columns, call_bins(table, fixed_edges()), strict=True))
     exact = dict(zip(table.columns, explain_bins(table, fixed_edges(), by_area=True), strict=True))
-    assert called["Pan[0]"] == "mean reach from the longest axis"
-    assert called["Pan[9]"] == "reach from the longest axis: 2 waves around, 1 along"
-    assert called["PanS[37]"] == "slant to the middle axis: 2 waves around"
-    assert called["Dep[26]"] == "front against back along the longest axis, 1 wave across"
-    assert called["Sil[55]"] == "shadow along the shortest axis, 1 wave up"
-    assert called["Sfl[0]"] == "share of pairs 0 to 0.4 apart, turned 76–90°, at 76–90° and 76–90°"
+    assert called["Pan[0]"] == "reach around the longest axis on average"
+    assert called["Pan[7]"] == "reach at one place along the longest axis"
+    assert called["Pan[9]"] == "reach on 2 sides of the longest axis, at one place along it"
+    assert called["PanS[37]"] == "steepness on 2 sides of the middle axis"
+    assert called["Dep[26]"] == "difference of the two ends (1 part across)"
+    assert called["Sil[55]"] == "shadow of the broad side (1 part up)"
+    assert called["Sfl[0]"] == "share of pairs 0 to 0.4 apart (square, both edge-on)"
     assert called["deep one[2]"] == ""
     assert exact["Dep[26]"].startswith(
         "The value is the root of the strength of 1 wave along the middle axis and 0 along the shortest"
