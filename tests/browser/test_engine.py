@@ -119,11 +119,11 @@ def test_who_is_like_whom_of_many_is_asked_of_some(engine_page, random):
     found = engine_page.run("faith", **_laid_out(1200, 3), xy=xy, k=10)
     expected = python_faith(points, xy, 10)
     asked = np.flatnonzero(~np.isnan(found["kept"]))
-    np.testing.assert_array_equal(asked, np.arange(300) * 4)
+    np.testing.assert_array_equal(asked, np.arange(100) * 12)
     for name in ("kept", "false", "missing"):
         np.testing.assert_allclose(found[name][asked], expected[name][asked], rtol=0, atol=1e-9)
     for name in FAITH:
-        assert found[name] == pytest.approx(expected[name], abs=0.02), name
+        assert found[name] == pytest.approx(expected[name], abs=0.04), name
 
 
 def test_one_shape_is_like_nobody(engine_page):

@@ -8,6 +8,7 @@ from reports import make_report
 from waiting import drawn_again, eventually
 
 from shapeviz_report.bins import read_bins
+from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 
@@ -293,6 +294,54 @@ def test_pointing_marks_a_shape_on_both_maps(bench):
     page.keyboard.press("Escape")
     drawn_again(page)
     assert page.locator("#tray").is_hidden()
+
+
+def test_maps_say_how_far_they_show_who_is_like_whom(bench, reports):
+    bins = ["Gc:1", "Gc:2", "Gc:3", "Sc[1]:4"]
+    page = bench(hash_="#bins=Gc:1-3+Sc[1]:4&color=map:kept")
+    report = reports("workbench")
+    known = report.faithfulness["tsne"]
+    words = page.locator("figure[data-map=original] .faith").inner_text()
+    assert f"kept {10 * known.kept.mean():.1f} of 10 (at random {10 * known.chance:.1f})" in words
+    assert f"stress {known.stress:.3f}" in words
+    use_only(page, "kind a", "kind b", "kind c")
+    rows = [row for row, label in enumerate(report.labels) if label in ("kind a", "kind b", "kind c")]
+    columns = [report.features.columns.index(name) for name in bins]
+    # Of the chosen bins each counts by its standard deviation over all shapes.
+    values = compared_values(report.features, PRESETS["default"])[:, columns]
+    points = (values / values.std(axis=0))[rows]
+    page.click("#open-tables")
+    shown = page.locator("#tables table", has_text="original x").locator("tbody tr")
+    xy = np.array([[float(cell) for cell in row.split("\t")[4:6]] for row in shown.all_inner_texts()])
+    measures = page.locator("#tables table", has_text="Trustworthiness").locator("tbody tr").all_inner_texts()
+    found = {row.split("\t")[0]: [float(cell) for cell in row.split("\t")[3:5]] for row in measures}
+    expected = rate_maps(points, {"refined": xy}, 10)["refined"]
+    assert found == {
+        "Neighbours kept": pytest.approx([expected.kept.mean(), expected.chance], abs=0.02),
+        "Trustworthiness": pytest.approx([expected.trustworthiness, expected.random], abs=0.02),
+        "Continuity": pytest.approx([expected.continuity, expected.random], abs=0.02),
+        "Stress": pytest.approx([expected.stress, expected.random_stress], abs=0.02),
+    }
+
+
+def test_lines_on_a_map_lead_to_the_most_alike_by_what_it_is_made_from(bench):
+    page = bench()
+    choose_best(page, 4)
+    page.focus("figure[data-map=refined] .surface")
+    page.keyboard.press("ArrowRight")
+
+    def lines(which, kind):
+        return page.eval_on_selector(
+            f"figure[data-map={which}] .ties.{kind}",
+            "node => node.classList.contains('shown') ? node.getAttribute('d').split('M').length - 1 : 0",
+        )
+
+    for which in ("original", "refined"):
+        eventually(page, lambda: lines(which, "kept") + lines(which, "missing") == 10)  # noqa: B023
+    eventually(page, lambda: "most alike" in page.locator("#card").inner_text())
+    page.uncheck("#lines")
+    assert lines("original", "kept") == lines("refined", "missing") == 0
+    assert "lines=none" in address(page)
 
 
 def test_it_works_by_keyboard_alone(bench):

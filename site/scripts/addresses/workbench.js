@@ -10,7 +10,7 @@ import { selected } from "./selected.js";
 
 /** @import { Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
-/** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Database, Faith, ShapeMap } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
 /** @import { MapValues } from "../map/scene.js" */
 /** @import { Standing } from "../engine/inquiry.js" */
@@ -31,6 +31,10 @@ import { selected } from "./selected.js";
  * @property {ShapeMap | null} refinedMap
  * @property {Standing} originalStatus
  * @property {Standing} refinedStatus
+ * @property {Faith | null} originalFaith how far the maps show who is like whom, as far as it was asked for
+ * @property {Standing} originalFaithStatus
+ * @property {Faith | null} refinedFaith
+ * @property {Standing} refinedFaithStatus
  * @property {Standing} scoresStatus
  * @property {Standing} offerStatus
  * @property {number | null} refused NH that no bins were found to exceed

@@ -13,7 +13,7 @@ const WORK = 4e6;
 
 /** Up to so many shapes all are asked; of more, so many: their distances would take as long as the map. */
 const ALL = 1000;
-const ASKED = 300;
+const ASKED = 100;
 
 /**
  * Neighbours kept, false and missing of every shape that is asked (NaN of others), and their means; stress.

@@ -10,7 +10,8 @@ import { contests } from "./separation.js";
 import { turned } from "./turned.js";
 
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Database, Faith, ShapeMap } from "../database/database.js" */
+/** @import { Choice } from "../database/similarity.js" */
 /** @import { Engine, Job, Listener } from "../engine/client.js" */
 /** @import { Use } from "./history.js" */
 /** @import { Separation } from "./separation.js" */
@@ -438,7 +439,7 @@ export class Answers {
   }
 
   /**
-   * A map of some shapes with its neighbourhood hits, and with how far it shows who is like whom.
+   * A map of some shapes with its neighbourhood hits.
    * @param {Run} run
    * @param {Layout} layout
    * @param {ArrayLike<number>} xy
@@ -448,13 +449,6 @@ export class Answers {
     const { database, data, bins } = this;
     const groups = Int32Array.from(rows, (row) => database.groups[row]);
     const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
-    const { kept, false: wrong, missing, ...means } = await run("faith", { rows, columns, by, xy, k: data.neighbours });
-    /** @param {Float64Array} values */
-    const spread = (values) => {
-      const all = new Array(database.count).fill(null);
-      for (let index = 0; index < rows.length; index += 1) all[rows[index]] = known(values[index]);
-      return all;
-    };
     // Neighbours of one class cannot disagree.
     const several = new Set(groups.filter((group) => group >= 0)).size > 1;
     return {
@@ -463,7 +457,7 @@ export class Answers {
       features: [],
       x: this.#spread(rows, xy, 0),
       y: this.#spread(rows, xy, 1),
-      hit: spread(hit),
+      hit: this.#onAll(rows, hit),
       neighbours: Math.min(data.neighbours, rows.length - 1),
       hitOfClass: database.classes.map((_, group) => (several ? known(hitOfClass[group]) : null)),
       hitOfAll: several ? known(hitOfAll) : null,
@@ -473,19 +467,52 @@ export class Answers {
         by === "bins"
           ? { columns: [...columns] }
           : { features: [...new Set([...columns].map((column) => bins.featureOf(column)))] },
-      faith: {
-        kept: spread(kept),
-        false: spread(wrong),
-        missing: spread(missing),
-        mean: means.mean,
-        chance: means.chance,
-        trustworthiness: known(means.trustworthiness),
-        continuity: known(means.continuity),
-        random: known(means.random),
-        stress: known(means.stress),
-        randomStress: known(means.randomStress),
-      },
     };
+  }
+
+  /**
+   * How far a map that was made here shows who is like whom by what it is made from.
+   * @param {ShapeMap} map
+   * @param {Listener} report
+   * @returns {Job<Faith>}
+   */
+  faith({ x, y, compares, neighbours }, report) {
+    const rows = Int32Array.from(this.database.groups.keys()).filter((row) => !Number.isNaN(x[row]));
+    const xy = Float64Array.from(
+      { length: 2 * rows.length },
+      (_, place) => (place % 2 === 0 ? x : y)[rows[place >> 1]],
+    );
+    const { columns, features } = /** @type {Choice} */ (compares);
+    const asked = columns
+      ? { columns: Int32Array.from(columns), by: "bins" }
+      : { columns: this.columns(new Set(features)), by: "features" };
+    return this.#chain(async (run) => {
+      const found = await run("faith", { rows, xy, ...asked, k: neighbours }, report);
+      return {
+        kept: this.#onAll(rows, found.kept),
+        false: this.#onAll(rows, found.false),
+        missing: this.#onAll(rows, found.missing),
+        mean: found.mean,
+        chance: found.chance,
+        trustworthiness: known(found.trustworthiness),
+        continuity: known(found.continuity),
+        random: known(found.random),
+        stress: known(found.stress),
+        randomStress: known(found.randomStress),
+      };
+    });
+  }
+
+  /**
+   * What is known of some shapes, as of all; null where there is no number.
+   * @param {ArrayLike<number>} rows
+   * @param {ArrayLike<number>} values
+   * @returns {(number | null)[]}
+   */
+  #onAll(rows, values) {
+    const all = new Array(this.database.count).fill(null);
+    for (let index = 0; index < rows.length; index += 1) all[rows[index]] = known(values[index]);
+    return all;
   }
 
   /**

@@ -12,7 +12,7 @@ import { contests, separationWords } from "./separation.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
-/** @import { Database, ShapeMap } from "../database/database.js" */
+/** @import { Database, Faith, ShapeMap } from "../database/database.js" */
 /** @import { Listener } from "../engine/client.js" */
 /** @import { Standing } from "../engine/inquiry.js" */
 /** @import { LiveScene } from "../map/live-scene.js" */
@@ -20,10 +20,11 @@ import { contests, separationWords } from "./separation.js";
 /** @import { Use, Work } from "./history.js" */
 
 /**
- * The questions that a reader keeps asking: for the two maps, for the scores of the bins, and for a few bins that make a
- * better map.
+ * The questions that a reader keeps asking: for the two maps, for how far these show who is like whom, for the scores of the
+ * bins, and for a few bins that make a better map.
  * @typedef {"original" | "refined"} Which
- * @typedef {Which | "scores" | "offer"} Question
+ * @typedef {`${Which}Faith`} OfMap
+ * @typedef {Which | OfMap | "scores" | "offer"} Question
  */
 
 /** Fewer shapes have no map worth the name. */
@@ -39,6 +40,10 @@ export function nothingMade() {
     refinedMap: null,
     refinedStatus: { kind: "none" },
     refinedCamera: null,
+    originalFaith: null,
+    originalFaithStatus: { kind: "none" },
+    refinedFaith: null,
+    refinedFaithStatus: { kind: "none" },
     scores: null,
     scoresStatus: { kind: "none" },
     offerStatus: { kind: "none" },
@@ -75,6 +80,8 @@ export class Desk {
     this.inquiries = {
       original: inquiry("original"),
       refined: inquiry("refined"),
+      originalFaith: inquiry("originalFaith"),
+      refinedFaith: inquiry("refinedFaith"),
       scores: inquiry("scores"),
       offer: inquiry("offer"),
     };
@@ -234,13 +241,14 @@ export class Desk {
    * @param {Question[]} what
    */
   ask(what = ["original", "refined", "scores"]) {
+    /** @type {Partial<Record<Question, () => void>>} */
     const ways = {
       original: () => this.#askMap("original"),
       refined: () => this.#askMap("refined"),
       scores: () => this.#askScores(),
       offer: () => this.findBins(),
     };
-    for (const name of what) ways[name]();
+    for (const name of what) ways[name]?.();
   }
 
   /**
@@ -280,6 +288,7 @@ export class Desk {
     const large = shapes > MOST_SHAPES && !answers.hasMap(which, projection, asked);
     if (shapes < FEWEST_SHAPES || large || (which === "refined" && step.bins.size === 0)) {
       inquiry.rest();
+      this.inquiries[`${which}Faith`].rest();
       state.set({ [`${which}Map`]: null });
       return;
     }
@@ -301,7 +310,31 @@ export class Desk {
       state.set({ [`${which}Map`]: map });
       if (!shown) scene.show(map);
       this.#say(which, map);
+      this.#askFaith(which, key, map);
     });
+  }
+
+  /**
+   * A map waits for no answer to this.
+   * @param {Which} which
+   * @param {string} key
+   * @param {ShapeMap} map
+   */
+  #askFaith(which, key, map) {
+    const inquiry = this.inquiries[`${which}Faith`];
+    if (map.faith || map.compares === undefined) {
+      inquiry.rest();
+      return;
+    }
+    inquiry.ask(
+      key,
+      (report) => this.answers.faith(map, report),
+      (/** @type {Faith} */ faith) => {
+        map.faith = faith;
+        for (const shown of this.scenes[which].database.methods) if (shown.x === map.x) shown.faith = faith;
+        this.state.set({ [`${which}Faith`]: faith });
+      },
+    );
   }
 
   /**

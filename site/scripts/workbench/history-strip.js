@@ -33,7 +33,12 @@ export class HistoryStrip {
     state.listen((changed) => {
       if (changed.has("theme")) this.#pictures = new WeakMap();
       if (changed.has("whereabouts")) this.#showWays();
-      if (["step", "originalMap", "refinedMap", "theme"].some((name) => changed.has(name))) this.render();
+      if (
+        ["step", "originalMap", "refinedMap", "originalFaith", "refinedFaith", "theme"].some((name) =>
+          changed.has(name),
+        )
+      )
+        this.render();
     });
   }
 

@@ -70,6 +70,7 @@ class MapPanel {
     });
     const names = [
       `${which}Map`,
+      `${which}Faith`,
       `${which}Status`,
       other,
       "bins",

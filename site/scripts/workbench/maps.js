@@ -56,7 +56,7 @@ export class WorkMaps {
     };
     this.gestures = new Map(this.views.map((view) => [view.surface, new Gestures(view, does)]));
     state.listen((changed) => {
-      const made = changed.has("originalMap") || changed.has("refinedMap");
+      const made = ["originalMap", "refinedMap", "originalFaith", "refinedFaith"].some((name) => changed.has(name));
       if (changed.has("color") || (made && state.get("coloring")?.of)) this.redraw();
     });
   }
