@@ -361,7 +361,7 @@ class TestWhoIsLikeWhom:
             point(page, "ArrowRight")
             shares = shares_of(site("plain"), f"{key}:{method}")
             share = 100 * shares[page.locator("#card .name").inner_text()]
-            found = re.search(rf"{title}: ([\d.]+) %", page.locator("#card").inner_text())
+            found = re.search(rf"{title}: ([\d.]+)\s%", page.locator("#card").inner_text())
             assert float(found[1]) == pytest.approx(share, abs=0.51 if share >= 9.95 else 0.051)
 
     def test_lines_lead_to_the_most_alike_near_and_elsewhere(self, open_page, site):
@@ -401,6 +401,9 @@ class TestWhoIsLikeWhom:
         page.keyboard.press("Enter")
         page.wait_for_selector("#detail h2")
         eventually(page, lambda: lines(page, "kept") + lines(page, "missing") == 10)
+        # Beside its neighbours on the map, those that are missing among them.
+        eventually(page, lambda: "most alike" in page.locator("#detail").inner_text())
+        assert page.locator("#detail .elsewhere .shape").count() == lines(page, "missing")
         page.evaluate("document.activeElement.blur()")
         page.mouse.move(5, 5)
         eventually(page, lambda: lines(page, "kept") + lines(page, "missing") == 10)

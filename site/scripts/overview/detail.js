@@ -6,24 +6,28 @@ import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
 import { meshFacts, surfaceFacts } from "../database/facts.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
-import { classLine } from "../map/card.js";
+import { classLine, missingWords } from "../map/card.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
+/** @import { Parted } from "../map/lines.js" */
 
 export class Detail {
   /**
    * @param {Database} database
    * @param {OverviewState} state
-   * @param {{ point: (index: number | null) => void }} ways shows a shape on the map
+   * @param {object} ways
+   * @param {(index: number | null) => void} ways.point shows a shape on the map
+   * @param {(index: number) => Parted | null} ways.parted who is most alike to one, as far as it is known
    */
-  constructor(database, state, { point }) {
+  constructor(database, state, { point, parted }) {
     this.database = database;
     this.point = point;
+    this.parted = parted;
     this.state = state;
     this.node = document.getElementById("detail");
     state.listen((changed) => {
-      const redrawn = changed.has("method") || changed.has("theme");
+      const redrawn = ["method", "theme", "alike"].some((name) => changed.has(name));
       if (changed.has("opened") || (redrawn && state.get("opened") !== null)) this.show();
     });
   }
@@ -116,32 +120,58 @@ export class Detail {
           element("b", {}, figure(hit)),
           `${ofAtMost(highestOf(database, method, index))}: the share of them in its own class.`,
         ),
-      element(
-        "div",
-        { class: "neighbours" },
-        near.map((other) =>
-          element(
-            "button",
-            {
-              type: "button",
-              class:
-                database.groups[other] === database.groups[index] || database.groups[index] < 0
-                  ? "shape"
-                  : "shape stranger",
-              "aria-label": `Open ${database.names[other]}, ${database.className(database.groups[other])}`,
-              title: `${database.names[other]}\n${database.className(database.groups[other])}`,
-              onclick: () => this.state.set({ opened: other }),
-              onpointerenter: () => this.point(other),
-              onpointerleave: () => this.point(null),
-            },
-            picture(database, other, 64),
-          ),
-        ),
-      ),
+      this.#pictures(index, near),
       database.groups[index] >= 0 &&
         near.some((other) => database.groups[other] !== database.groups[index]) &&
         element("p", { class: "key" }, "Underlined: of another class."),
+      ...this.#elsewhere(index),
     ].filter(Boolean);
+  }
+
+  /**
+   * Those of the most alike that are elsewhere on the map.
+   * @param {number} index
+   */
+  #elsewhere(index) {
+    const parted = this.parted(index);
+    if (parted === null || parted.kept.length + parted.missing.length === 0) return [];
+    const { missing } = parted;
+    return [
+      element("p", {}, missingWords(parted), missing.length > 0 && ` ${missing.length === 1 ? "It is" : "They are"}:`),
+      missing.length > 0 && this.#pictures(index, missing, "elsewhere"),
+    ];
+  }
+
+  /**
+   * Pictures of some shapes near one, each a way to it.
+   * @param {number} index
+   * @param {number[]} shapes
+   * @param {string} [kind]
+   */
+  #pictures(index, shapes, kind = "neighbours") {
+    const { database } = this;
+    return element(
+      "div",
+      { class: kind },
+      shapes.map((other) =>
+        element(
+          "button",
+          {
+            type: "button",
+            class:
+              database.groups[other] === database.groups[index] || database.groups[index] < 0
+                ? "shape"
+                : "shape stranger",
+            "aria-label": `Open ${database.names[other]}, ${database.className(database.groups[other])}`,
+            title: `${database.names[other]}\n${database.className(database.groups[other])}`,
+            onclick: () => this.state.set({ opened: other }),
+            onpointerenter: () => this.point(other),
+            onpointerleave: () => this.point(null),
+          },
+          picture(database, other, 64),
+        ),
+      ),
+    );
   }
 }
 

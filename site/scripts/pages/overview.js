@@ -10,7 +10,7 @@ import { loadBins } from "../database/bins.js";
 import { Database } from "../database/database.js";
 import { TrueNeighbours } from "../database/true-neighbours.js";
 import { Card } from "../map/card.js";
-import { watchLines } from "../map/lines.js";
+import { partedNeighbours, watchLines } from "../map/lines.js";
 import { dragging, NOTHING_POINTED } from "../map/scene.js";
 import { mapTables } from "../map/tables.js";
 import { ClassList } from "../overview/classes.js";
@@ -36,7 +36,7 @@ async function main() {
   /** @param {number | null} pointed */
   const point = (pointed) => state.set({ pointed, pointedFrom: maps.large });
   const classes = new ClassList(database, state);
-  const detail = new Detail(database, state, { point });
+  const detail = new Detail(database, state, { point, parted: (index) => partedNeighbours(maps.large, index) });
   const search = new Search(database, state, {
     announce,
     open(index) {
