@@ -91,7 +91,7 @@ export class Ranking {
     document.getElementById("rank-words").textContent =
       measure.name === "nh"
         ? ""
-        : `${MEASURES[measure.name].meaning}. The map of each subset is held to distances by its own features: whether these are worth comparing, it does not say.`;
+        : `Ranked by ${MEASURES[measure.name].title.toLowerCase()}. ${MEASURES[measure.name].meaning}. The map of each subset is held to distances by its own features: whether these are worth comparing, it does not say.`;
     for (const rule of document.querySelectorAll("[data-rule]"))
       rule.hidden = rule.dataset.rule === "nh" ? !labelled : measure.chance === null;
     document.getElementById("chance").textContent = figure(measure.chance);
