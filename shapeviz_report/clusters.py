@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +32,7 @@ from shapeviz_report.wording import (
     dimensions_of,
     word_whole,
 )
-from shapeviz_report.wording.base import percent
+from shapeviz_report.wording.base import percents
 
 SMALLEST = 8
 """Fewer shapes are seen at a glance, and no number of groups among them could be told from chance."""
@@ -315,7 +315,8 @@ def _word_typical(
                 shown = np.square(values[:, best]) if rooted else values[:, best]
                 mean = float(shown[own].mean())
                 others_mean = float((shown.sum() - size * mean) / others)
-                sentence = _word_values(called, mean, others_mean, percent if rooted else _number)
+                told = percents(mean, others_mean) if rooted else (_number(mean), _number(others_mean))
+                sentence = _word_values(called, mean > others_mean, *told)
             hard = block.dimensions > 1 or effects[best] < CLEAR
             candidates.append((hard, -effects[best], sentence))
     return [tuple(sentence for _, _, sentence in sorted(candidates)[:TYPICAL]) for candidates in found]
@@ -331,14 +332,15 @@ def _word_shares(dimension: Dimension, step: int, here: float, there: float, pre
         said = dimension.say(None, edge)
     said = agreed(said, preset.by_area)
     trend = f"{said.trend[0].upper()}{said.trend[1:]}: " if said.trend else ""
-    return f"{trend}{percent(here)} of {word_whole(preset.by_area)} {said.clause}, in other shapes {percent(there)}."
+    own, others = percents(here, there)
+    return f"{trend}{own} of {word_whole(preset.by_area)} {said.clause}, in other shapes {others}."
 
 
-def _word_values(called: str, here: float, there: float, told: Callable[[float], str]) -> str:
+def _word_values(called: str, higher: bool, here: str, there: str) -> str:
     """That a value of the whole shape, or one that was brought along, is larger or smaller."""
-    side = "higher" if here > there else "lower"
+    side = "higher" if higher else "lower"
     words = f"{called[:1].upper()}{called[1:]} is {side} than in other shapes"
-    return f"{words}: {told(here)} against {told(there)}."
+    return f"{words}: {here} against {there}."
 
 
 def _number(value: float) -> str:

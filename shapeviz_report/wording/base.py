@@ -201,12 +201,22 @@ def radii(value: float) -> str:
     return f"{text} radius" if text == "1" else f"{text} radii"
 
 
-def percent(share: float) -> str:
-    """A share in per cent, short, as ``percent`` of ``base/words.js`` tells it."""
+def percent(share: float, more: int = 0) -> str:
+    """A share in per cent, short, with more digits where asked, as ``percent`` of ``base/words.js`` tells it."""
     value = 100 * share
-    if 0 < value < 0.05:
-        return "<0.1\u00a0%"
-    return f"{value:.{0 if value == 0 or value >= 9.95 else 1}f}\u00a0%"
+    least = 10.0 ** -(more + 1)
+    if 0 < value < least / 2:
+        return f"<{least:g}\u00a0%"
+    return f"{value:.{more if value == 0 or value >= 9.95 else more + 1}f}\u00a0%"
+
+
+def percents(first: float, second: float) -> tuple[str, str]:
+    """Two shares in per cent, with as many digits as tell them apart, but two more at most."""
+    for more in range(3):
+        told = percent(first, more), percent(second, more)
+        if told[0] != told[1]:
+            break
+    return told
 
 
 def amount(low: float | None, high: float | None) -> str:

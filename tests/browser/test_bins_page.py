@@ -301,7 +301,7 @@ def test_the_figures_are_there_as_tables(bins):
         "What such a choice is worth on shapes it never saw",
     ]
     shapes = page.locator("#tables table").last.locator("tbody tr")
-    amounts = [float(text.split(" ")[0]) for text in shapes.locator("td:last-child").all_inner_texts()]
+    amounts = [float(text.split("\u00a0")[0]) for text in shapes.locator("td:last-child").all_inner_texts()]
     assert len(amounts) == 32
     assert amounts == sorted(amounts, reverse=True)
     rows = page.locator("#tables table").nth(1).locator("tbody tr")

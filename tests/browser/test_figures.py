@@ -32,7 +32,10 @@ def save(page, root, kind, folder):
 
 def figures(page):
     page.wait_for_selector("[data-figure] .save-figure:visible")
-    return [root for root in page.locator("[data-figure]").all() if root.is_visible()]
+    # What draws nothing, as a map of no bins yet, has no menu.
+    return [
+        root for root in page.locator("[data-figure]:has(.save-figure:visible)").all() if root.is_visible()
+    ]
 
 
 def words(tree) -> str:
@@ -44,7 +47,9 @@ def check(path, root):
     source = path.read_text(encoding="utf-8")
     tree = ET.fromstring(source)
     assert tree.tag == f"{SVG}svg"
-    assert tree.find(f"{SVG}title").text.startswith(root.get_attribute("data-figure"))
+    title = tree.find(f"{SVG}title").text
+    headings = [node for node in tree.findall(f"{SVG}text") if node.get("font-size") == "15px"]
+    assert " ".join("".join(node.itertext()) for node in headings) == " ".join(title.split())
     assert "Source: " in words(tree)
     assert not re.search(
         r"<(script|foreignObject|style)\b|url\((?!#|&quot;#|\"#)|href=\"(?!data:image/|#)", source
@@ -67,6 +72,55 @@ def test_every_figure_of_a_page_of_nasty_names_is_well_formed_and_holds_all_it_s
         path = save(page, root, "SVG", tmp_path)
         assert path.name.startswith("everything-at-once-")
         check(path, root)
+
+
+#: What is said to who sits before a screen, and the words of links that lead on.
+FOR_THE_SCREEN = re.compile(
+    r"\b(click|hover|press|tap|drag|switch|point at|zoom in|rank by|turn both|save|more bins|more shapes"
+    r"|try these|show them|show more|compare with|open on|open in|see where|how they were found|lines to)\b",
+    re.IGNORECASE,
+)
+
+#: Every page with figures, in each of its views.
+VIEWS = {
+    "index.html": ["", "view=hit", "view=three", "coloring=fact:faces"],
+    "compare.html": ["a=class%3Aclass000&b=class%3Aclass001", "view=outliers", "view=classes"],
+    "shape.html": ["id=class000%2F0001", "id=class000%2F0001&beside=class001%2F0001"],
+    "features.html": [""],
+    "bins.html": [""],
+    "workbench.html": [""],
+}
+
+
+@pytest.mark.parametrize("view", [f"{file}#{view}" for file, views in VIEWS.items() for view in views])
+def test_a_figure_could_stand_in_a_paper(open_page, tmp_path, view):
+    """One title, a caption of what is shown, the source, each once; and nothing for the screen."""
+    page = open_page("searched", view)
+    eventually(page, lambda: page.locator("main [aria-busy=true]").count() == 0)
+    page.evaluate(
+        "for (const folded of document.querySelectorAll('details:not(.save-figure)')) folded.open = true"
+    )
+    roots = figures(page)
+    assert roots
+    for root in roots:
+        told = page.evaluate(
+            "root => [...root.querySelectorAll('h2')].map((node) => node.textContent.trim())",
+            root.element_handle(),
+        )
+        path = save(page, root, "SVG", tmp_path)
+        tree = ET.parse(path).getroot()
+        title = tree.find(f"{SVG}title").text
+        lines = ["".join(node.itertext()) for node in tree.iter(f"{SVG}text")]
+        assert not {line for line in lines if line in told and line != title}, "a heading of the page"
+        assert lines.count(title) <= 1
+        # The caption follows the title: the lines of twelve pixels that stand directly in the drawing.
+        caption = " ".join(
+            "".join(node.itertext()) for node in tree.findall(f"{SVG}text") if node.get("font-size") == "12px"
+        )
+        assert re.fullmatch(r"(t-SNE|[^a-z]|kind \w+ \d+|class\d+ \d+).{20,}\.", caption), caption
+        assert sum(line.startswith("Source: ") for line in lines) == 1
+        found = FOR_THE_SCREEN.search(" ".join(lines))
+        assert found is None, found
 
 
 def test_a_map_is_drawn_in_shapes_names_and_pictures_with_a_legend_and_its_source(open_page, tmp_path):

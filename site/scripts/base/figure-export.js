@@ -26,7 +26,6 @@ const FONT = { "font-family": "system-ui, sans-serif", fill: "#1c1d1f" };
 /** Give every figure of the page a menu; called once, when all of them are there. */
 export function offerFigures() {
   for (const root of document.querySelectorAll("[data-figure]")) {
-    const title = root.dataset.figure ?? "";
     /** @param {"SVG" | "PNG"} kind */
     const way = (kind) =>
       element(
@@ -45,7 +44,11 @@ export function offerFigures() {
     const menu = element(
       "details",
       { class: "save-figure" },
-      element("summary", { title: "Save this figure", "aria-label": `Save the figure: ${title}` }, "Save"),
+      element(
+        "summary",
+        { title: "Save this figure", "aria-label": `Save the figure: ${root.dataset.figure}` },
+        "Save",
+      ),
       element("div", {}, way("SVG"), way("PNG")),
     );
     menu.addEventListener("keydown", (event) => {
@@ -70,7 +73,7 @@ export function offerFigures() {
  */
 async function saveFigure(root, kind) {
   const { text, width, height } = await figureText(root);
-  const name = `${fileName(said("database"), root.dataset.figure ?? "figure")}.${kind.toLowerCase()}`;
+  const name = `${fileName(said("database"), toldOf(root).title)}.${kind.toLowerCase()}`;
   const drawing = new Blob([text], { type: "image/svg+xml" });
   saveFile(name, kind === "SVG" ? drawing : await pixels(drawing, width, height));
 }
@@ -78,12 +81,12 @@ async function saveFigure(root, kind) {
 /** @param {Found} root */
 async function figureText(root) {
   const pictures = await heldPictures(root);
-  const { node, width, height } = await onPaper(() => snapshot(root, pictures));
-  const title = [root.dataset.figure ?? "", said("database")].filter((word) => word !== "").join(" – ");
+  const { node, width, height } = await onPaper(() => alone(root, () => snapshot(root, pictures)));
+  const { title, words } = toldOf(root);
   const wide = Math.max(width, 320) + 2 * MARGIN;
   const source = wrapped(said("source"), (wide - 2 * MARGIN) / 5.6);
   const heading = wrapped(title, (wide - 2 * MARGIN) / 8.6);
-  const told = wrapped(toldOf(root), (wide - 2 * MARGIN) / 6.6);
+  const told = wrapped(words, (wide - 2 * MARGIN) / 6.6);
   const below = MARGIN + heading.length * LINE + 8;
   const top = below + (told.length > 0 ? told.length * 16 + 8 : 0);
   const high = top + height + 14 + source.length * 14 + MARGIN;
@@ -115,6 +118,30 @@ async function figureText(root) {
   );
   const text = `<?xml version="1.0" encoding="UTF-8"?>\n${xmlText(new XMLSerializer().serializeToString(drawing))}\n`;
   return { text, width: Math.ceil(wide), height: Math.ceil(high) };
+}
+
+/**
+ * Do something while an element holds no more than its figure: without its heading, the words of the page about it, and
+ * what is to be pressed or read on a screen. Its maps keep their sizes.
+ * @template Result
+ * @param {Found} root
+ * @param {() => Result} work
+ */
+function alone(root, work) {
+  const maps = [...root.querySelectorAll(".surface")].map((node) => ({
+    node,
+    style: node.style.cssText,
+    box: node.getBoundingClientRect(),
+  }));
+  for (const { node, box } of maps)
+    Object.assign(node.style, { flex: "none", width: `${box.width}px`, height: `${box.height}px` });
+  root.dataset.saved = "";
+  try {
+    return work();
+  } finally {
+    delete root.dataset.saved;
+    for (const { node, style } of maps) node.style.cssText = style;
+  }
 }
 
 /**

@@ -2,7 +2,7 @@
 
 import { chartsAtRest } from "./chart.js";
 import { element, remeasure, said } from "./dom.js";
-import { drawnWithin, toldOf } from "./snapshot.js";
+import { drawnWithin, toldOnPaper } from "./snapshot.js";
 import { currentTheme, restyle } from "./theme.js";
 
 /**
@@ -68,7 +68,7 @@ export function watchPaper() {
       }
       return drawing;
     });
-    for (const figure of document.querySelectorAll("[data-figure]")) tell(figure, toldOf(figure));
+    for (const figure of document.querySelectorAll("[data-figure]")) tell(figure, toldOnPaper(figure));
     tell(document.getElementById("content"), said("source"));
   });
   window.addEventListener("afterprint", () => {

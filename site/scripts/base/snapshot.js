@@ -8,10 +8,6 @@ import { svg } from "./dom.js";
  * @typedef {{ x: number, y: number }} Corner
  */
 
-/** What is to be pressed or typed into is no part of a figure, nor is what only some readers perceive. */
-const LEFT_OUT =
-  ".save-figure, .on-screen, details:not([open]), .choice, .zoom, .unseen, .card, .exact, .as-pictures, .plain, input, select, textarea, dialog, script";
-
 /** What a drawing inherits or is given by style sheets, and has to say itself where there are none. */
 const LOOKS = [
   "fill",
@@ -52,24 +48,52 @@ export function drawnAs(node, draw) {
   drawings.set(node, draw);
 }
 
-/** @type {WeakMap<Element, () => string>} */
+/**
+ * What a figure is called and what it shows; whether it says so on paper too, where its page does not.
+ * @typedef {{ title?: string, words: string, onPaper?: boolean }} Told
+ */
+
+/** @type {WeakMap<Element, () => string | Told>} */
 const tellings = new WeakMap();
 
 /**
- * Say in a sentence what a figure shows, for who sees it without the page about it: in a file, and on paper.
- * @param {Element} figure
- * @param {() => string} tell
+ * Say in a sentence what a figure shows, for who sees it without the page about it, and how it is called where that
+ * changes. A sentence alone stands on paper too.
+ * @param {Element | null} figure
+ * @param {() => string | Told} tell
  */
 export function toldAs(figure, tell) {
-  tellings.set(figure, tell);
+  if (figure !== null) tellings.set(figure, tell);
 }
 
 /**
- * What a figure shows; nothing where it says that itself.
- * @param {Element} figure
+ * The title and the caption of a figure: as it was told, else as its page has them.
+ * @param {Found} figure
+ * @returns {{ title: string, words: string }}
  */
 export function toldOf(figure) {
-  return tellings.get(figure)?.() ?? "";
+  const told = tellings.get(figure)?.();
+  const { title, words } = typeof told === "object" ? told : { title: undefined, words: told };
+  return { title: title ?? figure.dataset.figure ?? "", words: words ?? captionOf(figure) };
+}
+
+/**
+ * What stands below a figure on paper and nowhere else.
+ * @param {Element} figure
+ */
+export function toldOnPaper(figure) {
+  const told = tellings.get(figure)?.();
+  return typeof told === "object" ? (told.onPaper ? told.words : "") : (told ?? "");
+}
+
+/** @param {Element} figure */
+function captionOf(figure) {
+  const caption = [...figure.querySelectorAll(".caption")].find((node) => node.closest("[data-figure]") === figure);
+  if (caption === undefined) return "";
+  const copy = /** @type {Element} */ (caption.cloneNode(true));
+  // A caption is plain text, in which "NH" has no small letter below it.
+  for (const node of copy.querySelectorAll(".on-screen, .save-figure, sub")) node.remove();
+  return (copy.textContent ?? "").replace(/\s+/g, " ").trim();
 }
 
 /**
@@ -146,7 +170,7 @@ class Taker {
    */
   take(node, into) {
     const style = getComputedStyle(node);
-    if (style.display === "none" || node.matches(LEFT_OUT)) return;
+    if (style.display === "none") return;
     const own = style.opacity === "1" ? into : svg("g", { opacity: style.opacity });
     if (own !== into) into.append(own);
     const seen = style.visibility === "visible";

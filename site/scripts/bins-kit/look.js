@@ -3,6 +3,8 @@
 import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
+import { toldAs } from "../base/snapshot.js";
+import { count } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 
@@ -32,6 +34,14 @@ export class Look {
     this.paintings = document.getElementById("paintings");
     this.legend = new Legend(selection);
     this.choice = document.getElementById("bin-choice");
+    toldAs(document.getElementById("look"), () => {
+      const column = state.get("bin");
+      const called = bins.called[column];
+      return {
+        title: `${bins.names[column]}${called ? `: ${called}` : ""}`,
+        words: `${bins.sentence(column)}${database.labelled ? ` A row a ${database.data.standIn ? "cluster" : "class"}: each mark is a shape, the line is the median.` : ""} ${count(database.count, "shape")}.`,
+      };
+    });
     this.choice.addEventListener("change", () => {
       const [bin, group] = this.choice.value.split(" ").map(Number);
       state.set({ bin, group: group >= 0 ? group : null });
@@ -110,11 +120,11 @@ export class Look {
       others: groups.filter((other) => other !== group),
     });
     return [
-      element("h3", {}, binName(bins, column)),
+      element("h3", { class: "in-page" }, binName(bins, column)),
       feature.measures !== "" &&
         element(
           "p",
-          { class: "quiet" },
+          { class: "quiet in-page" },
           element("b", {}, feature.title),
           ": ",
           lowered(feature.measures),

@@ -140,7 +140,8 @@ export class PathPlayer {
     toldAs(document.querySelector(".step-map"), () => {
       const compared = this.steps[this.state.get("step")].bins.map((column) => this.bins.names[column]);
       const shapes = this.selection.rows?.length ?? database.count;
-      return `Map of ${count(shapes, "shape")}, compared by ${count(compared.length, "bin")}: ${compared.join(", ")}. Colour and mark: ${database.data.standIn ? "cluster" : "class"}.`;
+      const words = `Map of ${count(shapes, "shape")}, compared by ${count(compared.length, "bin")}: ${compared.join(", ")}. Colour and mark: ${database.data.standIn ? "cluster" : "class"}.`;
+      return { title: `Map of ${count(compared.length, "bin")}`, words, onPaper: true };
     });
     pointing.watch(surface, this.plot, choose, this.state);
   }

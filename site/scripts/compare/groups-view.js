@@ -15,6 +15,7 @@ import { Contrasts, MOST_COMPARED, varied } from "./contrasts.js";
 import { featureRows } from "./feature-rows.js";
 import { Groups, isSame } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
+import { tellFigures } from "./told.js";
 import { called } from "./words.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
@@ -67,6 +68,7 @@ export class GroupsView {
     this.chooser = new Chooser(database, clusters, state);
     this.contrasts = new Contrasts(database, data, bins);
     this.seen = new OnShapes(database, state, announce);
+    tellFigures(() => this.view, this.seen);
     this.status = document.getElementById("status");
     this.result = document.getElementById("result");
     this.inquiry = new Inquiry((told) => this.#tell(told));

@@ -4,6 +4,7 @@ import { compareAddress } from "../addresses/compare.js";
 import { galleryOf } from "../addresses/shapes.js";
 import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
+import { toldAs } from "../base/snapshot.js";
 import { count, shortened, wholePercent } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 
@@ -40,6 +41,9 @@ export class Matrix {
     this.node = document.getElementById("matrix");
     if (this.node === null) return;
     this.words = document.getElementById("cell-words");
+    toldAs(this.node.closest("[data-figure]"), () => ({
+      words: `Of the ${count(neighbours.k, "nearest neighbour")} of the shapes of each ${this.#kind} (row), how many in a hundred are of each ${this.#kind} (column), ${this.#where()}; ${count(database.count, "shape")}. The diagonal is a ${this.#kind}’s own share.`,
+    }));
     this.node.addEventListener("keydown", (event) => this.#key(event));
     this.node.addEventListener("pointerover", (event) => this.#point(event.target.closest("[data-row]")));
     this.node.addEventListener("pointerleave", () => this.#point(null));
@@ -54,6 +58,17 @@ export class Matrix {
       if (["view", "space", "theme"].some((name) => changed.has(name))) this.render();
       else if (changed.has("row") || changed.has("column")) this.#behind();
     });
+  }
+
+  get #kind() {
+    return this.database.data.standIn ? "cluster" : "class";
+  }
+
+  /** Where neighbours are looked for, in words. */
+  #where() {
+    const checked = document.querySelector("#spaces input:checked");
+    const title = checked?.parentElement?.textContent?.trim() ?? "";
+    return checked?.value === this.neighbours.spaces[0] ? `compared by ${title}` : `on the map by ${title}`;
   }
 
   render() {

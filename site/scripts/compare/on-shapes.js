@@ -84,6 +84,22 @@ export class OnShapes {
     else this.#bin(view, this.selection);
   }
 
+  /** What the two pictures show, in a sentence. */
+  caption() {
+    const { view, database, chosen, state } = this;
+    if (view === null) return "";
+    const { bins, bin } = view;
+    const pair = SIDES.map((side) => database.names[chosen[side]]).join(" and ");
+    const { title } = bins.features[bins.featureOf(bin)];
+    const called = `${bins.names[bin]}${bins.called[bin] ? ` (${bins.called[bin]})` : ""}`;
+    if (state.get("reading") === "apart")
+      return `${pair}: coloured is what the one has and the other lacks, in all features together.`;
+    if (!bins.isShare(bin)) return `${pair}, and their values of ${called}, a value of the whole shape.`;
+    return state.get("reading") === "inside"
+      ? `${pair}: coloured is what falls into the bin ${called}.`
+      : `${pair}, coloured by ${title}; the range marked in the legend is that of the bin ${called}.`;
+  }
+
   /**
    * One bin on both shapes.
    * @param {View} view
@@ -102,7 +118,7 @@ export class OnShapes {
         .append(
           element(
             "p",
-            { class: "quiet" },
+            { class: "quiet in-page" },
             selection.models === null
               ? "No pictures of this bin were painted on these two."
               : "No pictures of this bin were painted on these two: turn both in 3D to see its colours.",

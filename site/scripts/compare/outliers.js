@@ -3,7 +3,8 @@
 import { compareAddress } from "../addresses/compare.js";
 import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { count, figure } from "../base/words.js";
+import { toldAs } from "../base/snapshot.js";
+import { count, figure, grouped } from "../base/words.js";
 import { inWords } from "../bins-kit/bin-name.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { distribution, mean } from "./distribution.js";
@@ -54,6 +55,10 @@ export class Outliers {
     this.filter = document.getElementById("outliers-of");
     this.shown = PAGE;
     if (this.list === null) return;
+    const kind = database.data.standIn ? "cluster" : "class";
+    toldAs(document.getElementById("outliers"), () => ({
+      words: `The ${count(this.list.childElementCount, "shape")} that fit their ${kind} least, of ${grouped(this.ranked().length)}. The fit compares how far the five nearest shapes of its own ${kind} are with how far the five nearest of another are, in all that is compared: 1 where only its own is near, below 0 where another is closer.`,
+    }));
     this.#offer();
     this.filter.addEventListener("change", () =>
       state.set({ of: this.filter.value === "" ? null : Number(this.filter.value) }),
@@ -200,6 +205,7 @@ export class Outliers {
           element(
             "a",
             {
+              class: "on-screen",
               href: compareAddress(
                 database,
                 { kind: "shapes", shapes: new Set([index]) },
@@ -211,7 +217,10 @@ export class Outliers {
           " ",
           element(
             "a",
-            { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group: rival }) },
+            {
+              class: "on-screen",
+              href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group: rival }),
+            },
             "Compare the two classes",
           ),
         ),

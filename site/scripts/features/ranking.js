@@ -2,6 +2,7 @@
 
 import { drawChart } from "../base/chart.js";
 import { element, pause, svg } from "../base/dom.js";
+import { toldAs } from "../base/snapshot.js";
 import { count, figure } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { MEASURES } from "../map/measures.js";
@@ -49,6 +50,9 @@ export class Ranking {
     this.surface = document.getElementById("ranking");
     this.scroll = this.surface.parentElement;
     this.reading = document.getElementById("reading");
+    toldAs(this.surface.closest("[data-figure]"), () => ({
+      words: `${count(subsets.count, "subset")} of ${count(subsets.features.length, "feature")}${this.measure ? `, by ${measureTitle(this.measure.name)}, the best first` : ""}: a column a subset, with a mark for each of its features.`,
+    }));
     this.top = subsets.measures.length > 0 ? BARS : 0;
     this.height = this.top + ROW * subsets.features.length;
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });

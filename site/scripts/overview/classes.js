@@ -3,6 +3,7 @@
 import { drawChart } from "../base/chart.js";
 import { element, focused, watchSize } from "../base/dom.js";
 import { unstep } from "../base/place.js";
+import { toldAs } from "../base/snapshot.js";
 import { count, figure, wholePercent } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
@@ -25,6 +26,13 @@ export class ClassList {
     this.list = document.getElementById("legend");
     this.node = document.getElementById("bars");
     this.all = document.getElementById("show-all");
+    toldAs(this.list.closest("[data-figure]"), () => {
+      const { title, neighbours } = database.methods[state.get("method")];
+      const kind = database.data.standIn ? "cluster" : "class";
+      return {
+        words: `Neighbourhood hit (NH) of each ${kind} on the ${title} map of ${count(database.count, "shape")}: of a shape’s ${count(neighbours, "nearest neighbour")}, the share that is of its ${kind}, on average.`,
+      };
+    });
     this.asked = document.getElementById("how-good");
     this.asked.open = this.#asksItself;
     this.asked.addEventListener("toggle", async () => {

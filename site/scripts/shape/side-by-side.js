@@ -1,6 +1,7 @@
 // This shape and another: where on their surfaces the distance between them lies, feature by feature and in colours.
 
 import { calm, element, focused } from "../base/dom.js";
+import { toldAs } from "../base/snapshot.js";
 import { figure, shortened, wholePercent } from "../base/words.js";
 import { byFeature, sumOf } from "../bins-kit/difference.js";
 import { Stage } from "../bins-kit/stage.js";
@@ -29,6 +30,10 @@ export class SideBySide extends Comparing {
       stages: [stage("beside-own"), stage("beside-other")],
       legend: document.getElementById("beside-legend"),
     });
+    toldAs(this.section, () => ({
+      title: document.getElementById("beside-title").textContent ?? undefined,
+      words: "Coloured is what one of the two has and the other lacks; the bars say which features tell them apart.",
+    }));
     document.getElementById("beside-close").addEventListener("click", () => {
       state.set({ beside: null, within: "" });
       document.getElementById("similar-title").focus();

@@ -3,7 +3,8 @@
 import { compareAddress } from "../addresses/compare.js";
 import { element, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { count, figure, shortened, wholePercent } from "../base/words.js";
+import { toldAs } from "../base/snapshot.js";
+import { count, figure, grouped, listed, shortened, wholePercent } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { Comparing, isNone } from "./comparing.js";
 import { hue } from "./hue.js";
@@ -40,6 +41,10 @@ export class SimilarShapes extends Comparing {
       this.render();
       this.list.children[first]?.querySelector("a").focus();
     });
+    toldAs(this.section, () => ({
+      title: `Shapes most similar to ${this.#called}`,
+      words: `The ${count(this.found.length, "shape")} of ${grouped(known.database.count)} most similar to ${this.#called}, compared by ${this.#compared()}. The bars, one a feature, say how many of all shapes are farther away in it alone.`,
+    }));
     state.listen((changed) => {
       if (changed.has("shape")) this.shown = FIRST;
       if (changed.has("theme")) this.buttons = null;
@@ -49,6 +54,20 @@ export class SimilarShapes extends Comparing {
 
   /** @type {Similar[]} */
   found = [];
+
+  get #called() {
+    return this.database.names[this.state.get("shape") ?? 0];
+  }
+
+  /** What is compared, in few words. */
+  #compared() {
+    const { bins, comparison } = this;
+    const { columns, features } = comparison.choice;
+    if (comparison.byNeighbourhood) return "all features and by who has the same neighbours";
+    if (columns) return count(columns.length, "bin");
+    if (comparison.everything) return `all ${count(bins.features.length, "feature")}`;
+    return listed((features ?? []).map((feature) => bins.features[feature].title));
+  }
 
   render() {
     const { database, state } = this;
@@ -195,7 +214,10 @@ export class SimilarShapes extends Comparing {
             {},
             element(
               "a",
-              { href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group }) },
+              {
+                class: "on-screen",
+                href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group }),
+              },
               `Compare ${database.data.standIn ? "clusters" : "classes"}`,
             ),
           ),

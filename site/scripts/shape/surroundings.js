@@ -43,7 +43,8 @@ export class Surroundings {
     toldAs(this.section, () => {
       const { title, neighbours } = database.methods[state.get("method")];
       const shape = database.names[state.get("shape") ?? 0];
-      return `${title} map of ${count(database.count, "shape")}: ${shape}, ringed, and its ${count(neighbours, "nearest neighbour")}, in full colour.`;
+      const words = `${title} map of ${count(database.count, "shape")}: ${shape}, ringed, and its ${count(neighbours, "nearest neighbour")}, in full colour.`;
+      return { title: `${shape} on the map`, words, onPaper: true };
     });
     pointing.watch(surface, this.plot, go);
     state.listen((changed) => {
@@ -91,7 +92,7 @@ export class Surroundings {
       .getElementById("neighbours-key")
       .replaceChildren(
         near.some(stranger) ? `Underlined: of another ${kind(database)}. ` : "",
-        element("a", { href: this.#overview(shape) }, "Open on the Overview"),
+        element("a", { class: "on-screen", href: this.#overview(shape) }, "Open on the Overview"),
       );
   }
 

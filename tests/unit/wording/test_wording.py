@@ -20,7 +20,7 @@ from shapeviz_report.wording import (
     explain_bins,
     say_bins,
 )
-from shapeviz_report.wording.base import percent
+from shapeviz_report.wording.base import percent, percents
 
 #: A table of all our features, and of one that was brought along.
 HISTOGRAMS = sum(block.width for block in BLOCKS)
@@ -57,6 +57,7 @@ def test_every_descriptor_has_its_words(descriptor) -> None:
 def test_shares_read_as_in_the_scripts_of_the_site() -> None:
     told = [percent(share).replace("\u00a0", " ") for share in (0, 0.0004, 0.0005, 0.019, 0.0994, 0.0995, 1)]
     assert told == ["0 %", "<0.1 %", "0.1 %", "1.9 %", "9.9 %", "10 %", "100 %"]
+    assert [share.replace("\u00a0", " ") for share in percents(0.0001, 0.0003)] == ["0.01 %", "0.03 %"]
 
 
 class TestPlain:
