@@ -307,3 +307,26 @@ def test_a_map_on_paper_has_its_names_where_its_marks_are(open_page):
     assert sum(name == mark for name, mark in colours) >= len(colours) - 1
     page.evaluate("window.dispatchEvent(new Event('afterprint'))")
     assert page.locator(".on-paper").count() == 0
+
+
+def test_the_source_of_the_workbench_stands_on_the_sheet_of_its_maps_and_bars(open_page):
+    page = open_page("searched", "workbench.html")
+    eventually(page, lambda: page.locator("main [aria-busy=true]").count() == 0)
+    page.wait_for_selector("figure[data-map=original] .labels > g", state="attached")
+    # One sheet for what is asked, one for the map and the bars: the source takes no third.
+    assert page.pdf(format="A4", prefer_css_page_size=True).count(b"/Type /Page\n") == 2
+
+
+def test_no_heading_is_parted_from_what_it_heads(open_page):
+    page = open_page("searched", "compare.html#a=class%3Aclass000&b=class%3Aclass001")
+    page.wait_for_selector("#result:not([hidden])")
+    page.emulate_media(media="print")
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    loose = page.evaluate(
+        """() => [...document.querySelectorAll("#result .part")].flatMap((part) => {
+            const parts = [...part.children].filter((node) => node.checkVisibility());
+            const list = parts.findIndex((node) => node.matches("ul, .seen-pair, #seen-bin"));
+            return parts.slice(0, list).filter((node) => getComputedStyle(node).breakAfter !== "avoid");
+        }).map((node) => node.outerHTML.slice(0, 80))"""
+    )
+    assert loose == []
