@@ -9,6 +9,8 @@ import pytest
 from reports import make_report, with_search
 from waiting import drawn_again, eventually
 
+from shapeviz_report.faithfulness import rate_maps
+from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.writing import write_site
 
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
@@ -303,6 +305,26 @@ class TestRankedWithoutLabels:
         assert page.locator("#rank").input_value() == "continuity"
         assert page.locator("[data-rule=nh]").first.is_hidden()
         assert "a map at random" in page.locator("[data-rule=chance]").inner_text()
+
+    @pytest.mark.parametrize("features", [("Gc",), ("Sc", "PFH")])
+    def test_lines_lead_to_the_most_alike_by_the_chosen_features(self, open_page, reports, features):
+        page = open_page("searched", f"features.html#features={' '.join(features)}")
+        page.focus(MAP)
+        page.keyboard.press("ArrowRight")
+        eventually(page, lambda: "most alike" in page.locator("#card").inner_text())
+        report = reports("searched")
+        scaled = scale(report.features, PRESETS["default"])
+        points = np.hstack([scaled[:, report.features.slice_of(name)] for name in features])
+        search = report.search
+        place = search.subsets.members.tolist().index([name in features for name in search.features])
+        kept = rate_maps(points, {"": search.subsets.xy[place].astype(float)}, 10)[""].kept
+        row = [shape.name for shape in report.shapes].index(page.locator("#card .name").inner_text())
+        for kind, expected in (("kept", 10 * kept[row]), ("missing", 10 - 10 * kept[row])):
+            found = page.eval_on_selector(
+                f"{MAP} .ties.{kind}",
+                "node => node.classList.contains('shown') ? node.getAttribute('d').split('M').length - 1 : 0",
+            )
+            assert found == round(expected)
 
 
 class TestTheme:

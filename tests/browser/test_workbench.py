@@ -302,7 +302,7 @@ def test_maps_say_how_far_they_show_who_is_like_whom(bench, reports):
     report = reports("workbench")
     known = report.faithfulness["tsne"]
     words = page.locator("figure[data-map=original] .faith").inner_text()
-    assert f"kept {10 * known.kept.mean():.1f} of 10 (at random {10 * known.chance:.1f})" in words
+    assert f"kept {10 * known.kept.mean():.1f} of 10 (random {10 * known.chance:.1f})" in words
     assert f"stress {known.stress:.3f}" in words
     use_only(page, "kind a", "kind b", "kind c")
     rows = [row for row, label in enumerate(report.labels) if label in ("kind a", "kind b", "kind c")]

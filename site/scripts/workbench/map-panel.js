@@ -185,7 +185,7 @@ function faithParts(faith, neighbours) {
       },
       "kept ",
       element("b", {}, `${many(faith.mean)} of ${neighbours}`),
-      ` (at random ${many(faith.chance)})`,
+      ` (random ${many(faith.chance)})`,
     ),
     part("trustworthiness", "trust"),
     part("continuity", "continuity"),
