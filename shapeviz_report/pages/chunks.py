@@ -442,6 +442,9 @@ class Search(TypedDict):
         The features, those that help most first.
     classes : list of int
         The columns of ``hitOfClass``, as the Overview numbers them.
+    paper : list of int, or None
+        Those of ``features`` that are of the paper's Table 1, where there are others and all subsets of these were
+        searched; ``boxesOfPaper`` is the spread over them.
     rows : list of int, or None
         The shapes that took part; None for all.
     members : list of str
@@ -456,12 +459,14 @@ class Search(TypedDict):
     hues: list[int]
     order: list[int]
     classes: list[int]
+    paper: list[int] | None
     rows: list[int] | None
     members: list[str]
     hit: list[float | None]
     hitOfClass: list[list[float | None]]
     faith: SubsetFaith | None
     boxes: list[Box]
+    boxesOfPaper: list[Box] | None
     chance: float | None
     highest: float | None
     chanceBest: float | None

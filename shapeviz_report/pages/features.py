@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report import charts, quality
+from shapeviz_report.features import BLOCKS
 from shapeviz_report.pages.base import (
     COORDINATE_STEPS,
     METHODS,
@@ -100,6 +101,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
     """All but the maps. No times: they differ from build to build."""
     number = {name: index for index, name in enumerate(class_names(report))}
     rows = list(ranking.order)
+    paper = _of_paper(search)
     sampled = len(search.rows) < search.shape_count
     return {
         "method": search.method,
@@ -107,6 +109,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
         "note": METHODS[search.method].explanation,
         "neighbours": search.k,
         "features": list(search.features),
+        "paper": paper,
         "hues": list(charts.feature_color_indices(len(search.features))),
         # By falling effect: what helps most stands on top of the matrix.
         "order": _by_effect(search),
@@ -117,6 +120,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
         "hitOfClass": [rounded(values, SCORE_DECIMALS) for values in search.subsets.nh_c[rows]],
         "faith": _faith(search.subsets.faithfulness, rows),
         "boxes": _boxes(search.subsets.nh_c),
+        "boxesOfPaper": _boxes(search.subsets.nh_c[_within(search, paper)]) if paper else None,
         "chance": _chance(report, search),
         "highest": _range(report, search).highest,
         "chanceBest": float(np.median(search.null_best)) if len(search.null_best) else None,
@@ -218,6 +222,19 @@ def _by_effect(search: FeatureSearch) -> list[int]:
     return sorted(range(len(search.features)), key=lambda index: -weight(index))
 
 
+def _of_paper(search: FeatureSearch) -> list[int] | None:
+    """Those of the paper's Table 1 by their indices; None if there are no others, or not all of their subsets."""
+    names = {block.name for block in BLOCKS}
+    paper = [index for index, name in enumerate(search.features) if name in names]
+    complete = np.count_nonzero(_within(search, paper)) == 2 ** len(paper) - 1
+    return paper if 1 < len(paper) < len(search.features) and complete else None
+
+
+def _within(search: FeatureSearch, features: list[int]) -> npt.NDArray[np.bool_]:
+    """Which of the subsets have no other features."""
+    return ~np.delete(search.subsets.members, features, axis=1).any(axis=1)
+
+
 def _boxes(nh_c: FloatArray) -> list[Box]:
     """The spread of NH_c over all subsets, a box a class."""
     if np.isnan(nh_c).any():
@@ -246,12 +263,14 @@ def _context(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[st
     """What the template says in words and tables."""
     bins = next(iter(report.projections.values()))[0].bins
     labelled = bool(search.effects)
+    paper = _of_paper(search)
     return {
         "method": METHODS[search.method].title,
         "features": search.features,
         "bins": None if bins is None else len(bins),
         "subsets": len(ranking.order),
         "exhaustive": search.exhaustive,
+        "paper": None if paper is None else {"features": len(paper), "subsets": 2 ** len(paper) - 1},
         "refusal": search.refusal,
         "shapes": len(search.rows),
         "shape_count": search.shape_count,

@@ -284,12 +284,14 @@ declare namespace Chunk {
     hues: number[];
     order: number[];
     classes: number[];
+    paper: number[] | null;
     rows: number[] | null;
     members: string[];
     hit: (number | null)[];
     hitOfClass: ((number | null)[])[];
     faith: SubsetFaith | null;
     boxes: Box[];
+    boxesOfPaper: Box[] | null;
     chance: number | null;
     highest: number | null;
     chanceBest: number | null;

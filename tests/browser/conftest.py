@@ -69,6 +69,9 @@ SITES = {
     "searched": lambda: with_search(
         make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)
     ),
+    "searched with others": lambda: with_search(
+        make_report([f"kind {letter}" for letter in "abcde"], 10, features=("Gc", "own", "Sc", "PFH"))
+    ),
     "nasty features": lambda: with_search(make_report([*NASTY_LABELS, None], 4, features=NASTY_FEATURES)),
     "searched without labels": lambda: with_search(make_report([None], 24, features=FEATURES[:3])),
     "sampled": lambda: with_search(make_report(["ant", "bird"], 20, features=FEATURES[:3]), limit=24),

@@ -327,6 +327,43 @@ class TestRankedWithoutLabels:
             assert found == round(expected)
 
 
+class TestOfThePaper:
+    def test_its_features_alone_are_ranked_among_themselves(self, open_page, site):
+        page = open_page("searched with others", "features.html")
+        hits = [
+            row
+            for row in kept_of(site("searched with others"), "nh_s").items()
+            if "own" not in row[0].split()
+        ]
+        hits.sort(key=lambda row: -row[1])
+        assert len(hits) == 7
+        assert "all 15 maps" in page.locator(".by-class-head").inner_text()
+        page.click("#among label:has([value=paper])")
+        eventually(page, lambda: "among=paper" in address(page))
+        eventually(page, lambda: "all 7 maps" in page.locator(".by-class-head").inner_text())
+        for place in (0, 6):
+            page.mouse.move(*place_on_screen(page, place, 7))
+            eventually(page, lambda: f"rank {place + 1} of 7" in reading(page))  # noqa: B023
+            assert f"{hits[place][1]:.3f}" in reading(page)
+        page.mouse.move(5, 5)
+        page.click("#panel [data-key=best]")
+        eventually(page, lambda: hits[0][0] in reading(page))
+        page.click("#panel [data-key=all]")
+        eventually(page, lambda: "own" in reading(page) and "rank" not in reading(page))
+        page.go_back()
+        page.go_back()
+        eventually(page, lambda: "of 15" in reading(page))
+
+    def test_an_address_says_so_and_tables_follow(self, open_page):
+        page = open_page("searched with others", "features.html#among=paper")
+        assert page.locator("#among [value=paper]").is_checked()
+        page.click("#open-tables")
+        assert page.locator("#tables table").nth(2).locator("tbody tr").count() == 7
+
+    def test_where_there_are_no_others_there_is_no_choice(self, open_page):
+        assert open_page("searched", "features.html").locator("#among").count() == 0
+
+
 class TestTheme:
     def test_all_is_drawn_anew(self, open_page):
         page = open_page("searched", "features.html", color_scheme="light")

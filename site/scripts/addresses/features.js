@@ -20,6 +20,7 @@ import { selected } from "./selected.js";
  * @property {number | null} pointedPlace
  * @property {number | null} s of the greedy path
  * @property {string | null} rank the measure that subsets are ranked by
+ * @property {import("../database/subsets.js").Among} among which subsets are ranked
  * @property {string} color what it says: `class`, `hit`, or the key of a field or a bin
  * @property {number | null} method the map, once it is there
  * @property {import("../map/scene.js").Camera | null} camera
@@ -63,6 +64,13 @@ export function featuresAddress(subsets, database) {
       kind: choice(subsets.measures.map(({ name }) => name)),
       standard: subsets.measures[0]?.name ?? null,
       words: "what subsets are ranked by",
+    },
+    {
+      name: "among",
+      key: "among",
+      kind: choice(subsets.data.paper ? ["all", "paper"] : ["all"]),
+      standard: "all",
+      words: "which subsets are ranked",
     },
     coloredBy(database),
     selected(database),

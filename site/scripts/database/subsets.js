@@ -13,6 +13,8 @@ import { chunk } from "../base/chunks.js";
  * @property {boolean} low whether lower is better
  */
 
+/** @typedef {"all" | "paper"} Among which subsets: all that were searched, or those of the paper's features alone */
+
 export class Subsets {
   /** @param {Chunk.Search} data */
   constructor(data) {
@@ -46,14 +48,34 @@ export class Subsets {
   /**
    * The places from the best to the worst by a measure; as they are where there is none.
    * @param {SubsetMeasure | undefined} measure
+   * @param {Among} among
    */
-  ranked(measure) {
-    const places = Array.from({ length: this.count }, (_, place) => place);
+  ranked(measure, among) {
+    const places = Array.from({ length: this.count }, (_, place) => place).filter((place) =>
+      this.isAmong(place, among),
+    );
     if (measure === undefined || measure.name === "nh") return places;
     const sign = measure.low ? 1 : -1;
     /** @param {number} place */
     const worth = (place) => sign * (measure.values?.[place] ?? sign * Infinity);
     return places.sort((one, other) => worth(one) - worth(other) || one - other);
+  }
+
+  /**
+   * @param {number} place
+   * @param {Among} among
+   */
+  isAmong(place, among) {
+    const { paper } = this.data;
+    return among === "all" || paper === null || this.features.every((_, f) => paper.includes(f) || !this.has(place, f));
+  }
+
+  /**
+   * The spread of NH_c over subsets, a box a class.
+   * @param {Among} among
+   */
+  boxes(among) {
+    return (among === "paper" && this.data.boxesOfPaper) || this.data.boxes;
   }
 
   /**

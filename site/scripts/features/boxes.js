@@ -32,7 +32,7 @@ export class Boxes {
       .map((_, column) => column)
       .sort((a, b) => (boxes[b].median ?? 0) - (boxes[a].median ?? 0) || classes[a] - classes[b]);
     state.listen((changed) => {
-      if (changed.has("chosen")) this.render();
+      if (changed.has("chosen") || changed.has("among")) this.render();
       if (changed.has("coloring")) this.#list();
     });
   }
@@ -87,6 +87,9 @@ export class Boxes {
 
   render() {
     const { subsets } = this;
+    const among = this.state.get("among");
+    const boxes = subsets.boxes(among);
+    document.getElementById("maps-count").textContent = String(subsets.ranked(undefined, among).length);
     const hits = subsets.data.hitOfClass[this.state.get("chosen")];
     const { highestOfClass } = hitRange(
       subsets.data.rows === null ? this.database.groups : subsets.data.rows.map((row) => this.database.groups[row]),
@@ -96,7 +99,7 @@ export class Boxes {
     const most = (column) => highestOfClass.get(subsets.data.classes[column]) ?? null;
     const rows = this.order.map((column, row) => ({
       row,
-      ...subsets.data.boxes[column],
+      ...boxes[column],
       hit: hits[column],
       highest: most(column),
       present: true,

@@ -23,7 +23,7 @@ export class Panel {
     this.link = link;
     this.node = document.getElementById("panel");
     state.listen((changed) => {
-      if (["chosen", "rank", "theme"].some((name) => changed.has(name))) this.render();
+      if (["chosen", "rank", "among", "theme"].some((name) => changed.has(name))) this.render();
     });
     this.render();
   }
@@ -162,7 +162,7 @@ export class Panel {
   /** @param {number} place */
   #moves(place) {
     const measure = this.#measure;
-    const order = this.subsets.ranked(measure);
+    const order = this.subsets.ranked(measure, this.state.get("among"));
     /**
      * @param {string} key
      * @param {string} words

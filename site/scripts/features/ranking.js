@@ -51,7 +51,7 @@ export class Ranking {
     this.scroll = this.surface.parentElement;
     this.reading = document.getElementById("reading");
     toldAs(this.surface.closest("[data-figure]"), () => ({
-      words: `${count(subsets.count, "subset")} of ${count(subsets.features.length, "feature")}${this.measure ? `, by ${measureTitle(this.measure.name)}, the best first` : ""}: a column a subset, with a mark for each of its features.`,
+      words: `${count(this.order.length, "subset")} of ${count((this.among === "paper" ? subsets.data.paper : null)?.length ?? subsets.features.length, "feature")}${this.measure ? `, by ${measureTitle(this.measure.name)}, the best first` : ""}: a column a subset, with a mark for each of its features.`,
     }));
     this.top = subsets.measures.length > 0 ? BARS : 0;
     this.height = this.top + ROW * subsets.features.length;
@@ -73,6 +73,10 @@ export class Ranking {
     return this.subsets.measures.find(({ name }) => name === this.state.get("rank"));
   }
 
+  get among() {
+    return this.state.get("among");
+  }
+
   /** What subsets can be ranked by. */
   #offer() {
     const select = document.getElementById("rank");
@@ -86,9 +90,10 @@ export class Ranking {
   /** Put the subsets in their order, and say what it is. */
   #rank() {
     const { subsets, measure } = this;
-    this.order = subsets.ranked(measure);
+    this.order = subsets.ranked(measure, this.among);
     this.position = [];
     for (const [position, place] of this.order.entries()) this.position[place] = position;
+    for (const input of document.querySelectorAll("#among input")) input.checked = input.value === this.among;
     if (measure === undefined) return;
     const labelled = measure.name === "nh";
     document.getElementById("rank").value = measure.name;
@@ -112,10 +117,13 @@ export class Ranking {
     for (const input of document.querySelectorAll("#greedy input")) {
       input.addEventListener("change", () => state.set({ s: input.value === "none" ? null : Number(input.value) }));
     }
+    for (const input of document.querySelectorAll("#among input")) {
+      input.addEventListener("change", () => state.set({ among: input.value }));
+    }
     state.listen((changed) => {
       if (changed.has("chosen") || changed.has("pointedPlace")) this.#point();
       if (changed.has("s")) this.#trace();
-      if (changed.has("rank")) this.#reorder();
+      if (changed.has("rank") || changed.has("among")) this.#reorder();
     });
   }
 
@@ -158,11 +166,9 @@ export class Ranking {
   async #reorder() {
     this.#rank();
     if (!this.step) return;
-    this.#level();
-    this.#point();
-    this.#trace();
-    this.bars?.data("subsets", this.#rows()).runAsync();
-    await this.matrix.data("rows", this.#cells(this.step > 2 ? this.step - 1 : this.step)).runAsync();
+    this.bars?.data("subsets", this.#rows());
+    this.step = 0;
+    await this.resize();
   }
 
   /** @param {number} place */
@@ -175,10 +181,10 @@ export class Ranking {
   async resize() {
     const room = this.scroll.clientWidth;
     const least = room < 600 ? TOUCHABLE : 1;
-    const step = Math.min(Math.max(Math.floor(room / this.subsets.count), least), WIDEST);
+    const step = Math.min(Math.max(Math.floor(room / this.order.length), least), WIDEST);
     if (step === this.step || this.matrix === null) return;
     this.step = step;
-    this.width = step * this.subsets.count;
+    this.width = step * this.order.length;
     this.surface.style.width = `${this.width}px`;
     this.overlay.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     this.#level();
@@ -189,7 +195,7 @@ export class Ranking {
     await pause();
     await this.bars
       ?.width(this.width)
-      .signal("count", this.subsets.count)
+      .signal("count", this.order.length)
       .signal("fill", wide / step)
       .runAsync();
   }
@@ -268,7 +274,7 @@ export class Ranking {
     const steps = { ArrowLeft: -1, ArrowRight: 1, PageUp: -LEAP, PageDown: LEAP, Home: -Infinity, End: Infinity };
     const from = this.state.get("pointedPlace") ?? this.state.get("chosen");
     if (event.key in steps) {
-      const position = Math.min(Math.max(this.position[from] + steps[event.key], 0), this.subsets.count - 1);
+      const position = Math.min(Math.max((this.position[from] ?? 0) + steps[event.key], 0), this.order.length - 1);
       const place = this.order[position];
       this.state.set({ pointedPlace: place });
       this.#reveal(place);
@@ -291,7 +297,7 @@ export class Ranking {
     const rank =
       measure === undefined
         ? ""
-        : `Rank ${this.position[place] + 1} of ${this.subsets.count}, ${measureTitle(measure.name)} ${figure(measure.values?.[place])}: `;
+        : `Rank ${this.position[place] + 1} of ${this.order.length}, ${measureTitle(measure.name)} ${figure(measure.values?.[place])}: `;
     return `${rank}${this.subsets.names(place).join(", ")}`;
   }
 
@@ -303,13 +309,16 @@ export class Ranking {
       this.pointed.setAttribute("x", this.position[pointed] * this.step - 1);
       this.pointed.setAttribute("width", this.step + 1);
     }
-    this.chosen.setAttribute("x", this.position[chosen] * this.step - 1);
+    // What is chosen need not be among what is ranked.
+    this.chosen.setAttribute("visibility", chosen in this.position ? "visible" : "hidden");
+    this.chosen.setAttribute("x", (this.position[chosen] ?? 0) * this.step - 1);
     this.chosen.setAttribute("width", this.step + 1);
     const place = pointed ?? chosen;
     const { subsets, measure } = this;
     /** @param {SubsetMeasure} by */
     const scored = ({ name, values }) => [
-      element("span", {}, "rank ", element("b", {}, String(this.position[place] + 1)), ` of ${subsets.count}`),
+      place in this.position &&
+        element("span", {}, "rank ", element("b", {}, String(this.position[place] + 1)), ` of ${this.order.length}`),
       element(
         "span",
         {},
@@ -321,7 +330,7 @@ export class Ranking {
     ];
     this.reading.replaceChildren(
       element("span", { class: "which" }, pointed === null ? "Chosen" : "Pointed at"),
-      ...(measure === undefined ? [] : scored(measure)),
+      ...(measure === undefined ? [] : scored(measure).filter(Boolean)),
       element(
         "span",
         { class: "members" },
@@ -348,7 +357,9 @@ export class Ranking {
     words.replaceChildren();
     if (!greedy) return;
     const { hit } = this.subsets.data;
-    const places = greedy.path.map((place) => [this.#x(place), this.#y(this.measure?.values?.[place])]);
+    const places = greedy.path
+      .filter((place) => place in this.position)
+      .map((place) => [this.#x(place), this.#y(this.measure?.values?.[place])]);
     // Numbers that would touch the one before are left out; the words below have them all.
     const numbered = places.filter(([x], index) => index === 0 || Math.abs(x - places[index - 1][0]) >= CLOSEST);
     this.path.append(
@@ -358,7 +369,7 @@ export class Ranking {
         svg(
           "text",
           { x, y: Math.max(y - 8, 10), "text-anchor": "middle" },
-          String(places.findIndex((place) => place[0] === x) + 1),
+          String(greedy.path.findIndex((place) => place in this.position && this.#x(place) === x) + 1),
         ),
       ),
     );

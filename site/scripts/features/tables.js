@@ -23,12 +23,15 @@ export function subsetTables(database, subsets, state, retrieval) {
   const chosen = state.get("chosen");
   /** @param {number} place */
   const names = (place) => subsets.names(place).join(", ");
-  const places = Array.from({ length: Math.min(subsets.count, MOST_ROWS) }, (_, place) => place);
+  const ranked = subsets.ranked(undefined, state.get("among"));
+  const places = ranked.slice(0, MOST_ROWS);
   const greedy = data.greedy.find(({ s }) => s === state.get("s"));
-  const classes = data.boxes.map((box, column) => [
-    database.className(data.classes[column]),
-    ...[data.hitOfClass[chosen][column], box.least, box.lower, box.median, box.upper, box.most].map(figure),
-  ]);
+  const classes = subsets
+    .boxes(state.get("among"))
+    .map((box, column) => [
+      database.className(data.classes[column]),
+      ...[data.hitOfClass[chosen][column], box.least, box.lower, box.median, box.upper, box.most].map(figure),
+    ]);
   const method = state.get("method");
   const map = method === null ? null : database.methods[method];
   const tables = [
@@ -47,17 +50,17 @@ export function subsetTables(database, subsets, state, retrieval) {
     table(
       "Subsets",
       [subsets.labelled ? "Rank" : "Number", ...subsets.measures.map(({ name }) => measureTitle(name)), "Features"],
-      places.map((place) => [
-        String(place + 1),
+      places.map((place, position) => [
+        String(position + 1),
         ...subsets.measures.map(({ values }) => figure(values?.[place])),
         names(place),
       ]),
     ),
-    subsets.count > MOST_ROWS &&
+    ranked.length > MOST_ROWS &&
       element(
         "p",
         {},
-        `The first ${MOST_ROWS} of ${count(subsets.count, "subset")}. All are in `,
+        `The first ${MOST_ROWS} of ${count(ranked.length, "subset")}. All are in `,
         dataLink("data/subsets.csv"),
         ".",
       ),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from reports import NASTY_LABELS, make_report, with_search
 
-from shapeviz_report.pages.features import FeaturesPage, Ranking
+from shapeviz_report.pages.features import FeaturesPage, Ranking, _of_paper
 from shapeviz_report.pages.overview import OverviewPage
 from shapeviz_report.writing import write_site
 from shapeviz_report.writing.data import json_text
@@ -159,3 +159,25 @@ class TestOffersOfTheOverview:
     )
     def test_it_offers_none_that_it_could_not_show(self, report):
         assert OverviewPage().content(report).chunks["overview"]["subsets"] is None
+
+
+def test_the_papers_features_among_others_have_their_own_spread_and_alone_or_incomplete_none(report):
+    assert FeaturesPage().content(report).chunks["search"]["paper"] is None
+    mixed = with_search(make_report(["a", "b", "c"], 8, features=("Gc", "own", "Sc")))
+    content = FeaturesPage().content(mixed)
+    assert content.chunks["search"]["paper"] == [0, 2]
+    assert content.context["search"]["paper"] == {"features": 2, "subsets": 3}
+    own = ~mixed.search.subsets.members[:, 1]
+    for column, box in enumerate(content.chunks["search"]["boxesOfPaper"]):
+        values = mixed.search.subsets.nh_c[own, column]
+        assert [box["least"], box["median"], box["most"]] == pytest.approx(
+            [values.min(), np.median(values), values.max()], abs=1e-6
+        )
+    fewer = np.flatnonzero(mixed.search.subsets.members.sum(axis=1) != 2)
+    members, scores, by_class = (
+        getattr(mixed.search.subsets, name)[fewer] for name in ("members", "nh_s", "nh_c")
+    )
+    cut = replace(
+        mixed.search, subsets=replace(mixed.search.subsets, members=members, nh_s=scores, nh_c=by_class)
+    )
+    assert _of_paper(cut) is None
