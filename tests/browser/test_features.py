@@ -346,8 +346,6 @@ class TestOfThePaper:
             eventually(page, lambda: f"rank {place + 1} of 7" in reading(page))  # noqa: B023
             assert f"{hits[place][1]:.3f}" in reading(page)
         page.mouse.move(5, 5)
-        page.click("#panel [data-key=best]")
-        eventually(page, lambda: hits[0][0] in reading(page))
         page.click("#panel [data-key=all]")
         eventually(page, lambda: "own" in reading(page) and "rank" not in reading(page))
         page.go_back()
