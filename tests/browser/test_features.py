@@ -348,7 +348,9 @@ class TestOfThePaper:
         page.mouse.move(5, 5)
         page.click("#panel [data-key=all]")
         eventually(page, lambda: "own" in reading(page) and "rank" not in reading(page))
+        eventually(page, lambda: "features=" in address(page))
         page.go_back()
+        eventually(page, lambda: "features=" not in address(page))
         page.go_back()
         eventually(page, lambda: "of 15" in reading(page))
 

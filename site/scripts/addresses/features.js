@@ -70,6 +70,7 @@ export function featuresAddress(subsets, database) {
       key: "among",
       kind: choice(subsets.data.paper ? ["all", "paper"] : ["all"]),
       standard: "all",
+      place: true,
       words: "which subsets are ranked",
     },
     coloredBy(database),

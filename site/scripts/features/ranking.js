@@ -310,7 +310,7 @@ export class Ranking {
       this.pointed.setAttribute("width", this.step + 1);
     }
     // What is chosen need not be among what is ranked.
-    this.chosen.setAttribute("visibility", chosen in this.position ? "visible" : "hidden");
+    this.chosen.style.display = chosen in this.position ? "" : "none";
     this.chosen.setAttribute("x", (this.position[chosen] ?? 0) * this.step - 1);
     this.chosen.setAttribute("width", this.step + 1);
     const place = pointed ?? chosen;
