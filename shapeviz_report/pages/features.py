@@ -232,7 +232,8 @@ def _of_paper(search: FeatureSearch) -> list[int] | None:
 
 def _within(search: FeatureSearch, features: list[int]) -> npt.NDArray[np.bool_]:
     """Which of the subsets have no other features."""
-    return ~np.delete(search.subsets.members, features, axis=1).any(axis=1)
+    others: npt.NDArray[np.bool_] = np.delete(search.subsets.members, features, axis=1).any(axis=1)
+    return ~others
 
 
 def _boxes(nh_c: FloatArray) -> list[Box]:

@@ -429,7 +429,9 @@ class TestOverview:
         assert page.locator("#features label:visible").all_inner_texts() == ["All features (best)"]
 
     def test_a_site_of_chosen_bins_keeps_the_maps_of_features_apart(self, open_page, site):
-        page = open_page("chosen bins", "index.html#open=class002/0003")
+        # Wide enough for all choices in one line, so that the map keeps its size.
+        size = {"width": 1920, "height": 900}
+        page = open_page("chosen bins", "index.html#open=class002/0003", viewport=size)
         assert (
             "2 chosen bins of Gc, PFH are compared"
             in page.locator("figure[data-slot=large] .reading").inner_text()
