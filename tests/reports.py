@@ -36,6 +36,7 @@ from shapeviz_report.search.bins import (
     shuffle_labels,
 )
 from shapeviz_report.search.certainty import deal_folds
+from shapeviz_report.separation import rate_separation
 from shapeviz_report.types import (
     Accent,
     BinScores,
@@ -141,6 +142,12 @@ def make_report(
         versions={"shapeviz-report": "0.1.0", "Python": "3.11"},
         seconds={"read": 0.1, "prepare": 12.5, "project": 3.25},
         cpu_seconds={"read": 0.1, "prepare": 24.0, "project": 3.0},
+        separation=rate_separation(
+            scale(table, PRESETS["default"]),
+            {method: projection.xy for method, (projection, _) in projections.items()},
+            labels,
+            quality.NEIGHBOURS,
+        ),
         faithfulness=rate_maps(
             scale(table, PRESETS["default"]),
             {method: projection.xy for method, (projection, _) in projections.items()},

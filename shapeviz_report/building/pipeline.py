@@ -44,6 +44,7 @@ from shapeviz_report.publication import read_publication
 from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
 from shapeviz_report.search import make_space
+from shapeviz_report.separation import rate_separation
 from shapeviz_report.types import Failure, FeatureTable, Painting, Projection, Quality, Report, group_copies
 from shapeviz_report.writing import write_site
 
@@ -206,6 +207,7 @@ def build_report(
         }
         shown = {name: projection.xy for name, projection in projections.items()}
         faithfulness = rate_maps(mapped, shown, config.neighbours)
+        separation = rate_separation(mapped, shown, labels, config.neighbours, seed=config.seed)
         distances = {"everything": space.squared.sum(axis=0, dtype=np.float64)}
         if by_bins is not None:
             distances["bins"] = squared_distances(by_bins[space.rows])
@@ -247,6 +249,7 @@ def build_report(
         without_copies=without_copies,
         faithfulness=faithfulness,
         related=related,
+        separation=separation,
     )
     with clock.stage("write", "Writing the site"):
         write_site(report, destination, single_file=config.single_file)

@@ -85,6 +85,41 @@ class Method(TypedDict):
     faith: Faith | None
 
 
+class ClassCounts(TypedDict):
+    """How many shapes of a class have one of it nearest: by the features, and on a map; what others are taken for."""
+
+    name: str
+    shapes: int
+    features: int
+    map: int | None
+    mistaken: str | None
+
+
+class MapVerdict(TypedDict):
+    """What a map makes of what the features know: shares whose nearest is of their class; what is lost most."""
+
+    nearest: list[float | None]
+    ofAll: float
+    verdict: str
+    lost: ClassCounts | None
+
+
+class Separation(TypedDict):
+    """How far the features tell classes apart: of the numbers of ``classes``, and over all their shapes."""
+
+    neighbours: int
+    classes: list[int]
+    sizes: list[int]
+    nearest: list[float | None]
+    ofAll: float
+    elected: float
+    chance: float
+    silhouette: float
+    silhouetteByChance: float
+    hardest: ClassCounts | None
+    maps: dict[str, MapVerdict]
+
+
 class SubsetChoice(TypedDict):
     """Whose maps the Overview can show beside its own."""
 
@@ -140,6 +175,7 @@ class Overview(TypedDict):
     labeling: str | None
     standIn: bool
     methods: list[Method]
+    separation: Separation | None
     subsets: SubsetChoice | None
     charts: MapCharts
     marks: Marks

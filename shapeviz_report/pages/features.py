@@ -25,6 +25,7 @@ from shapeviz_report.pages.base import (
 from shapeviz_report.pages.chunks import Box, Chunks, Search, SubsetFaith, SubsetMaps, SubsetNeighbours
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
+from shapeviz_report.pages.separation import separation_context
 from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.types import (
     FeatureSearch,
@@ -55,7 +56,11 @@ class FeaturesPage:
     within = None
 
     def content(self, report: Report) -> PageContent:
-        context: dict[str, object] = {"search": None, "retrieval": None}
+        context: dict[str, object] = {
+            "search": None,
+            "retrieval": None,
+            "separation": separation_context(report),
+        }
         chunks: Chunks = {}
         if report.retrieval is not None:
             context["retrieval"] = retrieval_context(report, report.retrieval)

@@ -18,6 +18,7 @@ from shapeviz_report.pages.base import (
 from shapeviz_report.pages.chunks import Details, Faith, Marks, Method, ShapeList, SubsetChoice
 from shapeviz_report.pages.chunks import Shepard as ShepardChunk
 from shapeviz_report.pages.fields import color_choices
+from shapeviz_report.pages.separation import separation_chunk
 from shapeviz_report.render import ramp_codes
 from shapeviz_report.types import (
     Faithfulness,
@@ -84,6 +85,7 @@ class OverviewPage:
                     "labeling": report.labeling,
                     "standIn": report.clusters is not None and report.clusters.stand_in,
                     "methods": methods,
+                    "separation": separation_chunk(report),
                     "subsets": _subsets(report),
                     "charts": {
                         "class": charts.spec_of(charts.class_map, len(classes)),

@@ -44,6 +44,7 @@ from shapeviz_report.types.search import (
     SubsetFaithfulness,
     SubsetScores,
 )
+from shapeviz_report.types.separation import ClassRates, Separation
 
 __all__ = [
     "Accent",
@@ -52,6 +53,7 @@ __all__ = [
     "BinSelection",
     "BinStep",
     "BoolArray",
+    "ClassRates",
     "Cluster",
     "Clusters",
     "Copy",
@@ -87,6 +89,7 @@ __all__ = [
     "Retrieval",
     "SearchRow",
     "SeedSpread",
+    "Separation",
     "ShapeEntry",
     "ShapeFacts",
     "Shepard",

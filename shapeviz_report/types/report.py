@@ -19,6 +19,7 @@ from shapeviz_report.types.mesh import ShapeFacts
 from shapeviz_report.types.publication import Publication
 from shapeviz_report.types.retrieval import Retrieval
 from shapeviz_report.types.search import FeatureSearch
+from shapeviz_report.types.separation import Separation
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,8 @@ class Report:
     related : (n, m) int32 array, or None
         The shapes most similar to each by distances that know their neighbourhood, the most similar first; None where
         there are too many for these.
+    separation : Separation or None
+        None where there are not two classes, or none of two shapes.
     """
 
     database: Database
@@ -101,6 +104,7 @@ class Report:
     without_copies: WithoutCopies | None = None
     faithfulness: Mapping[str, Faithfulness] = field(default_factory=dict)
     related: IntArray | None = None
+    separation: Separation | None = None
 
     def __post_init__(self) -> None:
         """Check what templates and scripts take for granted; a ``ValueError`` is an error of the caller."""

@@ -51,6 +51,35 @@ declare namespace Chunk {
     chanceSpread: number | null;
     faith: Faith | null;
   }
+  /** How many shapes of a class have one of it nearest: by the features, and on a map; what others are taken for. */
+  interface ClassCounts {
+    name: string;
+    shapes: number;
+    features: number;
+    map: number | null;
+    mistaken: string | null;
+  }
+  /** What a map makes of what the features know: shares whose nearest is of their class; what is lost most. */
+  interface MapVerdict {
+    nearest: (number | null)[];
+    ofAll: number;
+    verdict: string;
+    lost: ClassCounts | null;
+  }
+  /** How far the features tell classes apart: of the numbers of `classes`, and over all their shapes. */
+  interface Separation {
+    neighbours: number;
+    classes: number[];
+    sizes: number[];
+    nearest: (number | null)[];
+    ofAll: number;
+    elected: number;
+    chance: number;
+    silhouette: number;
+    silhouetteByChance: number;
+    hardest: ClassCounts | null;
+    maps: Record<string, MapVerdict>;
+  }
   /** Whose maps the Overview can show beside its own. */
   interface SubsetChoice {
     method: string;
@@ -92,6 +121,7 @@ declare namespace Chunk {
     labeling: string | null;
     standIn: boolean;
     methods: Method[];
+    separation: Separation | null;
     subsets: SubsetChoice | null;
     charts: MapCharts;
     marks: Marks;

@@ -13,12 +13,13 @@ from shapeviz_report.quality import hit_range
 from shapeviz_report.types import BinSelection, Report
 from shapeviz_report.writing.data.encoding import archive, csv_text, json_text, number
 from shapeviz_report.writing.data.retrieval import retrieval_class_rows, retrieval_rows
+from shapeviz_report.writing.data.separation import separation_rows
 from shapeviz_report.writing.data.summary import summary
 from shapeviz_report.writing.data.tables import copy_rows, greedy_rows, shape_rows, subset_rows, table_rows
 
 DATA_NAMES = (
     r"summary\.json|(features|scores)\.npz|selected-bins\.txt"
-    r"|(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|projection-\w+)\.csv"
+    r"|(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|separation|projection-\w+)\.csv"
 )
 """The names that :func:`data_files` gives, as a regular expression."""
 
@@ -27,7 +28,7 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
     """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
     found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, the scores of bins in ``scores.npz``, the bins that
     separate all classes in ``selected-bins.txt``, and how well shapes are found in ``retrieval.csv`` and
-    ``retrieval-classes.csv``, by name.
+    ``retrieval-classes.csv``, and how far classes are told apart in ``separation.csv``, by name.
 
     Parameters
     ----------
@@ -65,6 +66,8 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
     if report.retrieval is not None:
         files["retrieval.csv"] = csv_text(retrieval_rows(report.retrieval))
         files["retrieval-classes.csv"] = csv_text(retrieval_class_rows(report.retrieval))
+    if report.separation is not None:
+        files["separation.csv"] = csv_text(separation_rows(report.separation))
     if report.copies:
         files["copies.csv"] = csv_text(copy_rows(report))
     if report.bins is not None:

@@ -23,6 +23,7 @@ from shapeviz_report.types import (
 )
 from shapeviz_report.writing.data.encoding import GENERATOR, finite
 from shapeviz_report.writing.data.retrieval import named_scores, retrieval_summary
+from shapeviz_report.writing.data.separation import separation_summary
 from shapeviz_report.writing.data.tables import by_score
 
 
@@ -78,6 +79,7 @@ def summary(report: Report, version: str) -> dict[str, object]:
         "search": None if report.search is None else _search(report, report.search),
         "bins": None if report.bins is None else _bins(report, report.bins),
         "retrieval": None if report.retrieval is None else retrieval_summary(report.retrieval),
+        "separation": None if report.separation is None else separation_summary(report.separation),
         "seconds": dict(report.seconds),
         "cpu_seconds": dict(report.cpu_seconds),
         "parameters": dict(report.parameters),

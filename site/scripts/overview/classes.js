@@ -8,6 +8,7 @@ import { count, figure, wholePercent } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 import { drawShepard, tellFaith } from "./faith.js";
+import { tellSeparation } from "./separation.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
@@ -249,6 +250,7 @@ export class ClassList {
           this.#chosen(features),
         ],
       ),
+      ...tellSeparation(database, method),
       ...tellFaith(database, method, this.state),
     ];
   }
