@@ -237,8 +237,7 @@ def _of_paper(search: FeatureSearch) -> list[int] | None:
 
 def _within(search: FeatureSearch, features: list[int]) -> npt.NDArray[np.bool_]:
     """Which of the subsets have no other features."""
-    others: npt.NDArray[np.bool_] = np.delete(search.subsets.members, features, axis=1).any(axis=1)
-    return ~others
+    return np.delete(search.subsets.members, features, axis=1).sum(axis=1) == 0
 
 
 def _boxes(nh_c: FloatArray) -> list[Box]:

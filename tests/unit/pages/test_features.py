@@ -101,7 +101,7 @@ def test_chance_is_that_of_the_overview(report, content):
 
 def test_without_a_search_there_is_nothing_to_load():
     content = FeaturesPage().content(make_report())
-    assert content.context == {"search": None, "retrieval": None}
+    assert content.context["search"] is content.context["retrieval"] is None
     assert content.chunks == {}
 
 
