@@ -42,10 +42,15 @@ export function tellSeparation({ data }, method) {
     element(
       "p",
       { class: "quiet" },
-      `By features, the ${count(found.neighbours, "nearest neighbour")} elect the right class of ${wholePercent(found.elected)}, and the silhouette of the classes is ${figure(found.silhouette)} (with labels at random ${figure(found.silhouetteByChance)}). `,
+      `By features, the ${count(found.neighbours, "nearest neighbour")} elect the right class of ${wholePercent(found.elected)}, and the silhouette of the classes is ${signed(found.silhouette)} (with labels at random ${signed(found.silhouetteByChance)}). `,
       element("a", { href: "features.html#separation" }, "Each class"),
     ),
   ];
+}
+
+/** @param {number} value */
+function signed(value) {
+  return figure(value).replace("-", "−");
 }
 
 /** @param {Chunk.ClassCounts} counts */
@@ -53,7 +58,7 @@ function lostOf({ name, shapes, features, map }) {
   return [
     " It loses most of ",
     element("bdi", {}, name),
-    `: by the features the shape nearest to one is another in ${features} of ${count(shapes, "case")}, on this map in ${map}.`,
+    `: by the features ${features} of ${count(shapes, "shape")} have another of it nearest, on this map ${map}.`,
   ];
 }
 
@@ -62,8 +67,8 @@ function hardestOf({ name, shapes, features, mistaken }) {
   return [
     " Hardest for the features is ",
     element("bdi", {}, name),
-    `: ${features} of ${count(shapes, "case")}`,
-    mistaken !== null && [", else mostly ", element("bdi", {}, mistaken)],
+    `: ${features} of ${count(shapes, "shape")} have another of it nearest`,
+    mistaken !== null && ["; the others are nearest to ", element("bdi", {}, mistaken), " most often"],
     ".",
   ];
 }
