@@ -20,10 +20,15 @@ const NAME = 12;
 /** From these widths on, bars have their names below them, and chosen ones a border each. */
 const NAMED = 13;
 const BORDERED = 5;
-/** Room for names of bars, or for so many rows with the names of their features; more rows are lower, down to nameless. */
+/**
+ * Room for names of bars, or for so many rows with the names of their features; more rows are lower, down to nameless.
+ * What the one or the other leaves is the bars'.
+ */
+const NAMES = 76;
 const ROW = 11;
-const FOOT = [76, 152];
 const NAMED_ROW = 9;
+/** Bars are this high at least, whatever number of rows is below them. */
+const LEAST_BARS = 36;
 /** Room for the ticks of matches above names and rows. */
 const MARKS = 9;
 /** Narrower runs of chosen bins have no frame, which would look like a bar. */
@@ -35,7 +40,7 @@ export class BinPlot {
   width = 10;
   height = 10;
   density = 1;
-  foot = FOOT[0];
+  foot = NAMES;
   top = 1;
   /** @type {string[]} */
   colors = [];
@@ -120,8 +125,6 @@ export class BinPlot {
   resize() {
     this.density = window.devicePixelRatio;
     this.width = Math.max(this.surface.clientWidth, 10);
-    this.foot = Math.min(Math.max(this.bins.features.length * ROW + MARKS, FOOT[0]), FOOT[1]);
-    this.node.style.setProperty("--foot", `${this.foot}px`);
     this.height = Math.max(this.surface.clientHeight, 10);
     this.#listRows();
     Object.assign(this.canvas, { width: this.#pixels(this.width), height: this.#pixels(this.height) });
@@ -330,6 +333,10 @@ export class BinPlot {
     this.message.hidden = this.places.length > 0;
     this.#placeMarks();
     if (this.places.length === 0) return;
+    const { named } = this;
+    this.rows.classList.toggle("aside", named);
+    this.foot = named ? NAMES : this.#footOfRows;
+    this.node.style.setProperty("--foot", `${this.foot}px`);
     const base = this.#pixels(this.height - this.foot);
     const frame = { width: this.canvas.width, base, room: base - this.#pixels(4), colors: this.colors };
     const { scale, density } = this;
@@ -354,8 +361,6 @@ export class BinPlot {
     this.#paintBorders(context, bars, runs, frame);
     context.fillStyle = this.ink;
     if (found) this.#paintTicks(context, found, frame);
-    const named = scale.step >= NAMED;
-    this.rows.classList.toggle("aside", named);
     if (named) this.#paintNames(context, visible, frame);
     else this.#paintMatrix(context, { ...bars, columns: found ?? visible }, frame);
   }
@@ -485,8 +490,17 @@ export class BinPlot {
     context.resetTransform();
   }
 
+  /** Whether bars are wide enough for their names. */
+  get named() {
+    return this.scale.step >= NAMED;
+  }
+
+  get #footOfRows() {
+    return Math.min(MARKS + Math.max(this.features.length, 1) * ROW, Math.max(this.height - LEAST_BARS, NAMES));
+  }
+
   get #rowHeight() {
-    return Math.min((this.foot - MARKS) / Math.max(this.features.length, 1), ROW);
+    return Math.min((this.#footOfRows - MARKS) / Math.max(this.features.length, 1), ROW);
   }
 
   /** The names of the features in use, where their rows are high enough for one. */
