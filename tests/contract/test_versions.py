@@ -160,7 +160,7 @@ def test_what_runs_is_reached() -> None:
         random = np.random.default_rng(0)
         values = random.random((24, sum(block.width for block in BLOCKS)))
         labels = ["a", "b", "c"] * 8
-        for method in ("tsne", "umap", "pca"):
+        for method in ("tsne", "umap", "pca", "diffused"):
             call("PROJECT", method, values, 0)
         call("CLUSTER", values, 0)
         call("RELATE", values)

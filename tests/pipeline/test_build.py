@@ -26,6 +26,7 @@ from shapeviz_report.bins import scale_bins
 from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
 from shapeviz_report.features import BINS
 from shapeviz_report.presets import PRESETS, compared_values
+from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search.bins import affordable_deals, find_minimal_bins, make_bin_space
 
@@ -40,7 +41,7 @@ def test_a_site_is_complete(built) -> None:
     summary = json.loads((site / "data/summary.json").read_text())
     assert (summary["shapes"], summary["classes"], summary["failures"]) == (15, 3, [])
     assert summary["database"] == "Some solids"
-    assert list(summary["projections"]) == ["tsne", "umap", "pca"]
+    assert list(summary["projections"]) == [method.name for method in PROJECTIONS]
     for name, (_, quality) in report.projections.items():
         assert summary["projections"][name]["nh_s"] == quality.nh_s
         assert set(summary["projections"][name]["nh_c"]) == {"box", "ball", "ring"}
