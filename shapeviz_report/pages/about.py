@@ -199,6 +199,11 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
             else ()
         ),
         *(
+            (("separation.csv", "how far the features tell the classes apart, and each map after them"),)
+            if report.separation is not None
+            else ()
+        ),
+        *(
             (("copies.csv", "pairs of shapes that are the same shape again, and what says so"),)
             if report.copies
             else ()
