@@ -249,10 +249,14 @@ def test_what_cannot_be_shown_is_said(bins, site, tmp_path):
     folder = tmp_path / "moved"
     shutil.copytree(site("bins"), folder, ignore=shutil.ignore_patterns("models"))
     page = bins(address=f"{folder.as_uri()}/bins.html#bin=own[1]")
-    assert "the shape as a whole" in page.locator("#paintings").inner_text()
-    assert page.locator("#stage .empty").inner_text() == "This feature has no values on the surface."
+    assert page.locator("#paintings").inner_text() == (
+        "A value of the whole shape: it lies on no part of the surface, so nothing is coloured."
+    )
+    # There is nothing to choose of colours where there are none.
+    assert page.locator("#readings").is_hidden()
     assert page.locator("#legend .ten").count() == 0
     find(page, "#bin-search", "Gc:1")
+    assert page.locator("#readings").is_visible()
     find(page, "#shape-search", "fish 5")
     page.click("#show-3d")
     eventually(page, lambda: page.locator("#stage .empty").count() == 1)

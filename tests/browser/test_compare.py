@@ -352,14 +352,20 @@ class TestOnShapes:
 
     def test_a_feature_of_ones_own_is_not_on_the_surface(self, compare):
         page = compare("bins", a="class:ant", b="class:bird", bin="own[1]")
-        assert page.locator("#turn-both").is_hidden()
-        eventually(
-            page,
-            lambda: (
-                page.locator(".stage .empty").all_inner_texts()
-                == ["This feature has no values on the surface."] * 2
-            ),
-        )
+        said = "A value of the whole shape: it lies on no part of the surface, so nothing is coloured."
+        assert page.locator("#seen-bin").get_by_text(said).is_visible()
+        readings = page.locator("#readings label").filter(visible=True)
+        assert readings.all_inner_texts() == ["no colours", "all they differ in"]
+        assert page.locator("#readings input[value=value]").is_checked()
+        # Both can be turned all the same.
+        page.click("#turn-both")
+        eventually(page, lambda: page.locator(".seen-on canvas").count() == 2)
+        # A bin that is on the surface has its colours, and is asked for where all features were shown.
+        page.locator("#readings input[value=apart]").check(force=True)
+        page.locator("#apart-bins .bin-chip").first.click()
+        assert "reading" not in address(page)
+        assert page.locator("#readings input[value=value]").is_checked()
+        assert page.locator("#readings label").filter(visible=True).count() == 3
 
     def test_a_site_without_models_shows_pictures(self, compare):
         page = compare()

@@ -359,9 +359,13 @@ def test_a_bar_colours_the_shape(shape):
     eventually(page, lambda: "Gc:3" not in page.locator("#stage canvas").get_attribute("aria-label"))
     drawn_again(page)
     assert changed(plain, seen(page)) < 0.02
-    # What was brought along has no values on the surface.
+    # What was brought along has no values on the surface: the shape stays as it is, and the page says why.
     page.locator("#histograms .value-strip button").click()
-    assert page.locator("#stage .empty").inner_text() == "This feature has no values on the surface."
+    assert (
+        "it lies on no part of the surface, so nothing is coloured" in page.locator("#painted").inner_text()
+    )
+    assert page.locator("#stage canvas").count() == 1
+    assert page.locator("#legend .ten").count() == 0
     page.locator("#painted a").click()
     page.wait_for_selector("html[data-ready]", state="attached")
     assert address(page)["bin"] == ["own[0]"] or "own" in address(page)["bin"][0]

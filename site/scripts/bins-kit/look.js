@@ -7,6 +7,7 @@ import { toldAs } from "../base/snapshot.js";
 import { count } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
+import { UNPAINTED } from "./on-surface.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -122,14 +123,7 @@ export class Look {
     return [
       element("h3", { class: "in-page" }, binName(bins, column)),
       feature.measures !== "" &&
-        element(
-          "p",
-          { class: "quiet in-page" },
-          element("b", {}, feature.title),
-          ": ",
-          lowered(feature.measures),
-          !bins.isShare(column) && " A value of the whole shape, so nothing on the surface is painted.",
-        ),
+        element("p", { class: "quiet in-page" }, element("b", {}, feature.title), ": ", lowered(feature.measures)),
       element("p", { class: "who" }, this.#who(column)),
       element("div", { class: "bin-card" }, card.classes(column)),
       exactly(bins, column),
@@ -203,14 +197,7 @@ export class Look {
   /** @param {number} column */
   #paint(column) {
     const { bins, database, selection } = this;
-    if (!bins.isShare(column))
-      return [
-        element(
-          "p",
-          { class: "notice" },
-          "This is a value of the shape as a whole, which no part of its surface has for itself, so there is nothing to paint.",
-        ),
-      ];
+    if (!bins.isShare(column)) return [element("p", { class: "notice" }, UNPAINTED)];
     const own = pictured(selection, database, bins, column, this.state.get("group"));
     if (own.length === 0) {
       return [

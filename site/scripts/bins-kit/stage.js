@@ -39,14 +39,14 @@ export class Stage {
   }
 
   /**
-   * Show a shape: its picture with an offer to turn it, and once that was taken, its model. Where something else than
-   * the site or the browser speaks against it, `reason` says what. Resolves to whether the model is on the screen.
+   * Show a shape: its picture with an offer to turn it, and once that was taken, its model. Resolves to whether the model
+   * is on the screen.
    * @param {number} shape
-   * @param {Showing & { reason?: string | null }} how
+   * @param {Showing} how
    */
-  async show(shape, { label, paint, reason = null }) {
+  async show(shape, { label, paint }) {
     this.latest = Symbol("shown");
-    const impossible = reason ?? this.#impossible();
+    const impossible = this.#impossible();
     if (impossible !== null) this.#say(shape, impossible);
     else if (!this.asked) this.#offer(shape, { label, paint });
     else return this.#turn(shape, label, paint);

@@ -15,8 +15,8 @@ import { mapOf, Plot } from "../map/plot.js";
 /** The share of what NH_c can be, in the space of the bins and on their map, at which a class counts as separated. */
 const SEPARATED = 0.9;
 
-/** Of the surface, a part by which two pictures must differ for anybody to see it. */
-const SEEN = 0.03;
+/** Of the surface, a part by which two pictures differ for everybody to see it: more shows no more. */
+const ENOUGH = 0.15;
 
 export class ClassCards {
   /**
@@ -131,8 +131,8 @@ export class ClassCards {
 }
 
 /**
- * The bin to look at first, and its class: one whose pictures show it, much of it on a shape beside little on another; of
- * these one that separates a class alone, if any does, the best of them.
+ * The bin to look at first, and its class: one whose pictures show it, much of it on a shape beside little on another, which
+ * counts as often as its words are easily pictured.
  * @param {Chunk.Selection} selection
  * @param {Database} database
  * @param {Bins} bins
@@ -140,20 +140,16 @@ export class ClassCards {
  */
 export function firstBin(selection, database, bins) {
   const found = selection.minimal.flatMap((separated) => {
-    const { group, highest } = separated;
-    const { bins: columns, nh } = chooseSet(separated, "fewest");
-    return columns.map((bin) => {
+    const { group } = separated;
+    return chooseSet(separated, "fewest").bins.map((bin) => {
       const shares = pictured(selection, database, bins, bin, group).map(({ shape }) => bins.share(bin, shape));
-      const seen = shares.length > 1 && shares[0] - /** @type {number} */ (shares.at(-1)) >= SEEN;
-      return { bin, group, rank: [Number(!seen), columns.length, -nh / (highest || 1)] };
+      const apart = shares.length > 1 ? shares[0] - /** @type {number} */ (shares.at(-1)) : 0;
+      return { bin, group, worth: Math.min(apart, ENOUGH) * bins.ease(bin), ease: bins.ease(bin) };
     });
   });
   if (found.length === 0) return { bin: 0, group: null };
-  const best = found.reduce((a, b) => {
-    const apart = a.rank.findIndex((value, place) => value !== b.rank[place]);
-    return apart >= 0 && b.rank[apart] < a.rank[apart] ? b : a;
-  });
-  return { bin: best.bin, group: best.group };
+  const [{ bin, group }] = found.sort((one, other) => other.worth - one.worth || other.ease - one.ease);
+  return { bin, group };
 }
 
 /**

@@ -5,6 +5,7 @@ import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { styleColor } from "../base/theme.js";
 import { pictured, shapeLine } from "../bins-kit/look.js";
+import { showingBin } from "../bins-kit/on-surface.js";
 import { Stage } from "../bins-kit/stage.js";
 import { findShapes } from "../database/shape-finder.js";
 import { Plot } from "../map/plot.js";
@@ -111,15 +112,9 @@ export class Turntable {
     for (const end of ["most", "least"])
       document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
     this.pick.draw();
+    document.getElementById("readings").hidden = !bins.isShare(bin);
     const inside = state.get("reading") === "inside";
-    const shown = await this.stage.show(shape, {
-      label: `${database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
-      paint: (solid) => {
-        const dimension = /** @type {number} */ (bins.dimensionOf(bin));
-        return inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension);
-      },
-      reason: bins.isShare(bin) ? null : "This feature has no values on the surface.",
-    });
+    const shown = await this.stage.show(shape, showingBin(shape, bin, { database, bins, paint: this.paint, inside }));
     if (shown) this.announce(`${database.names[shape]}, ${bins.names[bin]}`);
   }
 

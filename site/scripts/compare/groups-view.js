@@ -225,7 +225,12 @@ export class GroupsView {
     /** @type {View["rest"]} */
     const rest = { side: "rest", name: "the others", color: () => "var(--quiet)", mark: () => null };
     /** @param {number} column */
-    const look = (column) => this.state.set({ bin: bins.names[column] });
+    const look = (column) =>
+      // Who asks for a bin asks for its colours, not for those of all features together.
+      this.state.set({
+        bin: bins.names[column],
+        ...(this.state.get("reading") === "apart" ? { reading: "value" } : {}),
+      });
     this.view = {
       contrast,
       a,

@@ -9,6 +9,7 @@ import { percent } from "../base/words.js";
 import { binName, exactly } from "../bins-kit/bin-name.js";
 import { Legend } from "../bins-kit/legend.js";
 import { byFeature, sumOf } from "../bins-kit/difference.js";
+import { showingBin, UNPAINTED } from "../bins-kit/on-surface.js";
 import { Stage } from "../bins-kit/stage.js";
 import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
 import { copyEvidence } from "../database/facts.js";
@@ -53,11 +54,8 @@ export class OnShapes {
     this.state = state;
     this.announce = announce;
     this.asked = false;
-    const inputs = document.querySelectorAll("#readings input");
-    this.check = () => {
-      for (const input of inputs) input.checked = input.value === state.get("reading");
-    };
-    for (const input of inputs) input.addEventListener("change", () => state.set({ reading: input.value }));
+    for (const input of document.querySelectorAll("#readings input"))
+      input.addEventListener("change", () => state.set({ reading: input.value }));
     document.getElementById("turn-both").addEventListener("click", () => {
       this.asked = true;
       this.draw();
@@ -79,9 +77,26 @@ export class OnShapes {
     this.selection ??= await chunk("selection");
     if (view !== this.view) return;
     this.stages ??= this.#makeStages(this.selection);
-    this.check();
+    this.#offerReadings(view);
     if (state.get("reading") === "apart") await this.#apart(view);
     else this.#bin(view, this.selection);
+  }
+
+  /**
+   * The choice of what colours show; by a value of the whole shape nothing is coloured.
+   * @param {View} view
+   */
+  #offerReadings({ bins, bin }) {
+    const share = bins.isShare(bin);
+    const reading = this.state.get("reading");
+    for (const input of document.querySelectorAll("#readings input")) {
+      input.checked = input.value === (share || reading === "apart" ? reading : "value");
+      const label = /** @type {Found} */ (input.closest("label"));
+      if (input.value === "inside") label.hidden = !share;
+      if (input.value !== "value") continue;
+      label.title = share ? "The descriptor’s value at every point" : UNPAINTED;
+      label.querySelector("span").textContent = share ? "value" : "no colours";
+    }
   }
 
   /** What the two pictures show, in a sentence. */
@@ -108,10 +123,14 @@ export class OnShapes {
   #bin({ bins, bin }, selection) {
     this.surfaces?.leave();
     const share = bins.isShare(bin);
-    document.getElementById("turn-both").hidden = this.asked || !share || selection.models === null;
+    document.getElementById("turn-both").hidden = this.asked || selection.models === null;
     document
       .getElementById("seen-bin")
-      .replaceChildren(element("p", {}, binName(bins, bin)), exactly(bins, bin, meaning(bin, bins)));
+      .replaceChildren(
+        element("p", {}, binName(bins, bin)),
+        share ? "" : element("p", { class: "quiet in-page" }, UNPAINTED),
+        exactly(bins, bin, meaning(bin, bins)),
+      );
     if (share && !this.asked && !SIDES.some((side) => this.#painting(this.chosen[side])))
       document
         .getElementById("seen-bin")
@@ -131,7 +150,7 @@ export class OnShapes {
     const told = (index) => `${bins.telling(bin)(bins.share(bin, index))}${share ? " in the bin" : ""}`;
     for (const side of SIDES) {
       this.#side(side, told);
-      this.#stage(side, this.chosen[side], share);
+      this.#stage(side, this.chosen[side]);
     }
     const reading = this.state.get("reading") === "inside" ? "which points fall into" : "values of";
     if (this.asked && share) this.announce(`${reading} ${bins.names[bin]}`);
@@ -249,13 +268,12 @@ export class OnShapes {
   /**
    * @param {Side} side
    * @param {number} shape
-   * @param {boolean} share
    */
-  #stage(side, shape, share) {
+  #stage(side, shape) {
     const { bins, bin } = /** @type {View} */ (this.view);
     const { [side]: stage } = /** @type {Record<Side, Stage>} */ (this.stages);
     const inside = this.state.get("reading") === "inside";
-    if (!this.asked && share) {
+    if (!this.asked) {
       const painting = this.#painting(shape);
       stage.rest();
       stage.node.replaceChildren(
@@ -271,12 +289,6 @@ export class OnShapes {
       return;
     }
     stage.asked = true;
-    const dimension = /** @type {number} */ (bins.dimensionOf(bin));
-    stage.show(shape, {
-      label: `${this.database.names[shape]} in 3D, ${inside ? "which points fall into" : "values of"} ${bins.names[bin]}`,
-      paint: (solid) =>
-        inside ? this.paint.inside(solid, dimension, bins.binOf(bin)) : this.paint.values(solid, dimension),
-      reason: share ? null : "This feature has no values on the surface.",
-    });
+    stage.show(shape, showingBin(shape, bin, { database: this.database, bins, paint: this.paint, inside }));
   }
 }

@@ -5,6 +5,7 @@ import { calm, element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { binName, exactly } from "../bins-kit/bin-name.js";
 import { Legend } from "../bins-kit/legend.js";
+import { UNPAINTED } from "../bins-kit/on-surface.js";
 import { Stage } from "../bins-kit/stage.js";
 import { Paint } from "../viewer/paint.js";
 
@@ -62,16 +63,15 @@ export class Portrait {
     if (shape === null) return;
     const column = this.#column;
     if (this.#known) this.#tell(this.#known, shape, column);
-    // Who asks for a bin asks for 3D.
-    if (column !== null) this.stage.asked = true;
+    const dimension = column === null || !bins ? null : bins.dimensionOf(column);
+    // Who asks for a bin asks for its colours.
+    if (dimension !== null) this.stage.asked = true;
     this.stage.show(shape, {
-      label: `${database.names[shape]} in 3D${column === null || !bins ? "" : `, values of ${bins.names[column]}`}`,
+      label: `${database.names[shape]} in 3D${dimension === null ? "" : `, values of ${this.state.get("bin")}`}`,
       paint: async (solid) => {
         this.#paint ??= new Paint(await chunk("selection"));
-        const dimension = column === null || !bins ? null : bins.dimensionOf(column);
         return dimension === null ? this.#paint.plain(solid) : this.#paint.values(solid, dimension);
       },
-      reason: column === null || !bins || bins.isShare(column) ? null : "This feature has no values on the surface.",
     });
   }
 
@@ -92,8 +92,10 @@ export class Portrait {
      * @param {() => void} onclick
      */
     const action = (text, onclick) => element("button", { type: "button", class: "plain", onclick }, text);
+    const dimension = bins.dimensionOf(column);
     words.append(
       element("p", {}, binName(bins, column)),
+      dimension === null ? element("p", { class: "quiet" }, UNPAINTED) : "",
       exactly(bins, column),
       element(
         "p",
@@ -104,10 +106,9 @@ export class Portrait {
           { href: pageAddress("bins.html", { bin: bins.names[column], id: database.ids[shape] }) },
           "Open on the Bins page",
         ),
-        action("Plain again", () => state.set({ bin: null })),
+        action(dimension === null ? "Close" : "Plain again", () => state.set({ bin: null })),
       ),
     );
-    const dimension = bins.dimensionOf(column);
     if (dimension === null) legend.clear();
     else legend.show(legend.selection.dimensions[dimension], bins.binOf(column));
   }
