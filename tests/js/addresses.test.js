@@ -12,6 +12,7 @@ import { shapePageAddress } from "../../site/scripts/addresses/shape.js";
 import { galleryAddress } from "../../site/scripts/addresses/shapes.js";
 import { workAddress } from "../../site/scripts/addresses/workbench.js";
 import { commonTo } from "../../site/scripts/base/address.js";
+import { missingWords } from "../../site/scripts/base/missing.js";
 
 const FEATURES = [
   { name: "Gc", start: 0, dimensions: 1, bins: 10 },
@@ -92,11 +93,18 @@ const database = {
     { key: "pca", base: 1 },
     { key: "tsne Gc", base: 0, features: ["Gc"] },
   ],
-  data: { subsets: { features: ["Gc", "FPFH"] } },
+  data: {
+    standIn: false,
+    subsets: { features: ["Gc", "FPFH"] },
+    methods: [
+      { key: "tsne", features: ["Gc", "FPFH", "50 % of it"] },
+      { key: "pca", features: ["Gc", "FPFH", "50 % of it"] },
+    ],
+  },
 };
 
 const field = (key, more) => ({ key, names: null, edges: null, tree: null, ...more });
-const kind = field("kind", { names: ["flying", "not/flying"] });
+const kind = field("kind", { active: true, names: ["flying", "not/flying"] });
 const faces = field("faces", { edges: [0, 10] });
 const folders = field("folders", { tree: { nodes: [{}, {}], ways: [["a"], ["a", "b/c"]] } });
 const fields = {
@@ -172,7 +180,7 @@ const PAGES = {
     ],
   ],
   compare: [
-    comparePageAddress(database, spaces, neighbours),
+    comparePageAddress(database, spaces, neighbours, ["one:two"]),
     [
       "",
       "a=class%3Acup+%26+plate&b=class%3Abee",
@@ -297,4 +305,102 @@ test("a row says which values of the state it has", () => {
   assert.ok(!address.has(new Set(["camera", "theme"]), isPlace));
   assert.ok(address.has(new Set(["camera"])));
   assert.ok(!address.has(new Set(["theme"])));
+});
+
+/** What an address names in vain, by its page: "noun name", in the order in which it is read. */
+const MISSED = {
+  overview: {
+    "map=mds&features=Gc Xy 50%2525": ["map mds", "feature Xy", "feature 50%"],
+    "hide=dragon&hide=ant&open=ant/9&select=ghost&select=lost&selected=old.AA": [
+      "class dragon",
+      "selection ",
+      "shape ghost",
+      "shape ant/9",
+    ],
+  },
+  features: { "features=Xy FPFH&rank=luck&open=ant/9": ["feature Xy", "measure luck", "shape ant/9"] },
+  bins: { "step=4&bin=bin 999&of=dragon&id=ant/9": ["step 4", "bin bin 999", "class dragon", "shape ant/9"] },
+  shape: { "id=nobody&map=mds&beside=ant/9": ["map mds", "shape ant/9"] },
+  shapes: {
+    "is.kind=flying&is.kind=swimming&is.folders=a/x%2525&lacks.planet=&range.column:year=1..2&at=ant/9": [
+      "column planet",
+      "column year",
+      "class swimming",
+      "folder a/x%",
+      "shape ant/9",
+    ],
+    "group=label:style&sort=nh:mds": ["column style", "map mds"],
+  },
+  compare: {
+    "a=class:dragon&b=class:bee&of=dragon&by=mds": ["class dragon", "map mds"],
+    "a=cluster:one:two&b=cluster:nine&row=dragon&column=ant": ["cluster nine", "class dragon"],
+    "a=shapes&a-select=ghost&a-select=ant/1&b=rest": ["shape ghost"],
+  },
+  workbench: {
+    "class=dragon&separate=ant&separate=wyvern&from=drake&together=": ["class dragon", "class wyvern", "class drake"],
+    "features=Gc Xy&bins=Gc:1 Gc:11 FPFH[40] <b>&map=mds&scorer=luck": [
+      "feature Xy",
+      "bin Gc:11",
+      "bin FPFH[40]",
+      "bin <b>",
+      "map mds",
+      "scorer luck",
+    ],
+  },
+};
+
+const missedBy = (address, query) => {
+  /** @type {Set<string>} */
+  const missed = new Set();
+  address.read(new URLSearchParams(query), (noun, name) => missed.add(`${noun} ${name}`));
+  return [...missed];
+};
+
+for (const [page, [address, queries]] of Object.entries(PAGES)) {
+  test(`${page} tells which names in its address are not there`, () => {
+    for (const [query, missed] of Object.entries(MISSED[page]))
+      assert.deepEqual(missedBy(address, query).sort(), missed.sort(), query);
+  });
+
+  test(`${page} misses nothing that is there, or that another page has`, () => {
+    for (const query of queries) assert.deepEqual(missedBy(address, query), [], query);
+    const common =
+      "map=pca&map=umap&features=50%2520%2525%2520of%2520it&hide=ant&class=bee&separate=&a=rest&scorer=rfe";
+    assert.deepEqual(missedBy(address, common), []);
+    assert.deepEqual(missedBy(address, "map=umap&find=dragon&color=hit&view=dragon&select="), []);
+  });
+}
+
+test("clusters that stand in for classes are called so", () => {
+  const clustered = { ...database, data: { ...database.data, standIn: true } };
+  assert.deepEqual(missedBy(overviewAddress(clustered), "hide=dragon"), ["cluster dragon"]);
+  const compare = comparePageAddress(clustered, spaces, neighbours, []);
+  assert.deepEqual(missedBy(compare, "a=cluster:ant&b=cluster:dragon"), ["cluster dragon"]);
+});
+
+test("what is missing is one sentence, whose names are apart, few and short", () => {
+  const said = (missed) =>
+    missingWords(new Map(Object.entries(missed).map(([noun, names]) => [noun, new Set(names)])))
+      .map((word) => (typeof word === "string" ? word : `“${word.name}”`))
+      .join("");
+  assert.equal(said({}), "");
+  assert.equal(said({ class: ["dragon"] }), "This link names the class “dragon”, which is not in this database.");
+  assert.equal(
+    said({ class: ["dragon", "drake"], shape: ["x"] }),
+    "This link names the classes “dragon” and “drake”, and the shape “x”, which are not in this database.",
+  );
+  assert.equal(
+    said({ class: ["dragon"], bin: ["Gc:11"], map: ["mds"] }),
+    "This link names the class “dragon”, the bin “Gc:11” and the map “mds”, which this site does not offer.",
+  );
+  assert.equal(
+    said({ shape: Array.from({ length: 1203 }, (_, number) => `s${number}`) }),
+    "This link names the shapes “s0”, “s1”, “s2” and 1\u2009200 more, which are not in this database.",
+  );
+  assert.equal(
+    said({ selection: [""] }),
+    "This link names a selection of other shapes, which is not in this database.",
+  );
+  const [, , { name }] = missingWords(new Map([["class", new Set(["<img onerror=x>\u202e".repeat(900)])]]));
+  assert.equal(Array.from(name).length, 40);
 });

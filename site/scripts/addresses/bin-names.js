@@ -1,7 +1,9 @@
 // Lists of bins as short text for the address: "FPFH[14]:1-3 Agd:6", a whole dimension as "FPFH[14]", a whole feature
 // as "FPFH".
 
-import { joinNames } from "./names.js";
+import { asNamed, joinNames, wordsOf } from "./names.js";
+
+/** @import { Miss } from "../base/missing.js" */
 
 const REST = /^(?:\[(\d+)\])?(?::(\d+)(?:-(\d+))?)?$/;
 
@@ -36,20 +38,22 @@ export function shortNames(columns, features) {
 }
 
 /**
- * The columns that such a text names; what it does not name is passed over.
+ * The columns that such a text names; what names none is passed over.
  * @param {string | null} text
  * @param {Chunk.Feature[]} features
+ * @param {Miss} [miss]
  * @returns {Set<number>}
  */
-export function readShortNames(text, features) {
+export function readShortNames(text, features, miss = () => {}) {
   const columns = new Set();
-  for (const word of (text ?? "").split(" ")) {
-    for (const feature of features) {
+  for (const word of wordsOf(text)) {
+    const own = features.flatMap((feature) => {
       const name = joinNames([feature.name]);
       const rest = word.startsWith(name) ? REST.exec(word.slice(name.length)) : null;
-      if (rest === null) continue;
-      for (const column of named(feature, rest)) columns.add(column);
-    }
+      return rest === null ? [] : named(feature, rest);
+    });
+    if (own.length === 0) miss("bin", asNamed(word));
+    for (const column of own) columns.add(column);
   }
   return columns;
 }

@@ -3,6 +3,7 @@
 import { Address, choice, named } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { shortNames } from "./bin-names.js";
+import { classNoun } from "./classes.js";
 import { selected } from "./selected.js";
 
 /** @import { Kind, Ways } from "../base/address.js" */
@@ -62,10 +63,13 @@ export function workbenchAddress(columns, features) {
  * @returns {Kind}
  */
 function step(last) {
-  /** @param {string[]} texts */
-  const read = ([word]) => {
+  /** @type {Kind["read"]} */
+  const read = ([word], miss) => {
     const place = Number(word) - 1;
-    return Number.isInteger(place) && place >= 0 && place <= last ? place : undefined;
+    if (!Number.isInteger(place) || place < 0) return undefined;
+    if (place <= last) return place;
+    miss("step", word);
+    return undefined;
   };
   return { read, write: (place) => [String(place + 1)] };
 }
@@ -75,16 +79,17 @@ function step(last) {
  * @param {Bins} bins
  * @returns {Ways}
  */
-function binOfClass({ classes }, bins) {
-  const [ofBin, ofClass] = [named(bins.names), named(classes)];
+function binOfClass(database, bins) {
+  const [ofBin, ofClass] = [named(bins.names, "bin"), named(database.classes, classNoun(database))];
   return {
-    read(query) {
-      const bin = ofBin.read(query.getAll("bin"));
-      return bin === undefined ? undefined : { bin, group: ofClass.read(query.getAll("of")) ?? null };
+    read(query, miss) {
+      const bin = ofBin.read(query.getAll("bin"), miss);
+      const group = ofClass.read(query.getAll("of"), miss) ?? null;
+      return bin === undefined ? undefined : { bin, group };
     },
     write(query, { bin, group }) {
       query.set("bin", bins.names[bin]);
-      if (group !== null) query.set("of", classes[group]);
+      if (group !== null) query.set("of", database.classes[group]);
     },
   };
 }
@@ -95,10 +100,11 @@ function binOfClass({ classes }, bins) {
  * @returns {Ways}
  */
 function shapeOrEnd(database) {
+  const ofId = named(database.ids, "shape");
   return {
-    read(query) {
+    read(query, miss) {
       const end = query.get("shape");
-      return end !== null && ENDS.includes(end) ? end : database.indexOfId.get(query.get("id") ?? "");
+      return end !== null && ENDS.includes(end) ? end : ofId.read(query.getAll("id"), miss);
     },
     write(query, shape) {
       if (ENDS.includes(shape)) query.set("shape", shape);

@@ -3,8 +3,10 @@
 import { Address, choice, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { readSelection, writeSelection } from "../database/selection.js";
+import { classesNamed, classNoun } from "./classes.js";
 import { selected } from "./selected.js";
 
+/** @import { Miss } from "../base/missing.js" */
 /** @import { Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
@@ -42,19 +44,20 @@ const READINGS = ["value", "inside", "apart"];
  * @param {Database} database
  * @param {Chunk.Comparison} data
  * @param {Likest} neighbours
+ * @param {string[]} clusters names
  */
-export function comparePageAddress(database, data, neighbours) {
-  const ofClass = named(database.classes);
+export function comparePageAddress(database, data, neighbours, clusters) {
+  const ofClass = named(database.classes, classNoun(database));
   return new Address([
     selected(database),
     { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true, words: "the view" },
-    { names: ["a", "b"], ...twoGroups(database, neighbours), place: true, words: "the two groups" },
+    { names: ["a", "b"], ...twoGroups(database, neighbours, clusters), place: true, words: "the two groups" },
     { name: "bin", key: "bin", kind: text, standard: null, place: true, words: "the bin" },
     { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
     { name: "of", key: "of", kind: ofClass, standard: null, place: true },
     { name: "row", key: "row", kind: ofClass, standard: null, place: true, often: true },
     { name: "column", key: "column", kind: ofClass, standard: null, place: true, often: true },
-    { name: "space", key: "by", kind: choice(data.spaces), standard: data.spaces[0], place: true },
+    { name: "space", key: "by", kind: choice(data.spaces, "map"), standard: data.spaces[0], place: true },
   ]);
 }
 
@@ -76,13 +79,17 @@ export function compareAddress(database, a, b) {
  * selection, made meanwhile, is what it opens with then.
  * @param {Database} database
  * @param {Likest} neighbours
+ * @param {string[]} clusters names
  * @returns {Ways}
  */
-function twoGroups(database, neighbours) {
-  /** @param {URLSearchParams} query */
-  const read = (query) => {
-    let a = readGroup(query, database, "a");
-    const b = readGroup(query, database, "b");
+function twoGroups(database, neighbours, clusters) {
+  /**
+   * @param {URLSearchParams} query
+   * @param {Miss} [miss]
+   */
+  const read = (query, miss = () => {}) => {
+    let a = readGroup(query, database, clusters, "a", miss);
+    const b = readGroup(query, database, clusters, "b", miss);
     if (a === null && !query.has("a")) {
       // The selection that came along from another page.
       const shapes = readSelection(query, database);
@@ -131,24 +138,31 @@ function writeGroup(query, database, name, group) {
  * The group that an address names; null where it names none, or one that is no longer there.
  * @param {URLSearchParams} query
  * @param {Database} database
+ * @param {string[]} clusters names
  * @param {string} name
+ * @param {Miss} miss
  * @returns {GroupSpec | null}
  */
-function readGroup(query, database, name) {
+function readGroup(query, database, clusters, name, miss) {
   const word = query.get(name) ?? "";
   const [kind, rest] = [word.split(":", 1)[0], word.slice(word.indexOf(":") + 1)];
   if (kind === "rest") return { kind };
   if (kind === "shapes") {
     const own = new URLSearchParams();
     for (const [key, value] of query) if (key.startsWith(`${name}-`)) own.append(key.slice(name.length + 1), value);
-    const shapes = readSelection(own, database);
+    const shapes = readSelection(own, database, miss);
     return shapes.size > 0 ? { kind, shapes } : null;
   }
-  if (kind === "class") {
-    const group = database.classes.indexOf(rest);
-    return group >= 0 ? { kind, group } : null;
+  // Clusters that stand in for labels are the classes.
+  if (kind === "class" || (kind === "cluster" && database.data.standIn)) {
+    const [group] = classesNamed([rest], database, miss);
+    return group === undefined ? null : { kind: "class", group };
   }
-  if (kind === "cluster") return { kind, name: rest };
+  if (kind === "cluster") {
+    if (clusters.includes(rest)) return { kind, name: rest };
+    if (rest !== "") miss(kind, rest);
+    return null;
+  }
   return kind === "search" && rest !== "" ? { kind, text: rest } : null;
 }
 

@@ -37,6 +37,7 @@ import { selected } from "./selected.js";
  */
 export function featuresAddress(subsets, database) {
   const everyone = subsets.labelled ? 0 : subsets.everything;
+  const known = [...subsets.features, ...database.data.methods.flatMap(({ features }) => features)];
   const sizes = subsets.data.greedy.map(({ s }) => s);
   return new Address([
     {
@@ -44,7 +45,7 @@ export function featuresAddress(subsets, database) {
       words: "the features",
       keys: /^features$/,
       standard: everyone,
-      read: (query) => subsets.find(splitNames(query.get("features"), subsets.features)),
+      read: (query, miss) => subsets.find(splitNames(query.get("features"), subsets.features, miss, known)),
       write: (query, chosen) => query.set("features", joinNames(subsets.names(chosen))),
       place: true,
       often: true,
@@ -61,7 +62,10 @@ export function featuresAddress(subsets, database) {
     {
       name: "rank",
       key: "rank",
-      kind: choice(subsets.measures.map(({ name }) => name)),
+      kind: choice(
+        subsets.measures.map(({ name }) => name),
+        "measure",
+      ),
       standard: subsets.measures[0]?.name ?? null,
       words: "what subsets are ranked by",
     },
@@ -75,7 +79,14 @@ export function featuresAddress(subsets, database) {
     },
     coloredBy(database),
     selected(database),
-    { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the marked shape" },
+    {
+      name: "opened",
+      key: "open",
+      kind: named(database.ids, "shape"),
+      standard: null,
+      place: true,
+      words: "the marked shape",
+    },
     LINES,
     CAMERA,
   ]);

@@ -3,8 +3,10 @@
 import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { CAMERA } from "./camera.js";
+import { classesNamed } from "./classes.js";
 import { colors, OWN_COLORS } from "./colors.js";
 import { LINES } from "./lines.js";
+import { missMap } from "./maps.js";
 import { joinNames, splitNames } from "./names.js";
 import { selected } from "./selected.js";
 
@@ -44,7 +46,14 @@ export function overviewAddress(database) {
     { name: "exact", key: "exact", kind: flag, standard: false, place: true },
     { name: "hidden", ...hiddenClasses(database), place: true, words: "which classes are hidden" },
     selected(database),
-    { name: "opened", key: "open", kind: named(database.ids), standard: null, place: true, words: "the open shape" },
+    {
+      name: "opened",
+      key: "open",
+      kind: named(database.ids, "shape"),
+      standard: null,
+      place: true,
+      words: "the open shape",
+    },
     { name: "query", key: "find", kind: text, standard: "", often: true, words: "the search" },
     LINES,
     CAMERA,
@@ -66,15 +75,20 @@ export function subsetAddress(names) {
  */
 function mapOfFeatures(database) {
   const { subsets } = database.data;
+  const known = [...(subsets?.features ?? []), ...database.data.methods.flatMap(({ features }) => features)];
   return {
     keys: /^(map|features)$/,
-    read: (query) => ({
-      method: Math.max(
-        database.methods.findIndex(({ key }) => key === query.get("map")),
-        0,
-      ),
-      features: subsets ? splitNames(query.get("features"), subsets.features) : [],
-    }),
+    read(query, miss) {
+      const map = query.get("map");
+      missMap(map, database, miss);
+      return {
+        method: Math.max(
+          database.methods.findIndex(({ key }) => key === map),
+          0,
+        ),
+        features: subsets ? splitNames(query.get("features"), subsets.features, miss, known) : [],
+      };
+    },
     write(query, { method }) {
       const { base, features } = database.methods[method];
       if (base !== 0) query.set("map", database.methods[base].key);
@@ -93,9 +107,9 @@ function viewAndColors(database) {
   const kind = colors(database);
   return {
     keys: /^(view|color)$/,
-    read(query) {
+    read(query, miss) {
       const view = query.get("view") ?? "";
-      const color = kind.read(query.getAll("color"));
+      const color = kind.read(query.getAll("color"), miss);
       if (view !== "color" && views.includes(view)) return { view };
       if (color === undefined) return { view: views[0] };
       return OWN_COLORS.includes(color) ? { view: color } : { view: "color", by: color };
@@ -112,14 +126,12 @@ function viewAndColors(database) {
  * @param {Database} database
  * @returns {Ways}
  */
-function hiddenClasses({ classes, sizes, labelled }) {
+function hiddenClasses(database) {
+  const { classes, sizes, labelled } = database;
   return {
     keys: /^hide(-unlabelled)?$/,
-    read: (query) => {
-      const hidden = query
-        .getAll("hide")
-        .map((name) => classes.indexOf(name))
-        .filter((group) => group >= 0);
+    read: (query, miss) => {
+      const hidden = classesNamed(query.getAll("hide"), database, miss);
       return new Set(query.has("hide-unlabelled") && labelled && sizes.has(-1) ? [...hidden, -1] : hidden);
     },
     write(query, hidden) {

@@ -16,7 +16,7 @@ export function selected(database) {
     place: true,
     words: "the selection",
     keys: /^select(ed)?$/,
-    read: (query) => readSelection(query, database),
+    read: (query, miss) => readSelection(query, database, miss),
     write: (query, selection) => writeSelection(query, database, selection),
   };
 }

@@ -3,9 +3,14 @@
 
 import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
+import { binNames } from "../database/bins.js";
+import { readShortNames } from "./bin-names.js";
+import { missMap } from "./maps.js";
+import { splitNames } from "./names.js";
 import { selected } from "./selected.js";
 
 /** @import { Kind, Ways } from "../base/address.js" */
+/** @import { Miss } from "../base/missing.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
@@ -35,16 +40,38 @@ import { selected } from "./selected.js";
 export function shapePageAddress(database) {
   return new Address([
     { names: ["shape", "unknown"], ...shapeOrUnknown(database), place: true, words: "the shape" },
-    { name: "method", key: "map", kind: named(database.methods.map(({ key }) => key)), standard: 0 },
+    { name: "method", key: "map", kind: mapOf(database), standard: 0 },
     { name: "features", key: "features", kind: text, standard: "", words: "what similar means" },
     { name: "bins", key: "bins", kind: text, standard: "" },
     { name: "neighbourhood", key: "neighbourhood", kind: flag, standard: false, words: "the order by neighbourhood" },
     { name: "bin", key: "bin", kind: text, standard: null },
     { name: "parts", key: "parts", kind: text, standard: "" },
-    { name: "beside", key: "beside", kind: shapeId(database), standard: null, words: "the shape beside it" },
+    { name: "beside", key: "beside", kind: named(database.ids, "shape"), standard: null, words: "the shape beside it" },
     { name: "within", key: "within", kind: text, standard: "" },
     selected(database),
   ]);
+}
+
+/**
+ * Whether a state names features or bins.
+ * @param {Record<string, any>} values
+ */
+export function namesFeatures({ features, bins, bin, parts, within }) {
+  return bin !== null || [features, bins, parts, within].some((text) => text !== "");
+}
+
+/**
+ * Tell of those that are not there.
+ * @param {Record<string, any>} values
+ * @param {Chunk.Feature[]} features
+ * @param {Miss} miss
+ */
+export function missFeatures(values, features, miss) {
+  const names = features.map(({ name }) => name);
+  splitNames(values.features, names, miss);
+  if (values.within !== "" && !names.includes(values.within)) miss("feature", values.within);
+  for (const text of [values.bins, values.parts]) readShortNames(text, features, miss);
+  if (values.bin !== null && !binNames(features).includes(values.bin)) miss("bin", values.bin);
 }
 
 /**
@@ -72,12 +99,19 @@ export function besideAddress(database, shape, beside) {
 }
 
 /**
- * A shape, by its id.
+ * A map, by its key.
  * @param {Database} database
  * @returns {Kind}
  */
-function shapeId(database) {
-  return { read: ([id]) => database.indexOfId.get(id), write: (shape) => [database.ids[shape]] };
+function mapOf(database) {
+  const keys = database.methods.map(({ key }) => key);
+  return {
+    read([key], miss) {
+      missMap(key, database, miss);
+      return keys.includes(key) ? keys.indexOf(key) : undefined;
+    },
+    write: (method) => [keys[method]],
+  };
 }
 
 /**

@@ -2,11 +2,16 @@
 
 import { Address, choice, flag, named, text, texts, within } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
+import { lookUp } from "../base/missing.js";
 import { NONE } from "../database/fields.js";
 import { readSelection, writeSelection } from "../database/selection.js";
+import { classNoun } from "./classes.js";
+import { missField } from "./fields.js";
+import { asNamed } from "./names.js";
 import { selected } from "./selected.js";
 
-/** @import { Ways } from "../base/address.js" */
+/** @import { Miss } from "../base/missing.js" */
+/** @import { Kind, Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Field, Fields } from "../database/fields.js" */
@@ -37,6 +42,7 @@ import { selected } from "./selected.js";
 export const SIZES = { least: 56, usual: 148, most: 320 };
 
 /** What each filter's parameter starts with; the key of its field follows. */
+const FILTER = /^(?:is|lacks|range)\.(.+)$/;
 const [IS, LACKS, RANGE] = ["is.", "lacks.", "range."];
 
 /**
@@ -56,21 +62,28 @@ export function galleryAddress(database, fields) {
       place: true,
       words: "that only selected shapes are shown",
     },
-    { name: "filters", ...filters(fields), place: true, often: true, words: "the filters" },
+    { name: "filters", ...filters(database, fields), place: true, often: true, words: "the filters" },
     {
       name: "group",
       key: "group",
-      kind: choice(["", ...keys(fields.groupable)]),
+      kind: fieldOf(["", ...keys(fields.groupable)], database, fields),
       standard: usualGroup,
       place: true,
       words: "the groups",
     },
-    { name: "sort", key: "sort", kind: choice(keys(fields.sortable)), standard: "", place: true, words: "the order" },
+    {
+      name: "sort",
+      key: "sort",
+      kind: fieldOf(keys(fields.sortable), database, fields),
+      standard: "",
+      place: true,
+      words: "the order",
+    },
     { name: "down", key: "down", kind: flag, standard: false, place: true },
     { name: "size", key: "size", kind: within(SIZES.least, SIZES.most), standard: SIZES.usual, often: true },
     { name: "closed", key: "closed", kind: texts },
     selected(database),
-    { name: "at", key: "at", kind: named(database.ids), standard: null },
+    { name: "at", key: "at", kind: named(database.ids, "shape"), standard: null },
   ]);
 }
 
@@ -99,18 +112,40 @@ function onlySelected(database) {
 }
 
 /**
+ * What shapes can be grouped or sorted by.
+ * @param {string[]} keys
+ * @param {Database} database
+ * @param {Fields} fields
+ * @returns {Kind}
+ */
+function fieldOf(keys, database, fields) {
+  const own = choice(keys);
+  return {
+    read(words, miss) {
+      if (words[0]) missField(words[0], database, fields, miss);
+      return own.read(words, miss);
+    },
+    write: own.write,
+  };
+}
+
+/**
+ * @param {Database} database
  * @param {Fields} fields
  * @returns {Ways}
  */
-function filters(fields) {
+function filters(database, fields) {
   return {
-    keys: /^(is|lacks|range)\./,
-    /** @param {URLSearchParams} query */
-    read(query) {
+    keys: FILTER,
+    read(query, miss) {
+      for (const parameter of query.keys()) {
+        const [, key] = FILTER.exec(parameter) ?? [];
+        if (key !== undefined) missField(key, database, fields, miss);
+      }
       /** @type {Map<string, Filter>} */
       const found = new Map();
       for (const field of fields.filters) {
-        const filter = readFilter(query, field);
+        const filter = readFilter(query, field, database, miss);
         if (filter !== null) found.set(field.key, filter);
       }
       return found;
@@ -127,19 +162,32 @@ function filters(fields) {
 /**
  * @param {URLSearchParams} query
  * @param {Field} field
+ * @param {Database} database
+ * @param {Miss} miss
  */
-function readFilter(query, field) {
+function readFilter(query, field, database, miss) {
   const range = (query.get(RANGE + field.key) ?? "").split("..").map(Number);
   if (field.edges !== null && range.length === 2 && range.every(Number.isFinite))
     return { low: range[0], high: range[1] };
   if (field.names === null && field.tree === null) return null;
-  const values = query
-    .getAll(IS + field.key)
-    .map((name) => namedValue(field, name))
-    .filter((value) => value !== undefined)
-    .filter((value) => value !== NONE);
+  const values = lookUp(
+    query.getAll(IS + field.key),
+    (name) => namedValue(field, name),
+    nounOf(field, database),
+    (noun, name) => miss(noun, field.tree === null ? name : asNamed(name)),
+  );
   if (query.has(LACKS + field.key)) values.push(NONE);
   return values.length > 0 ? new Set(values) : null;
+}
+
+/**
+ * What a value of a field is.
+ * @param {Field} field
+ * @param {Database} database
+ */
+function nounOf({ active, key }, database) {
+  if (active) return classNoun(database);
+  return key === "folders" ? "folder" : "value";
 }
 
 /**

@@ -3,12 +3,15 @@
 import { Address, choice, flag } from "../base/address.js";
 import { MOST_SHAPES } from "../database/sample.js";
 import { readShortNames, shortNames } from "./bin-names.js";
+import { classesNamed } from "./classes.js";
 import { coloredBy } from "./colors.js";
 import { LINES } from "./lines.js";
+import { missMap, PROJECTIONS } from "./maps.js";
 import { joinNames, splitNames } from "./names.js";
 import { selected } from "./selected.js";
 
-/** @import { Ways } from "../base/address.js" */
+/** @import { Miss } from "../base/missing.js" */
+/** @import { Kind, Ways } from "../base/address.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database, Faith, ShapeMap } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
@@ -43,8 +46,6 @@ import { selected } from "./selected.js";
  * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null} & Pick<MapValues, "drag" | "join" | "coloring" | "lines" | "alike">>} WorkState
  */
 
-const PROJECTIONS = ["tsne", "umap"];
-
 /** Its best bins make the best maps, on shapes that had no say too (docs/method/scorers.md). */
 export const DEFAULT_SCORER = "rfe";
 
@@ -62,11 +63,14 @@ export function workAddress(database, data) {
   return new Address([
     { name: "hidden", ...classesInUse(database), place: true, words: "the classes" },
     { names: ["features", "bins"], ...binsInUse(data), place: true, words: "features and bins" },
-    { name: "projection", key: "map", kind: choice(PROJECTIONS), standard: method, place: true, words: "the map" },
+    { name: "projection", key: "map", kind: projection(database), standard: method, place: true, words: "the map" },
     {
       name: "scorer",
       key: "scorer",
-      kind: choice(data.scorers.map(({ key }) => key)),
+      kind: choice(
+        data.scorers.map(({ key }) => key),
+        "scorer",
+      ),
       standard: DEFAULT_SCORER,
       place: true,
       words: "the scorer",
@@ -89,6 +93,22 @@ export function isSame(bins, ofSite) {
 }
 
 /**
+ * A projection that maps are made by here.
+ * @param {Database} database
+ * @returns {Kind}
+ */
+function projection(database) {
+  const own = choice(PROJECTIONS);
+  return {
+    read(keys, miss) {
+      missMap(keys[0], database, miss);
+      return own.read(keys, miss);
+    },
+    write: own.write,
+  };
+}
+
+/**
  * The classes that are not in use; named are these or the others, whichever are fewer.
  * @param {Database} database
  * @returns {Ways}
@@ -97,10 +117,10 @@ function classesInUse(database) {
   const everyone = [...database.sizes.keys()].sort((a, b) => a - b);
   return {
     keys: /^(hide|hide-unlabelled|class|unlabelled)$/,
-    read(query) {
+    read(query, miss) {
       const named = (/** @type {string} */ key, /** @type {string} */ unlabelled) =>
         new Set([
-          ...classesNamed(query, key, database),
+          ...classesNamed(query.getAll(key), database, miss),
           ...(query.has(unlabelled) && database.labelled && database.sizes.has(-1) ? [-1] : []),
         ]);
       const used = named("class", "unlabelled");
@@ -128,10 +148,10 @@ function binsInUse({ features, bins: ofSite }) {
   const featureOf = (column) => features.findLastIndex(({ start }) => start <= column);
   return {
     keys: /^(features|bins)$/,
-    read(query) {
-      const known = splitNames(query.get("features"), names);
+    read(query, miss) {
+      const known = splitNames(query.get("features"), names, miss);
       const used = [...features.keys()].filter((index) => known.length === 0 || known.includes(names[index]));
-      const chosen = readShortNames(query.get("bins"), features);
+      const chosen = readShortNames(query.get("bins"), features, miss);
       // Nothing says that none is chosen; words of which none is a bin say nothing.
       const bins = chosen.size > 0 || query.get("bins") === "" ? chosen : (ofSite ?? []);
       return {
@@ -156,9 +176,10 @@ function separation(database) {
   /**
    * @param {URLSearchParams} query
    * @param {string} key
+   * @param {Miss} miss
    */
-  const read = (query, key) => {
-    const named = new Set(classesNamed(query, key, database));
+  const read = (query, key, miss) => {
+    const named = new Set(classesNamed(query.getAll(key), database, miss));
     return named.size > 0 || query.get(key) === "" ? named : null;
   };
   /**
@@ -172,9 +193,9 @@ function separation(database) {
   };
   return {
     keys: /^(separate|from|together)$/,
-    read: (query) => ({
-      from: read(query, "separate"),
-      against: read(query, "from"),
+    read: (query, miss) => ({
+      from: read(query, "separate", miss),
+      against: read(query, "from", miss),
       each: !query.has("together"),
     }),
     write(query, { from, against, each }) {
@@ -183,16 +204,4 @@ function separation(database) {
       if (!each) query.set("together", "");
     },
   };
-}
-
-/**
- * @param {URLSearchParams} query
- * @param {string} key
- * @param {Database} database
- */
-function classesNamed(query, key, { classes }) {
-  return query
-    .getAll(key)
-    .map((name) => classes.indexOf(name))
-    .filter((group) => group >= 0);
 }

@@ -1,11 +1,15 @@
 // The state of a page in its address, as a table of which both reading and writing are made. A row says of a value of the
 // state under which parameter it stands, which texts are valid there, and what holds where none is. Things stand there by
-// name, not by number: a link stays good when the database grows.
+// name, not by number: a link stays good when the database grows. Of names that are not there, who reads is told.
+
+import { lookUp } from "./missing.js";
+
+/** @import { Miss } from "./missing.js" */
 
 /**
  * What stands under a parameter, which may be given several times: `read` makes a value of its texts, undefined where
- * they are none, and `write` makes texts of a value.
- * @typedef {{ read(texts: string[]): any, write(value: any): string[] }} Kind
+ * they are none, and tells `miss` of names that are not there; `write` makes texts of a value.
+ * @typedef {{ read(texts: string[], miss: Miss): any, write(value: any): string[] }} Kind
  */
 
 /**
@@ -18,7 +22,7 @@
 /**
  * A value of the state, `name`: of the `kind` of its parameter `key`, or, where one parameter is not enough, with what
  * reads it from all of them and adds it to them, and `keys` that are its own. Several `names` are one value that is an object of them.
- * @typedef {{ keys?: RegExp, read(query: URLSearchParams): any, write(query: URLSearchParams, value: any): void }} Ways
+ * @typedef {{ keys?: RegExp, read(query: URLSearchParams, miss: Miss): any, write(query: URLSearchParams, value: any): void }} Ways
  * @typedef {Usage & ({ name: string, key: string, kind: Kind } | Ways & ({ name: string } | { names: string[] }))} Row
  */
 
@@ -73,12 +77,13 @@ export class Address {
   /**
    * The values of the state that the parameters of an address hold.
    * @param {URLSearchParams} query
+   * @param {Miss} [miss]
    */
-  read(query) {
+  read(query, miss = () => {}) {
     /** @type {Record<string, any>} */
     const values = {};
     for (const row of this.rows) {
-      const found = "kind" in row ? row.kind.read(query.getAll(row.key)) : row.read(query);
+      const found = "kind" in row ? row.kind.read(query.getAll(row.key), miss) : row.read(query, miss);
       const value = found === undefined ? row.standard : found;
       Object.assign(values, "names" in row ? value : { [row.name]: value });
     }
@@ -117,12 +122,20 @@ function isStandard(row, value) {
 }
 
 /**
- * One of a few words.
+ * One of a few words; of which other ones `noun` says what would be called so, where they are names.
  * @param {string[]} words
+ * @param {string} [noun]
  * @returns {Kind}
  */
-export function choice(words) {
-  return { read: ([word]) => (words.includes(word) ? word : undefined), write: (word) => [word] };
+export function choice(words, noun) {
+  return {
+    read([word], miss) {
+      if (words.includes(word)) return word;
+      if (noun !== undefined && word) miss(noun, word);
+      return undefined;
+    },
+    write: (word) => [word],
+  };
 }
 
 /**
@@ -159,12 +172,13 @@ export function within(least, most) {
 /**
  * The place of a name among others, from 0.
  * @param {string[]} names
+ * @param {string} noun what each of them is
  * @returns {Kind}
  */
-export function named(names) {
+export function named(names, noun) {
   const places = new Map(names.map((name, place) => [name, place]));
   return {
-    read: (words) => words.map((word) => places.get(word)).find((place) => place !== undefined),
+    read: (words, miss) => lookUp(words, (word) => places.get(word), noun, miss)[0],
     write: (place) => [names[place]],
   };
 }

@@ -4,24 +4,40 @@ import { Address } from "./address.js";
 import { offerFigures } from "./figure-export.js";
 import { bringIntoRow } from "./dom.js";
 import { watchPaper } from "./paper.js";
+import { Missing } from "./missing.js";
 import { arriveHere, pushHash, readHash, replaceHash, walk, whereabouts } from "./place.js";
 import { watchLink } from "./link.js";
 import { State } from "./state.js";
 import { currentTheme, watchTheme } from "./theme.js";
 
+/** @import { Miss } from "./missing.js" */
+
 /**
  * Open a page.
  *
  * The state has the values of the `address`, whose changes are written there, and `values` at first. `settle` makes
- * values of the state of what the address holds, where more has to be known for it.
+ * values of the state of what the address holds, where more has to be known for it; `check` tells of names in these that
+ * are not there, for which the page does not wait.
  * @param {{
  *   address?: Address,
- *   settle?: (found: Record<string, any>) => Record<string, any> | Promise<Record<string, any>>,
+ *   settle?: (found: Record<string, any>, miss: Miss) => Record<string, any> | Promise<Record<string, any>>,
+ *   check?: (found: Record<string, any>, miss: Miss) => void,
  *   values?: Record<string, any>,
  * }} [page]
  */
-export async function openPage({ address = new Address([]), settle = (found) => found, values = {} } = {}) {
-  const read = () => settle(address.read(readHash()));
+export async function openPage({
+  address = new Address([]),
+  settle = (found) => found,
+  check = () => {},
+  values = {},
+} = {}) {
+  const missing = new Missing();
+  const read = async () => {
+    const miss = missing.begin();
+    const found = await settle(address.read(readHash(), miss), miss);
+    check(found, miss);
+    return found;
+  };
   const found = await read();
   arriveHere();
   /** @type {State} */
@@ -70,6 +86,8 @@ export async function openPage({ address = new Address([]), settle = (found) => 
     if (state.get("brushing")) return;
     const [changed, before] = [new Set(drawn.keys()), drawn];
     drawn = new Map();
+    // What the reader changes is no longer what the link named.
+    if (!arriving && address.has(changed) && acted.yet()) missing.begin();
     const changes = (/** @type {boolean} */ place, /** @type {boolean} */ often) =>
       address.has(changed, (row) => (row.place ?? false) === place && (row.often ?? false) === often);
     const steps = changes(true, false) && !arriving;
@@ -77,8 +95,8 @@ export async function openPage({ address = new Address([]), settle = (found) => 
       // The way back leads to the view as it was left, not as it was when it was written last.
       if (arriving) owed = null;
       else pay(before);
-      write(steps && acted());
-    } else if (changes(true, true)) owe(acted());
+      write(steps && acted.taken());
+    } else if (changes(true, true)) owe(acted.taken());
     else if (changes(false, true)) owe(false);
   });
   return {
@@ -106,7 +124,7 @@ export async function openPage({ address = new Address([]), settle = (found) => 
         arrive(found);
         arriving = false;
         // The way here is no reason for a step onwards.
-        acted();
+        acted.taken();
       });
       watchUndo();
       window.addEventListener("pagehide", () => {
@@ -143,17 +161,20 @@ function showPageInMenu() {
 }
 
 /**
- * Whether the reader did something since this was asked last: what a page does by itself, as it opens or after an
- * answer, is no step to come back to.
+ * Whether the reader did something since this was taken for the reason of a step: what a page does by itself, as it opens
+ * or after an answer, is no step to come back to.
  */
 function watchActs() {
   let acted = false;
   for (const kind of ["pointerdown", "keydown", "input", "change"])
     window.addEventListener(kind, () => (acted = true), { capture: true });
-  return () => {
-    const answer = acted;
-    acted = false;
-    return answer;
+  return {
+    yet: () => acted,
+    taken() {
+      const answer = acted;
+      acted = false;
+      return answer;
+    },
   };
 }
 

@@ -3,6 +3,7 @@
 import { OWN_COLORS } from "../addresses/colors.js";
 import { Colors, firstKey, isKnown } from "./colors.js";
 
+/** @import { Miss } from "../base/missing.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
@@ -14,12 +15,18 @@ import { Colors, firstKey, isKnown } from "./colors.js";
 const ANY = "color";
 
 /**
- * What an address holds, with colours that there are.
- * @param {Record<string, any>} found
+ * Makes of what an address holds the same with colours that there are.
+ * @param {Database} database
  */
-export async function knownColor({ color, ...values }) {
-  const known = OWN_COLORS.includes(color) || (await isKnown(color));
-  return { ...values, color: known ? color : OWN_COLORS[0] };
+export function knownColor(database) {
+  /**
+   * @param {Record<string, any>} found
+   * @param {Miss} miss
+   */
+  return async ({ color, ...values }, miss) => {
+    const known = OWN_COLORS.includes(color) || (await isKnown(color, database, miss));
+    return { ...values, color: known ? color : OWN_COLORS[0] };
+  };
 }
 
 /**

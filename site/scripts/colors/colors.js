@@ -1,6 +1,7 @@
 // What the reader colours a map by, on every page with one: any field of the database, a neighbourhood hit, or a bin; and
 // what its colours are.
 
+import { missField } from "../addresses/fields.js";
 import { chunk, chunks } from "../base/chunks.js";
 import { Finder } from "../base/finder.js";
 import { binName } from "../bins-kit/bin-name.js";
@@ -9,6 +10,7 @@ import { Fields } from "../database/fields.js";
 import { binColoring, fieldColoring, trustColoring } from "../map/coloring.js";
 import { showLegend } from "./legend.js";
 
+/** @import { Miss } from "../base/missing.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Trust } from "../map/coloring.js" */
@@ -35,12 +37,24 @@ export function firstKey() {
 }
 
 /**
- * Whether there is such a field or bin: an address may name what is not there.
+ * Whether there is such a field or bin to colour by: an address may name what is not there.
  * @param {string} key
+ * @param {Database} database
+ * @param {Miss} miss
  */
-export async function isKnown(key) {
-  if (!key.startsWith(BIN)) return offered().includes(key);
-  return (await loadBins()).names.includes(key.slice(BIN.length));
+export async function isKnown(key, database, miss) {
+  if (offered().includes(key)) return true;
+  if (key.startsWith(BIN)) {
+    const name = key.slice(BIN.length);
+    if ((await loadBins()).names.includes(name)) return true;
+    miss("bin", name);
+  } else if (!key.startsWith(TRUST)) missField(key, database, await loadFields(database), miss);
+  return false;
+}
+
+/** @param {Database} database */
+async function loadFields(database) {
+  return new Fields(database, ...(await chunks("fields", "hierarchy")));
 }
 
 export class Colors {
@@ -130,7 +144,7 @@ export class Colors {
 
   /** @param {string} key */
   async #ofField(key) {
-    this.#fields ??= chunks("fields", "hierarchy").then((found) => new Fields(this.database, ...found));
+    this.#fields ??= loadFields(this.database);
     const field = (await this.#fields).byKey.get(key);
     return field ? fieldColoring(this.database, field) : null;
   }

@@ -30,7 +30,7 @@ export class Bins {
     this.sentences = data.sentences;
     this.marks = data.marks;
     this.balanced = data.scaling === "balanced";
-    this.names = this.features.flatMap(namesOf);
+    this.names = binNames(this.features);
     this.#words = new BinWords(this);
     this.count = this.names.length;
     this.steps = new Uint16Array(bytes);
@@ -248,6 +248,14 @@ export class Bins {
   colorOf(feature) {
     return this.marks[currentTheme()].features[this.features[feature].hue];
   }
+}
+
+/**
+ * The names of all bins of some features.
+ * @param {Chunk.Feature[]} features
+ */
+export function binNames(features) {
+  return features.flatMap(namesOf);
 }
 
 /**

@@ -2,7 +2,9 @@
 // as one bit a shape, with a mark of the database that the bits belong to.
 
 import { entry } from "../base/entry.js";
+import { lookUp, SELECTION } from "../base/missing.js";
 
+/** @import { Miss } from "../base/missing.js" */
 /** @import { Whereabouts } from "../base/place.js" */
 /** @import { Theme } from "../base/theme.js" */
 /** @import { Database } from "./database.js" */
@@ -44,15 +46,16 @@ export function writeSelection(query, database, selection) {
  * The selection that an address names; shapes that are no longer there are left out.
  * @param {URLSearchParams} query
  * @param {Database} database
+ * @param {Miss} [miss]
  * @returns {Set<number>}
  */
-export function readSelection(query, database) {
-  const named = query
-    .getAll("select")
-    .map((id) => database.indexOfId.get(id))
-    .filter((index) => index !== undefined);
+export function readSelection(query, database, miss = () => {}) {
   const [whose, bits] = (query.get("selected") ?? "").split(".");
-  return new Set(bits !== undefined && whose === mark(database) ? unpacked(database, bits) : named);
+  if (bits !== undefined) {
+    if (whose === mark(database)) return new Set(unpacked(database, bits));
+    miss(SELECTION, "");
+  }
+  return new Set(lookUp(query.getAll("select"), (id) => database.indexOfId.get(id), "shape", miss));
 }
 
 /**

@@ -12,7 +12,7 @@ import { Neighbours } from "../compare/neighbours.js";
 import { Outliers } from "../compare/outliers.js";
 import { compareTables } from "../compare/tables.js";
 import { Tabs } from "../compare/tabs.js";
-import { Bins } from "../database/bins.js";
+import { binNames, Bins } from "../database/bins.js";
 import { Database } from "../database/database.js";
 import { carryView, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
@@ -27,7 +27,15 @@ async function main() {
   const bins = () =>
     (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
   const { state, written, announce, ready } = await openPage({
-    address: comparePageAddress(database, data, neighbours),
+    address: comparePageAddress(
+      database,
+      data,
+      neighbours,
+      (clusters?.clusters ?? []).map(({ name }) => name),
+    ),
+    async check({ bin }, miss) {
+      if (bin !== null && !binNames((await chunk("workbench")).features).includes(bin)) miss("bin", bin);
+    },
   });
   const groups = new GroupsView(database, data, clusters, neighbours, state, { bins, announce });
   const outliers = new Outliers(database, data, neighbours, state, { bins, announce });

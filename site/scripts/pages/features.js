@@ -27,7 +27,7 @@ async function main() {
   const database = new Database(overview, currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: featuresAddress(subsets, database),
-    settle: knownColor,
+    settle: knownColor(database),
     values: { ...nothingShown(), pointedPlace: null },
   });
   const marks = hues(search, database);

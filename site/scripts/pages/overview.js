@@ -28,7 +28,7 @@ async function main() {
   const database = new Database(await chunk("overview"), currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: overviewAddress(database),
-    settle: async (found) => knownView(database, await addressedMap(database, found)),
+    settle: async (found, miss) => knownView(database, await addressedMap(database, found), miss),
     values: { ...NOTHING_POINTED, ...dragging(), matches: null, by: firstKey(), coloring: null, alike: null },
   });
   const maps = new OverviewMaps(database, state, viewColors(database, state), announce);

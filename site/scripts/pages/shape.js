@@ -1,6 +1,6 @@
 // The page of one shape: what it is, where it lies, and which shapes are most like it.
 
-import { shapePageAddress } from "../addresses/shape.js";
+import { missFeatures, namesFeatures, shapePageAddress } from "../addresses/shape.js";
 import { chunk } from "../base/chunks.js";
 import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
@@ -20,7 +20,12 @@ import { clearOnEscape, Tray } from "../tray/tray.js";
 async function main() {
   const database = new Database(await chunk("overview"), currentTheme);
   const page = document.getElementById("content");
-  const { state, written, announce, ready } = await openPage({ address: shapePageAddress(database) });
+  const { state, written, announce, ready } = await openPage({
+    address: shapePageAddress(database),
+    async check(found, miss) {
+      if (namesFeatures(found)) missFeatures(found, (await chunk("workbench")).features, miss);
+    },
+  });
   carryView(written);
   let opened = false;
   const links = new ShapeLinks(database, state, { opened: () => (opened = true) });

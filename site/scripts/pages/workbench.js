@@ -32,7 +32,7 @@ async function main() {
   const database = new Database(overview, currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: workAddress(database, data),
-    settle: knownColor,
+    settle: knownColor(database),
     values: { ...NOTHING_POINTED, ...dragging(), ...nothingMade(), coloring: null, alike: null },
   });
   const answers = new Answers(database, data, bins);
