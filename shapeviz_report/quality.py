@@ -6,10 +6,14 @@ from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 from scipy.sparse import csr_matrix
 
 from shapeviz_report.order import classes_of, natural
 from shapeviz_report.types import FloatArray, HitRange, Quality
+
+Places = npt.NDArray[np.integer]
+"""How many neighbours of each point count."""
 
 NEIGHBOURS = 10
 """k of the paper (3.5)."""
@@ -161,35 +165,42 @@ def hits_among(points: FloatArray, codes: np.ndarray, kept: np.ndarray, k: int) 
     return hits
 
 
-def share_places(squared: FloatArray, k: int) -> FloatArray:
+def share_places(squared: FloatArray, k: int | Places) -> FloatArray:
     """Who has the k places next to each point: 1 if nearer than the k-th, an equal share if as near, otherwise 0.
 
     Parameters
     ----------
     squared : (m, n) float array
         Squared distances, infinite from a point to itself.
-    k : int
-        From 1 to n - 1.
+    k : int or (m,) int array
+        From 1 to n - 1; one for all points or one for each.
 
     Returns
     -------
     (m, n) float64 array
         Rows add up to k.
     """
-    last = np.partition(squared, k - 1, axis=1)[:, k - 1, None]
+    places = np.broadcast_to(k, len(squared))[:, None]
+    last = kth_smallest(squared, k)
     nearer = squared < last * (1 - TIE)
     tied = (squared <= last * (1 + TIE)) & ~nearer
-    return nearer + tied * ((k - nearer.sum(axis=1, keepdims=True)) / tied.sum(axis=1, keepdims=True))
+    return nearer + tied * ((places - nearer.sum(axis=1, keepdims=True)) / tied.sum(axis=1, keepdims=True))
 
 
-def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
+def kth_smallest(values: FloatArray, k: int | Places) -> FloatArray:
+    """The k-th smallest value of every row, k being one for all rows or one for each; (m, 1)."""
+    places = np.broadcast_to(k, len(values))[:, None] - 1
+    return np.take_along_axis(np.partition(values, np.unique(places), axis=1), places, axis=1)
+
+
+def neighbour_weights(points: FloatArray, k: int | Places) -> csr_matrix:
     """The k nearest neighbours of every point, as weights that add up to 1 in every row.
 
     Parameters
     ----------
     points : (n, d) float array
-    k : int
-        From 1 to n - 1.
+    k : int or (n,) int array
+        From 1 to n - 1; one for all points or one for each.
 
     Returns
     -------
@@ -197,6 +208,7 @@ def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
         1 / k for a neighbour; those that tie for the last places share them equally. Zero on the diagonal.
     """
     count = len(points)
+    wanted = np.broadcast_to(k, count)
     rows, columns, values = [], [], []
     chunk = max(1, 4_000_000 // count)
     for start in range(0, count, chunk):
@@ -205,11 +217,12 @@ def neighbour_weights(points: FloatArray, k: int) -> csr_matrix:
         for dimension in range(points.shape[1]):
             squared += (block[:, dimension, None] - points[None, :, dimension]) ** 2
         squared[np.arange(len(block)), np.arange(start, start + len(block))] = np.inf
-        places = share_places(squared, k)
+        asked = wanted[start : start + chunk]
+        places = share_places(squared, asked)
         row, column = np.nonzero(places)
         rows.append(row + start)
         columns.append(column)
-        values.append(places[row, column] / k)
+        values.append(places[row, column] / asked[row])
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     return csr_matrix(entries, shape=(count, count))
 

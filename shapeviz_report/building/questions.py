@@ -35,10 +35,18 @@ from shapeviz_report.mesh import collect_files
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import PAIRWISE_LIMIT, PROJECTIONS, align, squared_distances
+from shapeviz_report.quality import hit_range
 from shapeviz_report.retrieval import query_classes, rate_chance
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, planned_runs, search_features
-from shapeviz_report.search.bins import affordable_deals, encode, make_bin_space, shuffle_labels
+from shapeviz_report.search.bins import (
+    SAMPLE_LIMIT_OF_CLASS,
+    BinSpace,
+    affordable_deals,
+    encode,
+    make_bin_space,
+    shuffle_labels,
+)
 from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.types import (
     BinScores,
@@ -245,14 +253,19 @@ def search_all_bins(
     """The bins that separate each class, those that separate all, and what these are worth."""
     if config.search == "none":
         return None
-    space = make_bin_space(features, PRESETS[config.preset], labels, seed=config.seed)
-    classes, codes = encode(space, labels)
-    sizes = np.bincount(codes[codes >= 0], minlength=len(classes))
+    preset = PRESETS[config.preset]
+    space = make_bin_space(features, preset, labels, seed=config.seed)
+    of_class = make_bin_space(features, preset, labels, seed=config.seed, limit=SAMPLE_LIMIT_OF_CLASS)
+    codes = encode(space, labels)[1]
+    classes, own_codes = encode(of_class, labels)
+    sizes = np.bincount(own_codes[own_codes >= 0], minlength=len(classes))
     if (sizes > 1).sum() < 2:
         return None
     everything = squared_distances(scaled[space.rows])
     shared = {"k": config.neighbours, "seed": config.seed}
-    questions: list[tuple[str, Sequence[str | None], dict[str, Any]]] = [("select", labels, shared)]
+    questions: list[tuple[str, BinSpace, Sequence[str | None], dict[str, Any]]] = [
+        ("select", space, labels, shared)
+    ]
     held: dict[str, Any] = {"k": config.neighbours, "everything": everything}
     distinct = distinct_rows(groups[space.rows], codes >= 0)
     if distinct is not None:
@@ -260,35 +273,39 @@ def search_all_bins(
     for deal in range(affordable_deals(len(codes))):
         seed = config.seed + deal
         for fold in deal_folds(codes, seed, groups[space.rows]):
-            questions.append(("hold out", labels, held | {"seed": seed, "fold": fold, "deal": deal + 1}))
+            options = held | {"seed": seed, "fold": fold, "deal": deal + 1}
+            questions.append(("hold out", space, labels, options))
     own = len(questions)
     # Each fold meets labels of its own, which tells more of chance than one labeling for all.
     for number in range(SHUFFLES):
         shuffled = shuffle_labels(space, labels, config.seed + number)
         folds = deal_folds(encode(space, shuffled)[1], config.seed, groups[space.rows])
         fold = folds[number % len(folds)]
-        questions.append(("hold out", shuffled, shared | {"fold": fold, "everything": everything}))
+        questions.append(("hold out", space, shuffled, shared | {"fold": fold, "everything": everything}))
     honest = len(questions)
     for label in (label for label, size in zip(classes, sizes) if size > 1):
-        questions.append(("separate", labels, shared | {"label": label}))
+        questions.append(("separate", of_class, labels, shared | {"label": label}))
     random = len(questions)
     of_size = {int(size): label for label, size in zip(classes, sizes) if size > 1}
     for label in of_size.values():
-        questions.append(("separate", shuffle_labels(space, labels, config.seed), shared | {"label": label}))
+        shuffled = shuffle_labels(of_class, labels, config.seed)
+        questions.append(("separate", of_class, shuffled, shared | {"label": label}))
 
-    content = sha256(space.columns.tobytes() + everything.tobytes()).hexdigest()
+    surpassed = sha256(everything.tobytes()).hexdigest()
     tasks = {}
-    for number, (task, names, options) in enumerate(questions):
-        told = options | {"everything": None, "fold": list(options.get("fold", ()))}
-        key = SELECT.key(content, space.names, space.rows.tolist(), task, tuple(names), told)
-        tasks[number] = Task.of(key, task, space, names, options)
+    for number, (task, searched, names, options) in enumerate(questions):
+        told = options | {"fold": list(options.get("fold", ()))}
+        if "everything" in options:
+            told["everything"] = surpassed
+        key = SELECT.key(searched.content, searched.names, searched.rows.tolist(), task, tuple(names), told)
+        tasks[number] = Task.of(key, task, searched, names, options)
     found = run.all(SELECT, tasks)
     held_out: list[HeldOutBins] = [found[i] for i in range(1, honest)]
     return BinSearch(
         automatic=found[0],
         held_out=tuple(held_out[: own - 1]),
         shuffled=tuple(held_out[own - 1 :]),
-        chance=float((sizes[codes[codes >= 0]] - 1).mean() / (len(codes) - 1)),
+        chance=hit_range([labels[row] for row in space.rows], config.neighbours).chance or 0.0,
         minimal=tuple(found[i] for i in range(honest, random)),
         minimal_by_chance={size: found[i] for i, size in enumerate(of_size, start=random)},
         sizes=dict(zip(classes, sizes.tolist())),

@@ -22,8 +22,8 @@ from shapeviz_report.pages.chunks import BinSet, Dimension, Fold, FoundBins, Pat
 from shapeviz_report.projections import MAIN_PROJECTION
 from shapeviz_report.quality import hit_range
 from shapeviz_report.render import CLAY, MARKED, ramp_codes
-from shapeviz_report.search.certainty import measure_gain
-from shapeviz_report.types import BinSearch, BinStep, FloatArray, HeldOutBins, MinimalSet, Report
+from shapeviz_report.search.certainty import choosing_pays, measure_gain
+from shapeviz_report.types import BinSearch, BinStep, FloatArray, HeldOutBins, IntArray, MinimalSet, Report
 from shapeviz_report.wording import dimensions_of
 
 #: Decimals of NH.
@@ -103,7 +103,8 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> FoundBins
     automatic = found.automatic
     number = {name: index for index, name in enumerate(class_names(report))}
     projection, hits = next(iter(report.projections.values()))
-    limits = hit_range([report.labels[row] for row in automatic.rows], automatic.k)
+    of_class = found.minimal[0].rows
+    limits = hit_range([report.labels[row] for row in of_class], automatic.k)
     rivals = find_rivals(projection.xy, report.labels, hits.k)
     return {
         "minimal": [
@@ -123,7 +124,8 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> FoundBins
             for separated in found.minimal
         ],
         "path": [_step(step, place) for step in automatic.path],
-        "rows": automatic.rows.tolist() if len(automatic.rows) < automatic.shape_count else None,
+        "rows": _sample(automatic.rows, automatic.shape_count),
+        "rowsOfClasses": _sample(of_class, automatic.shape_count),
         "neighbours": automatic.k,
         "seed": automatic.seed,
         "otherSeeds": rounded(automatic.nh_s_other_seeds, SCORE_DECIMALS),
@@ -132,6 +134,10 @@ def _found(report: Report, found: BinSearch, place: dict[str, int]) -> FoundBins
         "chance": round(found.chance, SCORE_DECIMALS),
         "allFeatures": round(all_features(report, found), SCORE_DECIMALS),
     }
+
+
+def _sample(rows: IntArray, shape_count: int) -> list[int] | None:
+    return rows.tolist() if len(rows) < shape_count else None
 
 
 def _set(chosen: MinimalSet, place: dict[str, int]) -> BinSet:
@@ -207,6 +213,8 @@ def _headline(report: Report, found: BinSearch) -> dict[str, object]:
         "distinct": distinct_means(found.held_out),
         "without_copies": report.without_copies,
         "recognition_gain": measure_gain(found.held_out, "knn_accuracy", "knn_accuracy_all"),
+        "pays": choosing_pays(found.held_out),
+        "shapes_of_class": len(found.minimal[0].rows),
         "shuffled": _means(found.shuffled),
         "shuffled_seen": mean_over_folds(found.shuffled, "nh_s_seen"),
         "separated": len(found.minimal),

@@ -578,13 +578,27 @@ class MixedClasses(TypedDict):
 
 
 class FoundSet(TypedDict):
-    """The bins that a search found to keep all classes apart, NH of their map and of that of all features, and NH of
-    shapes that such a search never saw."""
+    """The bins that a search found to keep all classes apart.
+
+    Attributes
+    ----------
+    bins : list of int
+    nh, allFeatures : float
+        NH of their map, and of that of all features.
+    heldOut : float
+        NH of shapes that such a search never saw.
+    shapes : int
+        How many shapes took part; fewer than there are if it was a sample.
+    pays : bool
+        Whether shapes that the choice never saw are surely better off with chosen bins than with all features.
+    """
 
     bins: list[int]
     nh: float
     allFeatures: float
     heldOut: float
+    shapes: int
+    pays: bool
 
 
 class Workbench(TypedDict):
@@ -676,8 +690,8 @@ class FoundBins(TypedDict):
     ----------
     minimal : list of SeparatedClass
     path : list of PathStep
-    rows : list of int, or None
-        The shapes that took part; None for all.
+    rows, rowsOfClasses : list of int, or None
+        The shapes that took part where bins were chosen for all classes, and for one class; None for all.
     allFeatures : float
         What the map of all features reaches.
     """
@@ -685,6 +699,7 @@ class FoundBins(TypedDict):
     minimal: list[SeparatedClass]
     path: list[PathStep]
     rows: NotRequired[list[int] | None]
+    rowsOfClasses: NotRequired[list[int] | None]
     neighbours: NotRequired[int]
     seed: NotRequired[int]
     otherSeeds: NotRequired[list[float | None]]

@@ -19,6 +19,7 @@ from shapeviz_report.pages.chunks import (
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.presets import PRESETS, Preset, compared_values
 from shapeviz_report.scorers import SCORERS
+from shapeviz_report.search.certainty import choosing_pays
 from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
 from shapeviz_report.wording import GLOBAL_WORDINGS, WORDINGS, call_bins, explain_bins
 
@@ -160,6 +161,8 @@ def _found(report: Report, found: BinSearch) -> FoundSet | None:
         "nh": round(found.automatic.nh_s, SCORE_DECIMALS),
         "allFeatures": round(all_features(report, found), SCORE_DECIMALS),
         "heldOut": round(mean_over_folds(found.held_out, "nh_s"), SCORE_DECIMALS),
+        "shapes": len(found.automatic.rows),
+        "pays": choosing_pays(found.held_out),
     }
 
 

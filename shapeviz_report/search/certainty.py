@@ -133,6 +133,13 @@ def measure_distinct_gain(folds: Sequence[HeldOutFold | HeldOutBins]) -> Gain | 
     return measure_gain(folds, "nh_s_distinct", "nh_s_all_distinct")
 
 
+def choosing_pays(folds: Sequence[HeldOutBins]) -> bool:
+    """Whether shapes that had no say are surely better off with chosen bins than with all features: on the map, or in
+    being recognised by their neighbours."""
+    gains = (measure_gain(folds), measure_gain(folds, "knn_accuracy", "knn_accuracy_all"))
+    return any(gain.is_sure and gain.mean > 0 for gain in gains)
+
+
 def seen_scores(weights: csr_matrix, codes: Codes, held_out: Codes) -> FloatArray:
     """NH_s of each map as it looks without the labels of some shapes.
 

@@ -191,13 +191,13 @@ class BinSearch:
     shuffled : tuple of HeldOutBins
         The same for labels dealt out at random, anew for each of a few parts.
     chance : float
-        NH_s that labels without meaning reach on average.
+        NH_s that labels without meaning reach on average where bins were chosen for all classes.
     minimal : tuple of MinimalBins
         Of every class of at least two shapes, by name.
     minimal_by_chance : mapping of int to MinimalBins
         The same for random shapes, by their number: that of every class.
     sizes : mapping of str to int
-        The number of shapes of each class that took part.
+        The number of shapes of each class among which bins were sought for one class.
     """
 
     automatic: BinSelection

@@ -388,12 +388,14 @@ declare namespace Chunk {
     classes: [number, number];
     mixed: number;
   }
-  /** The bins that a search found to keep all classes apart, NH of their map and of that of all features, and NH of */
+  /** The bins that a search found to keep all classes apart. */
   interface FoundSet {
     bins: number[];
     nh: number;
     allFeatures: number;
     heldOut: number;
+    shapes: number;
+    pays: boolean;
   }
   /** The bins but for their values; `bins` are the columns that the maps of the site are made from, or all. */
   interface Workbench {
@@ -471,6 +473,7 @@ declare namespace Chunk {
     minimal: SeparatedClass[];
     path: PathStep[];
     rows?: number[] | null;
+    rowsOfClasses?: number[] | null;
     neighbours?: number;
     seed?: number;
     otherSeeds?: (number | null)[];
@@ -484,6 +487,7 @@ declare namespace Chunk {
     minimal: SeparatedClass[];
     path: PathStep[];
     rows?: number[] | null;
+    rowsOfClasses?: number[] | null;
     neighbours?: number;
     seed?: number;
     otherSeeds?: (number | null)[];

@@ -5,11 +5,12 @@ over processes.
 """
 
 from shapeviz_report.search.bins.automatic import select_bins
-from shapeviz_report.search.bins.bin_space import BinSpace, encode, make_bin_space
+from shapeviz_report.search.bins.bin_space import SAMPLE_LIMIT_OF_CLASS, BinSpace, encode, make_bin_space
 from shapeviz_report.search.bins.honest import affordable_deals, hold_out, shuffle_labels
 from shapeviz_report.search.bins.minimal import find_minimal_bins
 
 __all__ = [
+    "SAMPLE_LIMIT_OF_CLASS",
     "BinSpace",
     "affordable_deals",
     "encode",

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from hashlib import sha256
 
 import numpy as np
 import numpy.typing as npt
@@ -18,13 +20,16 @@ from shapeviz_report.bins import scale_bins
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import Preset
 from shapeviz_report.projections import MAIN_PROJECTION, arrange, canonical_order
-from shapeviz_report.quality import neighbour_weights, neighbourhood_hits
+from shapeviz_report.quality import kth_smallest, neighbour_weights, neighbourhood_hits
 from shapeviz_report.search.bins.kernels.neighbour_hits import hits_with_each
 from shapeviz_report.search.space import stratified_sample
 from shapeviz_report.types import FeatureTable, FloatArray, IntArray
 
-SAMPLE_LIMIT = 500
-"""Most shapes that a search for bins takes; of larger databases, a stratified sample. Time grows with their square."""
+SAMPLE_LIMIT = 1000
+"""Most shapes that choose bins for all classes; of larger databases, a stratified sample. Time grows as its square."""
+
+SAMPLE_LIMIT_OF_CLASS = 500
+"""Most shapes among which bins are sought for one class, a search for each class."""
 
 GRID_BITS = 20
 """Values are rounded to this many binary digits of the largest one. Squares of differences then take 42, and sums of
@@ -53,6 +58,11 @@ class BinSpace:
     rows: IntArray
     shape_count: int
     columns: FloatArray
+
+    @cached_property
+    def content(self) -> str:
+        """A name for the values."""
+        return sha256(self.columns.tobytes()).hexdigest()
 
     def squared(self, bins: Sequence[int]) -> FloatArray:
         """Squared distances (m, m) by some bins; exact."""
@@ -131,23 +141,41 @@ def encode(space: BinSpace, labels: Sequence[str | None]) -> tuple[tuple[str, ..
     return classes, np.array([-1 if label is None else numbers[label] for label in own], dtype=np.int64)
 
 
+def places_of(codes: Codes, k: int) -> Codes:
+    """How many neighbours of each shape the search counts: as many as its class has others, at least 1, at most ``k``.
+
+    So a class of any size can be kept together wholly. NH with the same k for all could not tell the best space from
+    a poor one where classes are smaller: that the k nearest of a shape hold the few others of its class says little.
+    """
+    sizes = np.bincount(codes[codes >= 0], minlength=1)
+    return np.where(codes >= 0, np.clip(sizes[codes] - 1, 1, k), k)
+
+
 def hits_of_additions(
-    columns: FloatArray, squared: FloatArray, rows: npt.NDArray[np.intp], codes: Codes, k: int
+    columns: FloatArray, squared: FloatArray, rows: npt.NDArray[np.intp], codes: Codes, k: int | Codes
 ) -> FloatArray:
-    """NH of the shapes ``rows`` if each of ``columns`` (c, m) joined distances ``squared`` (m, m); (c, len(rows))."""
+    """NH of the shapes ``rows`` if each of ``columns`` (c, m) joined distances ``squared`` (m, m); (c, len(rows)).
+
+    ``k`` is one for all shapes or (m,), one for each.
+    """
     own = squared[rows]
     # Distances are not negative: this makes each shape its own first.
     own[np.arange(len(rows)), rows] = -1
     others = np.argsort(own, axis=1, kind="stable")[:, 1:]
     own = np.take_along_axis(own, others, axis=1)
-    return hits_with_each(own, others.astype(np.int32), rows.astype(np.int64), columns, codes, k)
+    places = np.broadcast_to(k, len(codes))[rows].astype(np.int64)
+    return hits_with_each(own, others.astype(np.int32), rows.astype(np.int64), columns, codes, places)
 
 
-def hits_of(squared: FloatArray, rows: npt.NDArray[np.intp], codes: Codes, k: int) -> FloatArray:
-    """NH of the shapes ``rows`` by distances ``squared`` (m, m); (len(rows),)."""
+def hits_of(squared: FloatArray, rows: npt.NDArray[np.intp], codes: Codes, k: int | Codes) -> FloatArray:
+    """NH of the shapes ``rows`` by distances ``squared`` (m, m); (len(rows),).
+
+    ``k`` is one for all shapes or (m,), one for each.
+    """
     own = squared[rows]
     own[np.arange(len(rows)), rows] = np.inf
-    last = np.partition(own, k - 1, axis=1)[:, k - 1, None]
+    k = np.broadcast_to(k, len(codes))[rows]
+    last = kth_smallest(own, k)
     same = codes[rows][:, None] == codes
     nearer, tied = own < last, own == last
     places = k - nearer.sum(axis=1)
@@ -160,6 +188,9 @@ def lay_out(squared: FloatArray, seed: int) -> FloatArray:
         return arrange(MAIN_PROJECTION, squared, seed)
 
 
-def hits_on(xy: FloatArray, codes: Codes, k: int) -> FloatArray:
-    """NH (m,) of every shape on a map (m, 2); of no meaning for shapes without a label."""
+def hits_on(xy: FloatArray, codes: Codes, k: int | Codes) -> FloatArray:
+    """NH (m,) of every shape on a map (m, 2); of no meaning for shapes without a label.
+
+    ``k`` is one for all shapes or (m,), one for each.
+    """
     return neighbourhood_hits(neighbour_weights(xy, k), codes)

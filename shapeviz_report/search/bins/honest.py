@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.quality import NEIGHBOURS, TIE, highest_hits, hits_among
-from shapeviz_report.search.bins.automatic import LIMIT, select_bins
+from shapeviz_report.search.bins.automatic import LIMIT, choose
 from shapeviz_report.search.bins.bin_space import BinSpace, Codes, encode, hits_of, hits_on, lay_out
 from shapeviz_report.types import FloatArray, HeldOutBins
 
@@ -62,8 +62,14 @@ def hold_out(
     """
     _, codes = encode(space, labels)
     seen = np.setdiff1d(np.arange(len(codes)), fold)
-    selection = select_bins(space.keep(seen), labels, k=k, limit=limit, seed=seed)
-    bins = [space.names.index(name) for name in selection.bins]
+    known, own_codes = space.keep(seen), codes[seen]
+    of_seen = min(k, len(seen) - 1)
+    path = choose(known, own_codes, of_seen, limit, seed)
+    bins, nh_s_seen = [], float("nan")
+    if path:
+        bins = path[-1]
+        on_own = hits_on(lay_out(known.squared(bins), seed), own_codes, of_seen)
+        nh_s_seen = float(on_own[own_codes >= 0].mean())
     squared = space.squared(bins)
     k = min(k, len(codes) - 1)
     seeds = range(seed, seed + MAP_SEEDS)
@@ -77,9 +83,9 @@ def hold_out(
         )
     return HeldOutBins(
         deal=deal,
-        bins=selection.bins,
+        bins=space.named(bins),
         shapes=len(fold),
-        nh_s_seen=selection.nh_s,
+        nh_s_seen=nh_s_seen,
         nh_space=float(hits_of(squared, fold, codes, k).mean()),
         nh_s=float(np.mean([hits_on(xy, codes, k)[fold].mean() for xy in own])),
         nh_s_all=float(np.mean([hits_on(xy, codes, k)[fold].mean() for xy in whole])),

@@ -8,7 +8,7 @@ import numpy as np
 
 from shapeviz_report.pages.base import class_names
 from shapeviz_report.quality import hit_range, share_of_range
-from shapeviz_report.search.certainty import measure_distinct_gain, measure_gain
+from shapeviz_report.search.certainty import choosing_pays, measure_distinct_gain, measure_gain
 from shapeviz_report.types import (
     BinSearch,
     Clusters,
@@ -248,6 +248,7 @@ def _search(report: Report, search: FeatureSearch) -> dict[str, object]:
 def _bins(report: Report, found: BinSearch) -> dict[str, object]:
     automatic = found.automatic
     limits = hit_range([report.labels[row] for row in automatic.rows], automatic.k)
+    of_class = hit_range([report.labels[row] for row in found.minimal[0].rows], automatic.k).highest_of_class
     return {
         "automatic": {
             "bins": list(automatic.bins),
@@ -275,6 +276,7 @@ def _bins(report: Report, found: BinSearch) -> dict[str, object]:
                 "gain": _gain(measure_gain(found.held_out)),
                 "gain_without_copies": _gain(measure_distinct_gain(found.held_out)),
                 "knn_gain": _gain(measure_gain(found.held_out, "knn_accuracy", "knn_accuracy_all")),
+                "pays": choosing_pays(found.held_out),
             },
             "permuted": _folds(found.shuffled) | {"chance": found.chance},
         },
@@ -284,7 +286,7 @@ def _bins(report: Report, found: BinSearch) -> dict[str, object]:
                     "bins": list(chosen.bins),
                     "nh_c": chosen.nh_c,
                     "nh_c_space": chosen.nh_c_space,
-                    "nh_max": limits.highest_of_class[separated.label],
+                    "nh_max": of_class[separated.label],
                 }
                 for chosen in separated.sets
             ]
@@ -296,7 +298,7 @@ def _bins(report: Report, found: BinSearch) -> dict[str, object]:
                     "bins": list(chosen.bins),
                     "nh_c": chosen.nh_c,
                     "nh_c_space": chosen.nh_c_space,
-                    "nh_max": limits.highest_of_class[random.label],
+                    "nh_max": of_class[random.label],
                 }
                 for chosen in random.sets
             ]

@@ -90,7 +90,8 @@ export class ClassCards {
       },
     });
     this.plots.push(plot);
-    plot.show(mapOf(found, selection, database.count));
+    const { rowsOfClasses: rows, coordinateSteps } = selection;
+    plot.show(mapOf(found, { rows, coordinateSteps }, database.count));
     return [
       element(
         "div",

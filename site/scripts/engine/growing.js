@@ -5,8 +5,9 @@
 import { scaledPoints } from "./distances.js";
 
 /**
- * The candidates, and what they are to keep apart: each class is a number, -1 for none.
- * @typedef {{ columns: Float64Array[], groups: Int32Array, k: number }} Space
+ * The candidates, and what they are to keep apart: each class is a number, -1 for none; places: how many neighbours of
+ * each row count.
+ * @typedef {{ columns: Float64Array[], groups: Int32Array, places: Int32Array }} Space
  */
 
 /** Values are rounded to this many binary digits of the largest one: sums of their squares are exact, and ties are ties. */
@@ -27,7 +28,7 @@ const AT_ONCE = 4;
 export function* grow(table, { rows, columns, groups, k, limit }) {
   const varying = columns.filter((column) => differs(table, column, rows));
   const count = rows.length;
-  const space = { columns: onGrid(table, rows, varying), groups, k: Math.min(k, count - 1) };
+  const space = { columns: onGrid(table, rows, varying), groups, places: placesOf(groups, Math.min(k, count - 1)) };
   const squared = new Float64Array(count * count);
   /** @type {number[]} */
   let bins = [];
@@ -65,6 +66,18 @@ export function* grow(table, { rows, columns, groups, k, limit }) {
     }
   }
   return { columns: Int32Array.from(bins, (place) => varying[place]) };
+}
+
+/**
+ * As many neighbours of each row count as its class has others, at least 1, at most k: so a class of any size can be
+ * kept together wholly.
+ * @param {Int32Array} groups
+ * @param {number} k
+ */
+function placesOf(groups, k) {
+  const sizes = new Int32Array(groups.reduce((most, group) => Math.max(most, group + 1), 0));
+  for (const group of groups) if (group >= 0) sizes[group] += 1;
+  return groups.map((group) => (group < 0 ? k : Math.min(Math.max(sizes[group] - 1, 1), k)));
 }
 
 /** A column that parts no shapes. */
@@ -139,9 +152,9 @@ function sortedDistances(squared, count) {
  * @param {{ others: Int32Array, distances: Float64Array }} rising
  * @param {Space} space
  */
-function hitWith(column, { others, distances }, { groups, k }) {
+function hitWith(column, { others, distances }, { groups, places }) {
   const count = groups.length;
-  const nearest = new Float64Array(k);
+  const nearest = new Float64Array(Math.max(...places));
   const moves = column.length > 0;
   let total = 0;
   let labelled = 0;
@@ -149,6 +162,7 @@ function hitWith(column, { others, distances }, { groups, k }) {
     if (groups[row] < 0) continue;
     const start = row * (count - 1);
     const own = moves ? column[row] : 0;
+    const k = places[row];
     let found = 0;
     let last = Infinity;
     let seen = 0;

@@ -9,6 +9,7 @@ import pytest
 from reports import make_report, with_bin_search, with_bins, with_models, with_paintings
 
 from shapeviz_report.pages.bins import BinsPage, mean_over_folds
+from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.writing import write_site
 
 
@@ -90,7 +91,24 @@ def test_a_search_of_a_sample_names_its_shapes(report) -> None:
     rows = np.arange(0, 24, 2, dtype=np.int32)
     sample = replace(report.bins.automatic, rows=rows)
     assert selection(report)["rows"] is None
-    assert selection(replace(report, bins=replace(report.bins, automatic=sample)))["rows"] == rows.tolist()
+    of_class = tuple(replace(separated, rows=rows[::2]) for separated in report.bins.minimal)
+    found = selection(replace(report, bins=replace(report.bins, automatic=sample, minimal=of_class)))
+    assert found["rows"] == rows.tolist()
+    assert found["rowsOfClasses"] == rows[::2].tolist()
+
+
+@pytest.mark.parametrize(
+    ("bins", "everything", "pays"),
+    [((0.8, 0.7), (0.6, 0.5), True), ((0.6, 0.5), (0.6, 0.5), False), ((0.5, 0.5), (0.6, 0.8), False)],
+)
+def test_where_choosing_does_not_pay_the_page_says_so(report, bins, everything, pays) -> None:
+    folds = tuple(
+        replace(report.bins.held_out[0], nh_s=own, nh_s_all=whole, knn_accuracy=own, knn_accuracy_all=whole)
+        for own, whole in zip(bins, everything)
+    )
+    changed = replace(report, bins=replace(report.bins, held_out=folds))
+    assert BinsPage().content(changed).context["selection"]["pays"] is pays
+    assert WorkbenchPage().content(changed).chunks["workbench"]["found"]["pays"] is pays
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ def hits_with_each(
     rows: npt.NDArray[np.int64],
     columns: FloatArray,
     codes: npt.NDArray[np.int64],
-    k: int,
+    places: npt.NDArray[np.int64],
 ) -> FloatArray:
     """NH of some shapes (paper, Eq. 7) if a column joined those that made the distances; for every column.
 
@@ -41,8 +41,8 @@ def hits_with_each(
         The candidates.
     codes : (n,) int64 array
         The class of each shape, -1 without a label; those of ``rows`` have one.
-    k : int
-        From 1 to n - 1.
+    places : (r,) int64 array
+        How many neighbours of each such shape count, k; from 1 to n - 1.
 
     Returns
     -------
@@ -50,11 +50,11 @@ def hits_with_each(
     """
     count = others.shape[1]
     hits = np.empty((len(columns), len(rows)))
-    nearest = np.empty(k)
+    nearest = np.empty(places.max())
     for c in range(len(columns)):
         column = columns[c]
         for r in range(len(rows)):
-            own, code = column[rows[r]], codes[rows[r]]
+            own, code, k = column[rows[r]], codes[rows[r]], places[r]
             found, last = 0, np.inf
             for p in range(count):
                 if squared[r, p] > last:

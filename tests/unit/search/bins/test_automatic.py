@@ -8,8 +8,8 @@ from planted_bins import PLANTED, make_table
 
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.quality import score
-from shapeviz_report.search.bins import make_bin_space, select_bins
-from shapeviz_report.types import BinSelection
+from shapeviz_report.search.bins import automatic, encode, make_bin_space, select_bins
+from shapeviz_report.types import BinSelection, FeatureBlock, FeatureTable
 
 
 @pytest.fixture(scope="module")
@@ -69,3 +69,28 @@ def test_without_two_classes_nothing_is_selected(planted, label) -> None:
     found = select_bins(planted.space, [label] * 48)
     assert found.bins == ()
     assert np.isnan(found.nh_s)
+
+
+def test_small_classes_are_kept_together_each_and_not_in_crowds() -> None:
+    """Sixteen classes of three: in a space of crowds of twelve, four classes each, NH of ten neighbours is as high as
+    in one in which every class lies apart."""
+    classes = np.repeat(np.arange(16), 3)
+    crowds, apart = classes // 4 / 4, classes / 16
+    values = np.column_stack([crowds, apart]) + np.random.default_rng(0).random((48, 2)) / 1024
+    labels = [f"{c:02}" for c in classes]
+    table = FeatureTable(tuple(labels), (FeatureBlock("x", 1, 2),), values)
+    space = make_bin_space(table, PRESETS["default"], labels)
+    found = select_bins(space, labels)
+    assert len(found.path[0].bins) == 1
+    assert found.path[0].bins == (space.names[1],)
+    assert found.nh_s == pytest.approx(0.2)
+
+
+def test_above_the_limit_no_map_decides(planted, monkeypatch) -> None:
+    monkeypatch.setattr(automatic, "CLIMB_LIMIT", 47)
+    found = select_bins(planted.space, planted.labels, limit=6)
+    _, codes = encode(planted.space, planted.labels)
+    grown = automatic.grow(planted.space, codes, 10, 6)
+    assert [set(step.bins) for step in found.path] == [set(planted.space.named(bins)) for bins in grown]
+    spaces = [step.nh_space for step in found.path]
+    assert spaces == sorted(spaces)

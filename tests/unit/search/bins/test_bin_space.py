@@ -10,7 +10,7 @@ from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.quality import score
 from shapeviz_report.search.bins import encode, make_bin_space
-from shapeviz_report.search.bins.bin_space import hits_of, hits_of_additions
+from shapeviz_report.search.bins.bin_space import hits_of, hits_of_additions, hits_on, places_of
 from shapeviz_report.types import FeatureBlock, FeatureTable
 
 
@@ -51,6 +51,33 @@ def test_hits_are_those_of_the_quality(values, k) -> None:
     for b in (0, 1, 3):
         assert found[b] == pytest.approx(expected([2, b]))
     assert hits_of(space.squared([0, 1, 3]), rows, codes, k) == pytest.approx(expected([0, 1, 3]))
+
+
+def test_as_many_neighbours_count_as_a_class_has_others() -> None:
+    codes = np.array([0, 0, 0, 0, 1, 1, 2, -1])
+    assert places_of(codes, 10).tolist() == [3, 3, 3, 3, 1, 1, 1, 10]
+    assert places_of(codes, 2).tolist() == [2, 2, 2, 2, 1, 1, 1, 2]
+
+
+@pytest.mark.parametrize("values", [2, 1000])
+def test_each_shape_may_have_its_own_number_of_neighbours(values) -> None:
+    random = np.random.default_rng(values)
+    columns = random.integers(values, size=(4, 30)) / 1024
+    table = FeatureTable(tuple(map(str, range(30))), (FeatureBlock("x", 1, 4),), columns.T)
+    labels = list("aaaabbbbbbbbbbccccccccccccccdd")
+    space = make_bin_space(table, PRESETS["default"], labels)
+    _, codes = encode(space, labels)
+    rows = np.arange(30)
+    places = places_of(codes, 10)
+    squared = space.squared([0, 1])
+    together = hits_of_additions(space.columns, squared, rows, codes, places)[2]
+    alone = hits_of(space.squared([0, 1, 2]), rows, codes, places)
+    on_map = hits_on(space.columns[:3].T, codes, places)
+    for k in set(places.tolist()):
+        own = places == k
+        expected = hits_of_additions(space.columns, squared, rows, codes, k)[2][own]
+        for found in (together, alone, on_map):
+            assert found[own] == pytest.approx(expected)
 
 
 def test_only_bins_that_differ_and_each_once() -> None:
