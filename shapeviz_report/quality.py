@@ -12,9 +12,6 @@ from scipy.sparse import csr_matrix
 from shapeviz_report.order import classes_of, natural
 from shapeviz_report.types import FloatArray, HitRange, Quality
 
-Places = npt.NDArray[np.integer]
-"""How many neighbours of each point count."""
-
 NEIGHBOURS = 10
 """k of the paper (3.5)."""
 
@@ -165,7 +162,7 @@ def hits_among(points: FloatArray, codes: np.ndarray, kept: np.ndarray, k: int) 
     return hits
 
 
-def share_places(squared: FloatArray, k: int | Places) -> FloatArray:
+def share_places(squared: FloatArray, k: int | npt.NDArray[np.integer]) -> FloatArray:
     """Who has the k places next to each point: 1 if nearer than the k-th, an equal share if as near, otherwise 0.
 
     Parameters
@@ -187,13 +184,13 @@ def share_places(squared: FloatArray, k: int | Places) -> FloatArray:
     return nearer + tied * ((places - nearer.sum(axis=1, keepdims=True)) / tied.sum(axis=1, keepdims=True))
 
 
-def kth_smallest(values: FloatArray, k: int | Places) -> FloatArray:
+def kth_smallest(values: FloatArray, k: int | npt.NDArray[np.integer]) -> FloatArray:
     """The k-th smallest value of every row, k being one for all rows or one for each; (m, 1)."""
     places = np.broadcast_to(k, len(values))[:, None] - 1
     return np.take_along_axis(np.partition(values, np.unique(places), axis=1), places, axis=1)
 
 
-def neighbour_weights(points: FloatArray, k: int | Places) -> csr_matrix:
+def neighbour_weights(points: FloatArray, k: int | npt.NDArray[np.integer]) -> csr_matrix:
     """The k nearest neighbours of every point, as weights that add up to 1 in every row.
 
     Parameters
