@@ -499,3 +499,16 @@ def test_it_fits_the_window(bench, width, height):
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     if width > 1000:
         assert page.evaluate("document.documentElement.scrollHeight") <= height
+
+
+def test_a_low_window_leaves_its_height_to_the_maps(bench):
+    page = bench("everything", viewport={"width": 1024, "height": 768})
+    for which in ("original", "refined"):
+        assert page.locator(f"figure[data-map={which}] .surface").bounding_box()["height"] >= 260
+    assert page.locator(".bench").evaluate("(node) => node.scrollHeight - node.clientHeight") == 0
+    faith = page.locator("figure[data-map=original] .faith")
+    line = faith.bounding_box()
+    measures = [part.bounding_box() for part in faith.locator("> *").all()]
+    shown = [box for box in measures if box["y"] < line["y"] + line["height"]]
+    assert len(shown) > 0
+    assert all(box["x"] + box["width"] <= line["x"] + line["width"] for box in shown)
