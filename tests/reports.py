@@ -255,6 +255,30 @@ def with_bin_search(report: Report) -> Report:
     return replace(report, bins=found)
 
 
+def with_strewn_map(report: Report) -> Report:
+    """The report with a first map on which shapes lie anywhere, which bins easily surpass."""
+    method, (projection, _) = next(iter(report.projections.items()))
+    strewn = replace(projection, xy=np.random.default_rng(1).permutation(projection.xy))
+    rated = (strewn, quality.score(strewn.xy, report.labels))
+    return replace(report, projections={**report.projections, method: rated})
+
+
+def with_searched_sample(report: Report) -> Report:
+    """The report whose search for bins knew every other shape only."""
+    assert report.bins is not None
+    rows = report.bins.automatic.rows[::2]
+    return replace(report, bins=replace(report.bins, automatic=replace(report.bins.automatic, rows=rows)))
+
+
+def without_gain(report: Report) -> Report:
+    """The report whose bins are worth no more than all features to shapes that the search never saw."""
+    assert report.bins is not None
+    folds = tuple(
+        replace(fold, nh_s=fold.nh_s_all, knn_accuracy=fold.knn_accuracy_all) for fold in report.bins.held_out
+    )
+    return replace(report, bins=replace(report.bins, held_out=folds))
+
+
 def with_retrieval(report: Report) -> Report:
     """The report with how well its shapes are found: by every subset of a search, else by each feature and by all, and
     by the bins of its search; without where no class has two shapes."""

@@ -29,6 +29,9 @@ from reports import (
     with_retrieval,
     with_scores,
     with_search,
+    with_searched_sample,
+    with_strewn_map,
+    without_gain,
 )
 from together import alone
 
@@ -115,6 +118,9 @@ SITES = {
             "inventory": [f"K-{row:04}" for row in range(144)],
         },
     ),
+    "bins that pay": lambda: with_strewn_map(SITES["bins"]()),
+    "bins that pay nothing": lambda: without_gain(with_strewn_map(SITES["bins"]())),
+    "bins of a sample": lambda: with_searched_sample(SITES["bins that pay"]()),
     "copied": lambda: with_copies(
         with_bin_search(with_search(with_retrieval(make_report(["ant", "bird"], 8)))),
         [(0, 3), (3, 5), (8, 9)],

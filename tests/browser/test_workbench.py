@@ -13,6 +13,7 @@ from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 
 FEATURES = ("Gc", "Sc", "PFH")
+REFINED = "figure[data-map=refined] .empty"
 KINDS = [f"kind {letter}" for letter in "abcde"]
 
 
@@ -204,17 +205,18 @@ def test_what_is_offered_first_makes_no_worse_map(bench):
     page.click("#first-offer")
     answered(page)
     if nh(page, "refined") is None:
-        assert "No few bins were found" in page.inner_text("figure[data-map=refined] .empty")
+        assert "No small set of bins does better than all features here" in page.inner_text(REFINED)
         assert address(page) == kept
     else:
         assert nh(page, "refined") >= nh(page, "original")
 
 
 def test_what_the_build_found_is_offered_with_what_it_does(bench, reports):
-    page = bench("bins")
-    search = reports("bins").bins
-    told = page.inner_text("figure[data-map=refined] .empty")
-    assert f"→ {search.automatic.nh_s:.3f}; on shapes that the search never saw, 0." in told
+    page = bench("bins that pay")
+    search = reports("bins that pay").bins
+    told = page.inner_text(REFINED)
+    before = reports("bins that pay").projections["tsne"][1].nh_s
+    assert f"NH {before:.3f} → {search.automatic.nh_s:.3f}; on shapes that the search never saw, 0." in told
     assert page.inner_text("#first-offer") == f"Take these {len(search.automatic.bins)} bins"
     # What is promised is what these bins reach, by a link too.
     page.evaluate("(bins) => { location.hash = `bins=${bins}`; }", " ".join(search.automatic.bins))
@@ -225,11 +227,49 @@ def test_what_the_build_found_is_offered_with_what_it_does(bench, reports):
     # By another projection nothing was searched.
     page.locator("#projections label", has_text="UMAP").click()
     answered(page)
-    assert "on a t-SNE map" in page.inner_text("figure[data-map=refined] .empty")
+    assert "on a t-SNE map" in page.inner_text(REFINED)
     # Of other classes the build knows nothing.
     page.locator("#class-table .use").first.click()
     answered(page)
     assert page.inner_text("#first-offer") == "Find a few that keep these classes apart"
+
+
+def test_bins_that_are_no_better_are_not_offered(bench, reports):
+    page = bench("bins")
+    report = reports("bins")
+    found, before = report.bins.automatic, report.projections["tsne"][1].nh_s
+    assert found.nh_s < before
+    told = page.inner_text(REFINED)
+    assert (
+        f"No small set of bins does better than all features here: the {len(found.bins)} bins that the build found "
+        f"reach NH {found.nh_s:.3f}, all features {before:.3f}."
+    ) in told
+    # Asked for all the same, they are not taken, and that is told with the same figures.
+    page.click("#bin-find")
+    answered(page)
+    assert chosen(page) == 0
+    told = page.inner_text(REFINED)
+    assert f"the best that was found, of {len(found.bins)} bins, reaches NH {found.nh_s:.3f}" in told
+    assert f"the map beside this {before:.3f}" in told
+    # What can be done instead is.
+    assert page.inner_text("#first-offer") == "Show only these two"
+    page.click("#first-offer")
+    answered(page)
+    assert page.locator("#class-table .use[aria-pressed=true]").count() == 2
+    assert page.inner_text("#first-offer") == "Find a few that keep these classes apart"
+
+
+def test_bins_that_pay_only_for_those_that_chose_them_are_not_offered(bench, reports):
+    told = bench("bins that pay nothing").inner_text(REFINED)
+    found = reports("bins that pay nothing").bins.automatic
+    assert f"reach NH {found.nh_s:.3f}" in told
+    assert "on shapes that the search never saw they are not surely ahead" in told
+    assert "Take these" not in told
+
+
+def test_what_was_measured_on_a_sample_says_so(bench):
+    page = bench("bins of a sample")
+    assert "measured on 16 of 32 shapes" in page.inner_text(REFINED)
 
 
 def test_a_separation_of_groups_is_scored_as_python_scores_it(bench):

@@ -40,7 +40,8 @@ import { selected } from "./selected.js";
  * @property {Standing} refinedFaithStatus
  * @property {Standing} scoresStatus
  * @property {Standing} offerStatus
- * @property {number | null} refused NH that no bins were found to exceed
+ * @property {{ before: number, reached: number, bins: number } | null} refused what was found and not taken: NH of the maps
+ *   at hand and of its own, and how many bins it has
  * @property {Float64Array | null} scores
  *
  * @typedef {State<WorkValues & Shared & { opened: number | null, pointedGroup: number | null} & Pick<MapValues, "drag" | "join" | "coloring" | "lines" | "alike">>} WorkState

@@ -111,7 +111,7 @@ export class BinSection {
   #outcome() {
     const { state } = this;
     const refused = state.get("refused");
-    if (refused !== null) return `none found for an NH above ${figure(refused)}`;
+    if (refused !== null) return `none found for an NH above ${figure(refused.before)}`;
     const [before, after] = [state.get("originalMap"), state.get("refinedMap")].map((map) => map?.hitOfAll ?? null);
     const known = before !== null && after !== null && state.get("refinedStatus").kind === "answered";
     return known ? `NH ${figure(before)} → ${figure(after)}` : null;

@@ -145,7 +145,7 @@ export class Desk {
   }
 
   /** NH of the better of the maps at hand; null as long as there is none, and without labels. */
-  get #reached() {
+  get reached() {
     const hits = [this.state.get("originalMap"), this.state.get("refinedMap")].map((map) => map?.hitOfAll ?? null);
     return hits[0] === null ? null : Math.max(hits[0], hits[1] ?? 0);
   }
@@ -155,14 +155,14 @@ export class Desk {
     const { state } = this;
     const asked = /** @type {const} */ (["original", "refined", "offer"]);
     const working = asked.some((name) => state.get(`${name}Status`).kind === "working");
-    return !working && this.#reached !== null && this.#ranked().length > 0;
+    return !working && this.reached !== null && this.#ranked().length > 0;
   }
 
   /** Look for a few bins whose map keeps the classes in use apart better, and choose them: never those of a worse map. */
   findBins() {
     const { state, answers } = this;
     const step = this.history.current;
-    const before = this.#reached ?? 0;
+    const before = this.reached ?? 0;
     const asked = { ...step, sample: state.get("sample") };
     const projection = state.get("projection");
     const ranking = this.#ranked();
@@ -172,7 +172,7 @@ export class Desk {
       (report) => answers.choice(projection, asked, ranking, report),
       (/** @type {{ columns: number[], map: ShapeMap }} */ { columns, map }) => {
         if ((map.hitOfAll ?? 0) < before) {
-          state.set({ refused: before });
+          state.set({ refused: { before, reached: map.hitOfAll ?? 0, bins: columns.length } });
           this.announce(`No bins were found whose map has an NH above ${figure(before)}`);
           return;
         }

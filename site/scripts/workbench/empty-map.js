@@ -1,11 +1,10 @@
 // What stands in the place of a map that cannot be made.
 
 import { element } from "../base/dom.js";
-import { pageAddress } from "../base/place.js";
-import { count, figure, grouped } from "../base/words.js";
+import { count, grouped } from "../base/words.js";
 import { MOST_SHAPES } from "../database/sample.js";
-import { FOUND_BY } from "./answers.js";
 import { FEWEST_SHAPES } from "./desk.js";
+import { firstOffer, offering } from "./first-offer.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Answers } from "./answers.js" */
@@ -44,22 +43,11 @@ export function emptyMap(which, state, answers, desk) {
     ];
   }
   if (which === "original") return [];
-  /**
-   * @param {string} words
-   * @param {boolean} possible
-   * @param {() => void} onclick
-   */
-  const offer = (words, possible, onclick) =>
-    element(
-      "button",
-      { type: "button", class: "plain strong", id: "first-offer", disabled: !possible, onclick },
-      words,
-    );
   const intended = "No bins are chosen yet. The refined map shows the same shapes, compared by chosen bins alone.";
   if (!answers.database.separable)
     return [
       element("p", {}, intended),
-      offer(`Take the ${BEST} that vary most`, state.get("scores") !== null, () => desk.takeBest(BEST)),
+      offering(`Take the ${BEST} that vary most`, state.get("scores") !== null, () => desk.takeBest(BEST)),
     ];
   if (answers.groups(state.get("hidden")).length < 2)
     return [
@@ -69,31 +57,5 @@ export function emptyMap(which, state, answers, desk) {
         "One class alone has nothing to be kept apart from: take another into use, and bins are scored and found again.",
       ),
     ];
-  const refused = state.get("refused");
-  if (refused !== null)
-    return [
-      element(
-        "p",
-        {},
-        `No few bins were found whose map keeps these classes apart better than that of all features does: NH ${figure(refused)}. Choose bins below, or take other classes into use.`,
-      ),
-    ];
-  const found = answers.foundBins({ ...desk.history.current, sample: state.get("sample") });
-  if (found === null)
-    return [
-      element("p", {}, intended),
-      offer("Find a few that keep these classes apart", desk.canFind, () => desk.findBins()),
-    ];
-  return [
-    element(
-      "p",
-      {},
-      `${intended} The build searched all bins for a few that keep the classes apart: `,
-      element("b", {}, `NH ${figure(found.allFeatures)} → ${figure(found.nh)}`),
-      state.get("projection") === FOUND_BY ? "" : " on a t-SNE map, for which they were searched",
-      `; on shapes that the search never saw, ${figure(found.heldOut)}. `,
-      element("a", { href: pageAddress("bins.html") }, "How they were found"),
-    ),
-    offer(`Take these ${count(found.bins.length, "bin")}`, desk.canFind, () => desk.findBins()),
-  ];
+  return firstOffer(intended, state, answers, desk);
 }
