@@ -263,6 +263,7 @@ def test_bins_that_pay_only_for_those_that_chose_them_are_not_offered(bench, rep
     told = bench("bins that pay nothing").inner_text(REFINED)
     found = reports("bins that pay nothing").bins.automatic
     assert f"reach NH {found.nh_s:.3f}" in told
+    assert "A small set of bins is no sure gain here" in told
     assert "on shapes that the search never saw they are not surely ahead" in told
     assert "Take these" not in told
 

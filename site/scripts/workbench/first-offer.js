@@ -48,8 +48,9 @@ export function firstOffer(intended, state, answers, desk) {
       element(
         "p",
         {},
-        `${none}: the ${count(found.bins.length, "bin")} that the build found reach NH ${figure(found.nh)}, all features ${figure(before)}${byOther}${on}`,
-        found.nh > before && "; on shapes that the search never saw they are not surely ahead",
+        found.nh > before ? "A small set of bins is no sure gain here" : none,
+        `: the ${count(found.bins.length, "bin")} that the build found reach NH ${figure(found.nh)}, all features ${figure(before)}${byOther}${on}`,
+        found.nh > before && "; but on shapes that the search never saw they are not surely ahead",
         ". ",
         howFound(),
       ),
