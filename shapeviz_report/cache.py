@@ -14,6 +14,7 @@ import hashlib
 import logging
 import os
 import shutil
+import time
 from contextlib import suppress
 from pathlib import Path
 
@@ -27,6 +28,9 @@ _MARK = b"shapeviz-report entry 1\n"
 """What every entry begins with; the number changes with the layout."""
 
 _DIGEST_SIZE = 32
+
+USED_EVERY = 86_400
+"""Seconds after which a use is noted again: so an entry that is read often is seldom written to."""
 
 MOST_HELD = 2**28
 """Bytes of results that are held in memory, for want of a place."""
@@ -86,6 +90,7 @@ class Cache:
         else:
             head, content = entry[: len(_MARK) + _DIGEST_SIZE], entry[len(_MARK) + _DIGEST_SIZE :]
             if head == _head(stage, key, content):
+                _mark_used(path)
                 return content
             discard(path)
         self.spoiled += 1
@@ -145,6 +150,27 @@ class Cache:
             )
         if said:
             logger.warning("Note: %s", " ".join(said))
+
+
+def is_entry(path: Path) -> bool:
+    """Whether a regular file begins as a result does, be it whole or not.
+
+    Raises
+    ------
+    OSError
+        It cannot be read.
+    """
+    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    with os.fdopen(descriptor, "rb") as file:
+        return file.read(len(_MARK)) == _MARK
+
+
+def _mark_used(path: Path) -> None:
+    """Let the time of a file tell when it was last used, to :data:`USED_EVERY` seconds."""
+    # a cache that cannot be written tells nothing, and is of use all the same
+    with suppress(OSError):
+        if time.time() - os.stat(path).st_mtime > USED_EVERY:
+            os.utime(path)
 
 
 def _head(stage: str, key: str, content: bytes) -> bytes:

@@ -6,8 +6,10 @@ import argparse
 import dataclasses
 import io
 import logging
+import math
 import os
 import sys
+import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -17,11 +19,13 @@ from typing import TYPE_CHECKING, Any, TextIO
 from tqdm import tqdm
 
 from shapeviz_report import __version__
+from shapeviz_report.cache import default_root
 from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
 from shapeviz_report.ending import STOPPED, end_in_order, listen, listening
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.imports import import_numba
 from shapeviz_report.order import classes_of
+from shapeviz_report.pruning import DAY, Entry, choose_unused, list_entries, remove
 from shapeviz_report.types import Database, Failure, Report
 
 if TYPE_CHECKING:
@@ -180,7 +184,37 @@ def _parser() -> argparse.ArgumentParser:
     query.add_argument("--json", action="store_true", help="print everything that was found as JSON")
     _add_options(query, QUERYING)
     query.set_defaults(command=_query)
+
+    cache = commands.add_parser(
+        "cache",
+        help="say what the cache holds, and remove what was not used for long",
+        description="Say what the cache of results holds, by stage, and when it was last used. Nothing but this "
+        "command removes anything from it: results of other versions, and of meshes and options that are no longer "
+        "used, stay. What is removed and asked for again is computed again.",
+    )
+    cache.add_argument(
+        "--unused", metavar="DAYS", type=_at_least_zero, help="remove what was not used for so many days"
+    )
+    cache.add_argument(
+        "--keep",
+        metavar="GB",
+        type=_at_least_zero,
+        help="remove what is longest unused until no more than so many gigabytes are left",
+    )
+    cache.add_argument("--dry-run", action="store_true", help="say what would be removed, and remove nothing")
+    _add_options(cache, ["cache"])
+    cache.set_defaults(command=_cache)
     return parser
+
+
+def _at_least_zero(text: str) -> float:
+    number = float(text)
+    if not 0 <= number < float("inf"):
+        raise ValueError
+    return number
+
+
+_at_least_zero.__name__ = "number"  # as argparse says what is wrong
 
 
 def _add_database(parser: argparse.ArgumentParser) -> None:
@@ -335,6 +369,63 @@ def _print_found(result: QueryResult, mesh: Path) -> None:
         shares = "  ".join(f"{100 * found.closer[name]:{max(4, len(name))}.0f}" for name in features)
         said = f"{label:{width}}  " if width else ""
         _say(f"{place:4}  {found.distance:8.3f}  {said}{shares}  {found.id}")
+
+
+def _cache(options: argparse.Namespace) -> int:
+    config = load_config(None, _given(options), options.config)
+    root = (config.cache or default_root()).absolute()
+    now = time.time()
+    entries = sorted(list_entries(root))
+    size = sum(entry.size for entry in entries)
+    _say(f"The cache {root} holds {_count(len(entries), 'result', 'results')}, {_bytes(size)}.")
+    if options.unused is None and options.keep is None:
+        _print_entries(entries, now)
+        return 0
+    most = None if options.keep is None else int(options.keep * 1e9)
+    chosen = choose_unused(entries, now, days=options.unused, most=most)
+    if options.dry_run:
+        count, freed, done = len(chosen), sum(entry.size for entry in chosen), "would be"
+    else:
+        (count, freed), done = remove(chosen), "were" if len(chosen) != 1 else "was"
+    _say(
+        f"{_count(count, 'result', 'results')}, {_bytes(freed)}, {done} removed; {_bytes(size - freed)} stay."
+    )
+    if not options.dry_run and count < len(chosen):
+        _complain(f"{_count(len(chosen) - count, 'file', 'files')} could not be removed, or are no results.")
+    return 0
+
+
+def _print_entries(entries: Sequence[Entry], now: float) -> None:
+    """A line for every stage, and how much was not used for how long."""
+    if not entries:
+        return
+    _say("", f"  {'':<20}{'results':>10}  {'size':>9}  last used")
+    for stage in sorted({entry.stage for entry in entries}):
+        own = [entry for entry in entries if entry.stage == stage]
+        used = [_ago(now - entry.used) for entry in (own[-1], own[0])]
+        span = used[0] if used[0] == used[1] else " to ".join(used)
+        _say(f"  {stage:<20}{len(own):>10,}  {_bytes(sum(entry.size for entry in own)):>9}  {span}")
+    _say("")
+    for days in (30, 90):
+        old = [entry for entry in entries if now - entry.used > days * DAY]
+        if old:
+            _say(
+                f"Not used for {days} days: {_count(len(old), 'result', 'results')}, "
+                f"{_bytes(sum(entry.size for entry in old))}; --unused {days} removes them."
+            )
+
+
+def _bytes(size: float) -> str:
+    if size < 1000:
+        return f"{size:.0f} bytes"
+    power = min(int(math.log10(size)) // 3, 3)
+    number = size / 1000**power
+    return f"{number:.{0 if number >= 100 else 1}f} {('kB', 'MB', 'GB')[power - 1]}"
+
+
+def _ago(seconds: float) -> str:
+    days = int(max(seconds, 0) // DAY)
+    return ("today", "yesterday")[days] if days < 2 else f"{days:,} days ago"
 
 
 def _print_database(database: Database) -> None:
