@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 from tqdm import tqdm
 
 from shapeviz_report import __version__
+from shapeviz_report.building.progress import TimeLeft, in_words
 from shapeviz_report.cache import default_root
 from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
 from shapeviz_report.ending import STOPPED, end_in_order, listen, listening
@@ -38,6 +39,9 @@ exit codes:
   2    the command line is wrong
   130  stopped by Ctrl-C (143: by a termination signal); the same command continues where it stopped
 """
+
+LINES_EVERY = 30.0
+"""Seconds between two lines of progress where there is no terminal."""
 
 QUERYING = ("time_limit", "memory_limit", "cache")
 """Options of a build that a query has as well."""
@@ -322,7 +326,6 @@ def _check(options: argparse.Namespace) -> int:
 
 def _query(options: argparse.Namespace) -> int:
     from shapeviz_report.building.query import find_similar
-    from shapeviz_report.cache import default_root
     from shapeviz_report.writing.data import json_text
 
     listen(end_in_order)
@@ -547,7 +550,7 @@ class _Patient:
 
 
 class TerminalProgress:
-    """A bar with the time left on a terminal; on anything else a line every ten seconds."""
+    """A bar with the time left on a terminal; on anything else a line every half a minute."""
 
     @contextmanager
     def stage(self, doing: str, total: int) -> Iterator[Callable[[], None]]:
@@ -556,19 +559,52 @@ class TerminalProgress:
             _complain(doing)
             yield lambda: None
             return
-        live = sys.stderr.isatty()
+        left = TimeLeft(total)
+        with (
+            self._bar(doing, total, left) if sys.stderr.isatty() else self._lines(doing, total, left) as tell
+        ):
+
+            def advance() -> None:
+                left.step(time.monotonic())
+                tell()
+
+            yield advance
+
+    @contextmanager
+    def _bar(self, doing: str, total: int, left: TimeLeft) -> Iterator[Callable[[], None]]:
         with tqdm(
             total=total,
             desc=f"{doing:<22}",
-            bar_format="{desc} {bar:24} {n_fmt:>6} of {total_fmt}  {elapsed} gone, {remaining} left",
-            mininterval=0.2 if live else 10.0,
-            maxinterval=1.0 if live else 10.0,
-            smoothing=0.05,
-            ascii=not live,
+            bar_format="{desc} {bar:24} {n_fmt:>6} of {total_fmt}  {elapsed} gone{postfix}",
+            mininterval=0.2,
             file=_Patient(sys.stderr),
-            dynamic_ncols=live,
+            dynamic_ncols=True,
         ) as bar:
-            yield lambda: bar.update()
+
+            def tell() -> None:
+                seconds = left.estimate(time.monotonic())
+                bar.set_postfix_str("" if not seconds else f"about {in_words(seconds)} left", refresh=False)
+                bar.update()
+
+            yield tell
+
+    @contextmanager
+    def _lines(self, doing: str, total: int, left: TimeLeft) -> Iterator[Callable[[], None]]:
+        begun = told = time.monotonic()
+        done = 0
+        _complain(f"{doing}: {total:,}")
+
+        def tell() -> None:
+            nonlocal told, done
+            done += 1
+            now = time.monotonic()
+            if now - told < LINES_EVERY or done == total:
+                return
+            told, seconds = now, left.estimate(now)
+            rest = "" if not seconds else f", about {in_words(seconds)} left"
+            _complain(f"{doing}: {done:,} of {total:,}, {in_words(now - begun)} gone{rest}")
+
+        yield tell
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
@@ -28,6 +29,56 @@ class QuietProgress:
         """See :class:`Progress`."""
         logger.info("%s (%d)", doing, total) if total else logger.info("%s", doing)
         yield lambda: None
+
+
+class TimeLeft:
+    """How long the rest of a stage takes, if it goes on as it went of late.
+
+    The time before the first step counts for nothing: workers start and compile in it. What goes on as it went is the
+    last tenth of the time, so that steps which were kept by an earlier build, and take none, soon tell nothing of
+    those to come; at least ``WINDOW`` seconds, and at least ``LEAST`` steps, before which nothing is said.
+
+    Parameters
+    ----------
+    total : int
+        Steps of the stage.
+    """
+
+    WINDOW = 20.0
+    LEAST = 8
+
+    def __init__(self, total: int) -> None:
+        self._left = total
+        self._done: deque[float] = deque()
+        self._first: float | None = None
+
+    def step(self, now: float) -> None:
+        """One is done, at a time in seconds."""
+        self._left -= 1
+        self._done.append(now)
+        if self._first is None:
+            self._first = now
+        window = max(self.WINDOW, (now - self._first) / 10)
+        while len(self._done) > self.LEAST + 1 and self._done[1] < now - window:
+            self._done.popleft()
+
+    def estimate(self, now: float) -> float | None:
+        """Seconds; None while that cannot be told."""
+        if self._left == 0:
+            return 0.0
+        steps, since = len(self._done) - 1, now - self._done[0] if self._done else 0.0
+        if steps < self.LEAST or since < self.WINDOW / 4:
+            return None
+        return self._left * since / steps
+
+
+def in_words(seconds: float) -> str:
+    """A time as one would say it: to ten seconds, to a minute, or to half an hour above three."""
+    if seconds < 90:
+        return f"{max(10, round(seconds, -1)):.0f} s"
+    if seconds < 3 * 3600:
+        return f"{seconds / 60:.0f} min"
+    return f"{round(seconds / 1800) / 2:g} h"
 
 
 @dataclass
