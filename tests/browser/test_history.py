@@ -67,6 +67,61 @@ def test_a_double_click_is_one_step(open_page) -> None:
     eventually(page, lambda: page.locator("#legend button[aria-pressed=false]").count() == 0)
 
 
+def test_a_step_that_is_taken_back_at_once_is_none(open_page) -> None:
+    page = open_page("workbench", "workbench.html#select=class000/0001")
+    drawn_again(page)
+    length = entries(page)
+    # A double click where nothing is drops the selection and has it again.
+    place = page.locator("figure[data-map=original] .surface").bounding_box()
+    page.mouse.dblclick(place["x"] + 6, place["y"] + 6)
+    eventually(page, lambda: page.locator("#tray h2").is_visible() and "class000" in page.url)
+    page.focus(".bin-plot .surface")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    eventually(page, lambda: "bins=" in page.url)
+    assert entries(page) == length + 1
+    page.go_back()
+    eventually(page, lambda: "bins=" not in page.url)
+    assert page.locator("#undo").is_disabled()
+
+
+def test_every_choice_of_bins_is_one_step_and_one_of_the_strip(open_page) -> None:
+    page = open_page("workbench", "workbench.html")
+    length = entries(page)
+    strip = page.locator("#steps li")
+
+    def at() -> int:
+        return int(page.locator("#steps [aria-current]").get_attribute("data-step"))
+
+    def taken(number) -> None:
+        eventually(page, lambda: strip.count() == number + 1)
+        assert (at(), entries(page)) == (number, length + number)
+
+    def press() -> None:
+        place = page.locator(".bin-plot .surface").bounding_box()
+        page.mouse.click(place["x"] + 8, place["y"] + place["height"] / 3)
+
+    for number in (1, 2):
+        press()
+        taken(number)
+    page.focus(".bin-plot .surface")
+    page.keyboard.press("Home")
+    for number in (3, 4):
+        page.keyboard.press("Enter")
+        taken(number)
+    # Undo and the browser's way back are one, and what follows takes the place of what was undone.
+    page.click("#undo")
+    eventually(page, lambda: at() == 3)
+    page.go_back()
+    eventually(page, lambda: at() == 2)
+    press()
+    taken(3)
+    for number in (2, 1, 0):
+        page.go_back()
+        eventually(page, lambda number=number: at() == number)
+    assert page.locator("#undo").is_disabled()
+
+
 def test_to_the_view_that_was_left(open_page) -> None:
     page = open_page("plain")
     page.locator("#search").fill("kind c 3")

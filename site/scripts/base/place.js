@@ -24,12 +24,13 @@ export function readHash() {
 }
 
 /**
- * Write the state of the view into the address, in place of what was there.
+ * Write the state of the view into the address, in place of what was there. Where that is the place before once more, the
+ * next step takes its place too: it is none that one would come back to.
  * @param {URLSearchParams} query
  */
 export function replaceHash(query) {
   if (leaving()) return;
-  idle = false;
+  idle = query.toString() === before;
   window.history.replaceState(window.history.state, "", hashAddress(query));
 }
 
@@ -45,6 +46,7 @@ export function pushHash(query) {
   }
   const steps = here.steps + 1;
   here = { steps, last: steps, way: here.way + 1 };
+  before = readHash().toString();
   window.history.pushState({ steps }, "", hashAddress(query));
 }
 
@@ -59,6 +61,8 @@ export function unstep() {
 let here = { steps: -1, last: -1, way: 0 };
 /** Whether this place is there for the next one. */
 let idle = false;
+/** @type {string | null} the state of the view one step before, where that step was the last thing that was done */
+let before = null;
 
 /**
  * How many steps lead to a place from the one on which the page was opened first, and to the last one known; and a number
@@ -78,6 +82,7 @@ export function whereabouts() {
 export function arriveHere() {
   const first = window.history.state?.steps === undefined;
   idle = false;
+  before = null;
   if (first) window.history.replaceState({ steps: here.steps + 1 }, "");
   const { steps } = window.history.state;
   here = { steps, last: first ? steps : Math.max(here.last, steps), way: here.way + Number(first) };
