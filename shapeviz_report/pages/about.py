@@ -14,6 +14,9 @@ from shapeviz_report.types import FeatureSearch, Report
 #: Failures, and copies, that the page lists; a page of a hundred thousand rows opens slowly, and nobody reads them.
 MOST_LISTED = 500
 
+#: Meshes that the page lists.
+MOST_MESHES = 2000
+
 
 class AboutPage:
     """Provenance: parameters, versions, times, hashes, failures and downloads, all of it plain HTML."""
@@ -46,6 +49,7 @@ class AboutPage:
                 "parameters": [(name, _plain(value)) for name, value in report.parameters.items()],
                 "versions": list(report.versions.items()),
                 "meshes": _meshes(report),
+                "mesh_count": len(report.shapes),
                 "repaired": sum(bool(facts.repairs) for facts in report.facts),
                 "repairs": _repairs(report),
                 "open": sum(not facts.watertight for facts in report.facts),
@@ -144,6 +148,10 @@ def _plain(value: object) -> str:
 
 
 def _meshes(report: Report) -> list[dict[str, object]]:
+    """The shapes with their facts: of very many those on which most was mended."""
+    pairs = list(zip(report.shapes, report.facts, strict=True))
+    if len(pairs) > MOST_MESHES:
+        pairs = sorted(pairs, key=lambda pair: -sum(pair[1].repairs.values()))[:MOST_MESHES]
     return [
         {
             "id": shape.id,
@@ -157,7 +165,7 @@ def _meshes(report: Report) -> list[dict[str, object]]:
             "deviation": facts.deviation,
             "repairs": list(facts.repairs.items()),
         }
-        for shape, facts in zip(report.shapes, report.facts, strict=True)
+        for shape, facts in pairs
     ]
 
 

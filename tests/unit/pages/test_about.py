@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 from reports import make_report
 
+from shapeviz_report.pages import about
 from shapeviz_report.pages.about import MOST_LISTED, AboutPage
 from shapeviz_report.types import Copy, Failure, Match
 from shapeviz_report.writing import write_site
@@ -44,6 +45,20 @@ def test_of_many_copies_the_first_are_listed_and_the_rest_is_counted(tmp_path):
     text = (tmp_path / "about.html").read_text(encoding="utf-8")
     assert text.count("identical file") == MOST_LISTED
     assert f"These are the first {MOST_LISTED} of {MOST_LISTED + 20} pairs" in text
+
+
+def test_of_very_many_meshes_those_with_most_repairs_are_listed(tmp_path, monkeypatch):
+    monkeypatch.setattr(about, "MOST_MESHES", 3)
+    report = make_report(["ant"], 6)
+    facts = [replace(f, repairs={"faces turned": n} if n else {}) for n, f in enumerate(report.facts)]
+    report = replace(report, facts=tuple(facts))
+    write_site(report, tmp_path)
+    text = (tmp_path / "about.html").read_text(encoding="utf-8")
+    listed = text[text.index('<details id="meshes"') :]
+    shown = [shape.id for shape in report.shapes if f">{shape.id}<" in listed]
+    assert shown == [shape.id for shape in report.shapes[3:]]
+    assert "of 6:" in text
+    assert "These are 3 meshes, those in which most was mended." in text
 
 
 def test_it_shows_seeds_parameters_versions_and_hashes(text):
