@@ -23,7 +23,7 @@ from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS, compared_values, scale
-from shapeviz_report.projections import squared_distances
+from shapeviz_report.projections import PROJECTIONS, project, squared_distances
 from shapeviz_report.retrieval import query_classes, rate, rate_chance, rate_subsets
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import make_space, search_features
@@ -201,6 +201,19 @@ def with_search(report: Report, *, limit: int = 1000) -> Report:
     return replace(
         report, search=search_features(space, report.labels, "tsne", rounds=2, groups=_groups(report))
     )
+
+
+def with_best(report: Report) -> Report:
+    """The report with the map of all shapes by the best subset of a search that laid out a sample."""
+    assert report.search is not None
+    best = report.search.best
+    assert best is not None
+    blocks = [block for block in report.features.blocks if block.name in best]
+    scaled = scale(report.features, PRESETS["default"])
+    values = np.hstack([scaled[:, report.features.slice_of(block.name)] for block in blocks])
+    made = project(PROJECTIONS[0], values, best, 0)
+    rated = rate_maps(values, {"best": made.xy}, report.search.k)
+    return replace(report, best=(made, quality.score(made.xy, report.labels), rated["best"]))
 
 
 def with_scores(report: Report) -> Report:

@@ -19,6 +19,7 @@ from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import (
     find_clusters,
     find_copies,
+    lay_out_best,
     paint_all,
     project_all,
     rate_all,
@@ -175,6 +176,10 @@ def build_report(
         projections = project_all(run, space, features, bins, mapped, config.seed)
         related = relate_all(run, scaled)
         search = search_subsets(run, space, labels, groups, config)
+        best = None
+        if search is not None:
+            first = next(iter(projections.values()))
+            best = lay_out_best(run, search, features, bins, scaled, config, first)
         scores = score_all(run, compared_values(features, preset), labels, config.seed)
         found = search_all_bins(run, features, scaled, labels, groups, config)
         chosen = bins if bins is not None else found.automatic.bins if found is not None else None
@@ -208,6 +213,12 @@ def build_report(
         shown = {name: projection.xy for name, projection in projections.items()}
         faithfulness = rate_maps(mapped, shown, config.neighbours)
         separation = rate_separation(mapped, shown, labels, config.neighbours, seed=config.seed)
+        best_map = None
+        if best is not None:
+            found_map, compared = best
+            quality = score(found_map.xy, labels, k=config.neighbours, seed=config.seed)
+            rated = rate_maps(compared, {"best": found_map.xy}, config.neighbours)
+            best_map = (found_map, quality, rated["best"])
         distances = {"everything": space.squared.sum(axis=0, dtype=np.float64)}
         if by_bins is not None:
             distances["bins"] = squared_distances(by_bins[space.rows])
@@ -250,6 +261,7 @@ def build_report(
         faithfulness=faithfulness,
         related=related,
         separation=separation,
+        best=best_map,
     )
     with clock.stage("write", "Writing the site"):
         write_site(report, destination, single_file=config.single_file)

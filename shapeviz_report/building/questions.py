@@ -172,6 +172,32 @@ def project_all(
     return {method: align(maps[method], maps[methods[0]]) for method in methods}
 
 
+def lay_out_best(
+    run: Runner,
+    search: FeatureSearch,
+    features: FeatureTable,
+    bins: tuple[str, ...] | None,
+    scaled: FloatArray,
+    config: Config,
+    like: Projection,
+) -> tuple[Projection, FloatArray] | None:
+    """The map of all shapes by the best subset of a search that laid out a sample, turned to agree with another, and
+    the values that it compares; None where the search or the map of all features has it."""
+    best = search.best
+    if best is None or len(search.rows) == len(scaled) or (bins is None and best == search.features):
+        return None
+    values = np.ascontiguousarray(
+        np.hstack(
+            [scaled[:, features.slice_of(block.name)] for block in features.blocks if block.name in best]
+        )
+    )
+    content = sha256(values.tobytes()).hexdigest()
+    key = PROJECT.key(search.method, values.shape, content, config.seed)
+    task = Task.of(key, search.method, values, config.seed)
+    xy = run.all(PROJECT, {search.method: task})[search.method]
+    return align(Projection(search.method, best, config.seed, xy, None), like), values
+
+
 def relate_all(run: Runner, scaled: FloatArray) -> IntArray | None:
     """The shapes most similar to each by distances that know their neighbourhood; None where there are too many for
     these."""

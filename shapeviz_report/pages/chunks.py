@@ -121,13 +121,21 @@ class Separation(TypedDict):
 
 
 class SubsetChoice(TypedDict):
-    """Whose maps the Overview can show beside its own."""
+    """Whose maps the Overview can show beside its own.
+
+    Attributes
+    ----------
+    sample : int or None
+        How many shapes the search laid out where these are not all: then only the best subset has a map, the chunk
+        "best".
+    """
 
     method: str
     features: list[str]
     bins: int | None
     bestByChance: float | None
     best: list[str] | None
+    sample: int | None
 
 
 MapCharts = TypedDict("MapCharts", {"class": Spec, "hit": Spec, "thumbnail": Spec, "bars": Spec})
@@ -740,6 +748,8 @@ class Chunks(TypedDict, total=False):
 
     Attributes
     ----------
+    best : Method
+        The map of the best subset, where the search laid out a sample; its key names the features.
     related : list of list of int, or None
         The shapes most similar to each by neighbourhood, the most similar first; None where there are too many.
     neighbours : bytes
@@ -755,6 +765,7 @@ class Chunks(TypedDict, total=False):
     """
 
     overview: Overview
+    best: Method
     details: Details
     clusters: Clusters | None
     fields: Fields

@@ -15,7 +15,7 @@ from shapeviz_report.pages.base import (
     clusters_chunk,
     rounded,
 )
-from shapeviz_report.pages.chunks import Details, Faith, Marks, Method, ShapeList, SubsetChoice
+from shapeviz_report.pages.chunks import Chunks, Details, Faith, Marks, Method, ShapeList, SubsetChoice
 from shapeviz_report.pages.chunks import Shepard as ShepardChunk
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.pages.separation import separation_chunk
@@ -66,6 +66,30 @@ class OverviewPage:
             )
             for projection, quality in report.projections.values()
         ]
+        chunks: Chunks = {
+            "overview": {
+                "shapes": _shapes(report, classes),
+                "classes": list(classes),
+                "labeling": report.labeling,
+                "standIn": report.clusters is not None and report.clusters.stand_in,
+                "methods": methods,
+                "separation": separation_chunk(report),
+                "subsets": _subsets(report),
+                "charts": {
+                    "class": charts.spec_of(charts.class_map, len(classes)),
+                    "hit": charts.spec_of(charts.hit_map),
+                    "thumbnail": charts.spec_of(charts.thumbnail_map),
+                    "bars": charts.spec_of(charts.class_bars),
+                },
+                "marks": _marks(len(classes)),
+            },
+            "details": _details(report),
+            "clusters": clusters_chunk(report),
+        }
+        if report.best is not None:
+            projection, quality, faithfulness = report.best
+            key = f"{projection.method}:{'+'.join(projection.features)}"
+            chunks["best"] = {**_method(projection, quality, classes, None, faithfulness), "key": key}
         return PageContent(
             context={
                 "methods": [{"key": method["key"], "title": method["title"]} for method in methods],
@@ -78,26 +102,7 @@ class OverviewPage:
                 "subsets": _subsets(report),
                 "colors": color_choices(report),
             },
-            chunks={
-                "overview": {
-                    "shapes": _shapes(report, classes),
-                    "classes": list(classes),
-                    "labeling": report.labeling,
-                    "standIn": report.clusters is not None and report.clusters.stand_in,
-                    "methods": methods,
-                    "separation": separation_chunk(report),
-                    "subsets": _subsets(report),
-                    "charts": {
-                        "class": charts.spec_of(charts.class_map, len(classes)),
-                        "hit": charts.spec_of(charts.hit_map),
-                        "thumbnail": charts.spec_of(charts.thumbnail_map),
-                        "bars": charts.spec_of(charts.class_bars),
-                    },
-                    "marks": _marks(len(classes)),
-                },
-                "details": _details(report),
-                "clusters": clusters_chunk(report),
-            },
+            chunks=chunks,
         )
 
 
@@ -182,22 +187,22 @@ def _shepard(found: Shepard) -> ShepardChunk:
 
 
 def _subsets(report: Report) -> SubsetChoice | None:
-    """Whose maps the page can show beside those of all features or of chosen bins; None if there was no search, or of a
-    sample only."""
+    """Whose maps the page can show beside those of all features or of chosen bins: those of the search, or of one that
+    laid out a sample the best; None if there is none."""
     search = report.search
-    if search is None or len(search.rows) < search.shape_count or search.method not in report.projections:
+    if search is None or search.method not in report.projections:
+        return None
+    whole = len(search.rows) == search.shape_count
+    if not whole and report.best is None:
         return None
     bins = report.projections[search.method][0].bins
-    scores = search.subsets.nh_s
-    best = None if np.isnan(scores).any() else search.subsets.members[int(scores.argmax())]
     return {
         "method": search.method,
         "features": list(search.features),
         "bins": None if bins is None else len(bins),
-        "bestByChance": None if best is None else float(np.median(search.null_best)),
-        "best": None
-        if best is None
-        else [name for name, has in zip(search.features, best, strict=True) if has],
+        "bestByChance": None if search.best is None else float(np.median(search.null_best)),
+        "best": None if search.best is None else list(search.best),
+        "sample": None if whole else len(search.rows),
     }
 
 

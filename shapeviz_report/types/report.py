@@ -76,6 +76,8 @@ class Report:
         there are too many for these.
     separation : Separation or None
         None where there are not two classes, or none of two shapes.
+    best : tuple of Projection, Quality and Faithfulness, or None
+        The map of all shapes by the best subset of the features, where the search laid out a sample of them.
     """
 
     database: Database
@@ -105,6 +107,7 @@ class Report:
     faithfulness: Mapping[str, Faithfulness] = field(default_factory=dict)
     related: IntArray | None = None
     separation: Separation | None = None
+    best: tuple[Projection, Quality, Faithfulness] | None = None
 
     def __post_init__(self) -> None:
         """Check what templates and scripts take for granted; a ``ValueError`` is an error of the caller."""
@@ -146,6 +149,8 @@ class Report:
         if self.models is not None:
             _require(len(self.models) == count, "models do not match the shapes")
             _require(all(model[:2] == b"\x1f\x8b" for model in self.models), "a model is not gzipped")
+        if self.best is not None:
+            _require(self.best[0].xy.shape == (count, 2), "the best map has another number of points")
         if self.related is not None:
             _require(len(self.related) == count, "related shapes of another number of shapes")
         if self.clusters is not None:

@@ -308,3 +308,11 @@ class FeatureSearch:
     held_out: tuple[HeldOutFold, ...]
     null_best: FloatArray
     effects: tuple[FeatureEffect, ...]
+
+    @property
+    def best(self) -> tuple[str, ...] | None:
+        """The features of the best subset; None without labels."""
+        if np.isnan(self.subsets.nh_s).any():
+            return None
+        has = self.subsets.members[int(self.subsets.nh_s.argmax())]
+        return tuple(name for name, one in zip(self.features, has, strict=True) if one)

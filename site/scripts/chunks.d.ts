@@ -87,6 +87,7 @@ declare namespace Chunk {
     bins: number | null;
     bestByChance: number | null;
     best: string[] | null;
+    sample: number | null;
   }
   interface MapCharts {
     class: Record<string, any>;
@@ -506,6 +507,7 @@ declare namespace Chunk {
   /** Every chunk by its name; one is left out where there is nothing to say. Bytes become an `ArrayBuffer`. */
   interface Chunks {
     overview: Overview;
+    best: Method;
     details: Details;
     clusters: Clusters | null;
     fields: Fields;

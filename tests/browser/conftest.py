@@ -16,6 +16,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 from reports import (
     NASTY_LABELS,
     make_report,
+    with_best,
     with_bin_search,
     with_bins,
     with_clusters,
@@ -77,7 +78,9 @@ SITES = {
     ),
     "nasty features": lambda: with_search(make_report([*NASTY_LABELS, None], 4, features=NASTY_FEATURES)),
     "searched without labels": lambda: with_search(make_report([None], 24, features=FEATURES[:3])),
-    "sampled": lambda: with_search(make_report(["ant", "bird"], 20, features=FEATURES[:3]), limit=24),
+    "sampled": lambda: with_best(
+        with_search(make_report(["ant", "bird"], 20, features=FEATURES[:3]), limit=24)
+    ),
     "refused": lambda: with_search(
         make_report(["ant", "bird", "cup"], 6, features=[f"own {number}" for number in range(11)])
     ),

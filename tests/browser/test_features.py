@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+from urllib.parse import unquote_plus
 
 import numpy as np
 import pytest
@@ -455,10 +456,24 @@ class TestOverview:
         page = open_page("refused", "index.html#features=own 1 gone")
         assert page.locator("#features input:checked").get_attribute("value") == "all"
 
-    @pytest.mark.parametrize("name", ["plain", "sampled"])
-    def test_it_offers_nothing_that_was_not_searched(self, open_page, name):
-        page = open_page(name)
+    def test_it_offers_nothing_that_was_not_searched(self, open_page):
+        page = open_page("plain")
         assert page.locator("#features").count() == 0
+
+    def test_where_a_sample_was_searched_its_best_subset_has_a_map_of_all_shapes(self, open_page, site):
+        page = open_page("sampled")
+        assert page.locator("#features label:visible").all_inner_texts() == ["All features", "Best subset"]
+        title = page.locator("#features label", has_text="Best subset").get_attribute("title")
+        assert "on a sample of 24 shapes" in title
+        found = max(subsets_of(site("sampled")), key=lambda subset: subset["nh_s"])["features"]
+        before = page.locator("#quality .value").text_content()
+        page.locator("#features label", has_text="Best subset").click()
+        eventually(page, lambda: address(page).count("features=") == 1)
+        assert " ".join(found) in unquote_plus(address(page))
+        assert page.locator("#quality .value").text_content() != before
+        page.reload()
+        page.wait_for_selector("html[data-ready]", state="attached")
+        assert page.locator("#features input:checked").get_attribute("value") == "best"
 
 
 class TestStates:

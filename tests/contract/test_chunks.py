@@ -13,6 +13,7 @@ import pytest
 from chunk_types import DECLARATIONS, misfits, typescript
 from reports import (
     make_report,
+    with_best,
     with_bin_search,
     with_clusters,
     with_copies,
@@ -40,7 +41,7 @@ _HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(json|bytes)", "([^"
 def everything():
     """A report with all that one may hold."""
     report = with_clusters(with_copies(with_external(make_report(("ant", "bird", None))), [(0, 1)]))
-    report = with_bin_search(with_retrieval(with_scores(with_search(report))))
+    report = with_bin_search(with_retrieval(with_scores(with_best(with_search(report)))))
     return with_models(with_paintings(report))
 
 

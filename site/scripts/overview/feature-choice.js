@@ -74,9 +74,10 @@ export async function addressedMap(database, { features, ...values }) {
  * @param {string[]} names
  */
 async function subsetMethod(database, names) {
-  const { method, features, bins } = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
+  const { method, features, bins, best, sample } = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
   const base = database.methods.findIndex(({ key }) => key === method);
   if (bins === null && names.length === features.length) return base;
+  if (sample !== null) return same(names, best) ? database.add(await chunk("best"), base) : null;
   const subsets = new Subsets(await chunk("search"));
   const place = subsets.find(names);
   return place === undefined ? null : database.add(await subsets.map(place, database.classes.length), base);

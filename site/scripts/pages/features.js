@@ -32,7 +32,8 @@ async function main() {
   });
   const marks = hues(search, database);
   const ranking = new Ranking(subsets, state, marks, announce);
-  new Panel(subsets, state, marks, overview.subsets && ((place) => subsetAddress(subsets.names(place))));
+  const onOverview = overview.subsets?.sample === null;
+  new Panel(subsets, state, marks, onOverview ? (place) => subsetAddress(subsets.names(place)) : null);
   const retrieval = await openRetrieval(overview.classes, state, {
     chosen: () => subsets.names(state.get("chosen")),
     choose: (names) => state.set({ chosen: subsets.find(names) }),

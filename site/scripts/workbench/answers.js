@@ -113,9 +113,9 @@ export class Answers {
     const { database, data } = this;
     if (hidden.size > 0 || sample) return false;
     if (which === "refined") return isSame(bins, data.bins);
-    return (
-      (features.size === data.features.length && data.bins === null) || database.data.subsets?.method === projection
-    );
+    if (features.size === data.features.length && data.bins === null) return true;
+    const { subsets } = database.data;
+    return subsets?.sample === null && subsets.method === projection;
   }
 
   /**
@@ -348,7 +348,7 @@ export class Answers {
     const { database, bins } = this;
     const { subsets } = database.data;
     if (features.size === bins.features.length && this.data.bins === null) return this.#siteMap(projection);
-    if (!subsets || subsets.method !== projection) return null;
+    if (subsets?.sample !== null || subsets.method !== projection) return null;
     const searched = new Subsets(await chunk("search"));
     const place = searched.find([...features].map((feature) => bins.features[feature].name));
     return place === undefined ? null : searched.map(place, database.classes.length);
