@@ -23,8 +23,7 @@ import { Tray } from "../tray/tray.js";
 
 async function main() {
   const [overview, search] = await Promise.all([chunk("overview"), chunk("search")]);
-  const subsets = new Subsets(search);
-  const database = new Database(overview, currentTheme);
+  const [subsets, database] = [new Subsets(search), new Database(overview, currentTheme)];
   const { state, written, announce, ready } = await openPage({
     address: featuresAddress(subsets, database),
     settle: knownColor(database),
