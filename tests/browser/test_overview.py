@@ -872,3 +872,33 @@ class TestPhone:
     def test_long_names_do_not_widen_it(self, open_page):
         page = open_page("nasty", **PHONE)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+class TestManyClasses:
+    def test_a_class_is_found_in_the_legend_and_shown_alone(self, open_page):
+        page = open_page("many classes")
+        names = page.locator("#legend .name")
+        assert names.count() == 45
+        page.fill("#find-class", "CLASS 3")
+        numbers = [f"{number:02}" for number in range(45)]
+        assert sorted(names.all_inner_texts()) == [f"class {number}" for number in numbers if "3" in number]
+        page.fill("#find-class", "class 31")
+        page.press("#find-class", "Enter")
+        eventually(page, lambda: "hide=" in page.evaluate("location.hash"))
+        page.fill("#find-class", "")
+        pressed = page.locator("#legend button[aria-pressed=true]")
+        assert pressed.locator(".name").all_inner_texts() == ["class 31"]
+        page.click("#show-all")
+        eventually(page, lambda: pressed.count() == 45)
+
+    def test_what_no_class_is_called_leaves_none_and_breaks_nothing(self, open_page):
+        page = open_page("many classes", "index.html#view=hit")
+        page.wait_for_selector("#bars svg")
+        page.fill("#find-class", "<b>")
+        assert page.locator("#legend button").count() == 0
+        page.press("#find-class", "Enter")
+        page.fill("#find-class", "")
+        assert page.locator("#legend button[aria-pressed=true]").count() == 45
+
+    def test_few_classes_need_no_search(self, open_page):
+        assert open_page("plain").locator("#find-class").count() == 0

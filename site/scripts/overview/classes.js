@@ -43,6 +43,11 @@ export class ClassList {
       if (this.asked.open && !this.#asksItself) panel.scrollTop += topOf(this.asked) - topOf(panel);
     });
     this.all.addEventListener("click", () => state.set({ hidden: new Set() }));
+    this.finder = document.querySelector("#find-class");
+    this.finder?.addEventListener("input", () => this.render());
+    this.finder?.addEventListener("keydown", (event) => {
+      if (event.key === "Enter" && this.buttons.size > 0) this.#showOnly([...this.buttons.keys()]);
+    });
     this.list.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
     watchSize([this.node], () => this.#mark());
     state.listen((changed) => {
@@ -80,9 +85,18 @@ export class ClassList {
     return this.database.sizes.has(-1) && this.database.labelled ? [...groups, -1] : groups;
   }
 
+  /** Those of them whose names have all the words that are looked for. */
+  get listed() {
+    const words = (this.finder?.value ?? "").toLocaleLowerCase().split(/\s+/);
+    return this.order.filter((group) => {
+      const name = this.database.className(group).toLocaleLowerCase();
+      return words.every((/** @type {string} */ word) => name.includes(word));
+    });
+  }
+
   render() {
     const kept = focused()?.dataset.group;
-    this.buttons = new Map(this.order.map((group) => [group, this.#button(group)]));
+    this.buttons = new Map(this.listed.map((group) => [group, this.#button(group)]));
     this.list.replaceChildren(...[...this.buttons.values()].map((button) => element("li", {}, button)));
     if (kept !== undefined) this.buttons.get(Number(kept))?.focus();
     document.getElementById("quality").replaceChildren(...this.#quality());
@@ -108,12 +122,12 @@ export class ClassList {
         title: `${name}${most && `\nNH ${figure(hit)}${most}, as many as the class has others`}\nClick hides or shows it. Double-click, or click with Alt, shows it alone.`,
         onclick: (event) => {
           if (event.detail === 2) unstep();
-          if (event.altKey) this.#solo(group);
+          if (event.altKey) this.#showOnly([group]);
           else this.#toggle(group);
         },
         ondblclick: () => {
           unstep();
-          this.#solo(group);
+          this.#showOnly([group]);
         },
         onpointerenter: point(group),
         onpointerleave: point(null),
@@ -132,11 +146,14 @@ export class ClassList {
     this.state.set({ hidden, pointedGroup: null });
   }
 
-  /** @param {number} group */
-  #solo(group) {
-    const others = [...this.buttons.keys()].filter((other) => other !== group);
+  /**
+   * Hide all others; where they are hidden already, show all.
+   * @param {number[]} groups
+   */
+  #showOnly(groups) {
+    const others = this.order.filter((other) => !groups.includes(other));
     const hidden = this.state.get("hidden");
-    const alone = !hidden.has(group) && others.every((other) => hidden.has(other));
+    const alone = others.length === hidden.size && others.every((other) => hidden.has(other));
     this.state.set({ hidden: new Set(alone ? [] : others), pointedGroup: null });
   }
 
@@ -149,13 +166,13 @@ export class ClassList {
     const method = this.database.methods[this.state.get("method")];
     const { hitOfClass, chance } = method;
     const { highestOfClass } = rangeOf(this.database, method);
-    const rows = this.order.map((group, row) => ({
+    const rows = this.listed.map((group, row) => ({
       row,
       hit: group < 0 ? null : hitOfClass[group],
       highest: highestOfClass.get(group) ?? null,
       present: !hidden.has(group),
     }));
-    const height = this.list.firstElementChild.getBoundingClientRect().height * rows.length;
+    const height = (this.list.firstElementChild?.getBoundingClientRect().height ?? 0) * rows.length;
     this.vega.width(this.node.clientWidth).height(height);
     this.vega.signal("chance", chance ?? -1).signal("ink", this.database.marks.ink);
     this.vega.data("classes", rows).runAsync();
