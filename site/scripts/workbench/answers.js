@@ -38,7 +38,7 @@ const SCORING = Math.min(Math.max((navigator.hardwareConcurrency ?? 2) - 1, 1), 
 const MOST_CONTESTS = 500;
 
 /** A search for bins looks at no more shapes and at the best of the bins only, so that it takes seconds. */
-const SEARCHED_SHAPES = 400;
+export const SEARCHED_SHAPES = 400;
 const SEARCHED_BINS = 300;
 /** By whose maps the build searches bins; the promise of another is none. */
 export const FOUND_BY = "tsne";

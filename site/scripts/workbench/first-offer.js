@@ -4,7 +4,7 @@
 import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
-import { FOUND_BY } from "./answers.js";
+import { FOUND_BY, SEARCHED_SHAPES } from "./answers.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database } from "../database/database.js" */
@@ -22,7 +22,8 @@ export function firstOffer(intended, state, answers, desk) {
   const whole = desk.history.current.features.size === bins.features.length;
   const none = `No small set of bins does better than ${whole ? "all features" : "the features in use"} here`;
   const refused = state.get("refused");
-  const found = answers.foundBins({ ...desk.history.current, sample: state.get("sample") });
+  const asked = { ...desk.history.current, sample: state.get("sample") };
+  const found = answers.foundBins(asked);
   if (refused !== null)
     return [
       element(
@@ -33,9 +34,16 @@ export function firstOffer(intended, state, answers, desk) {
       ),
       ...instead(answers, desk),
     ];
+  const { length: shapes } = answers.rows(asked);
   if (found === null)
     return [
-      element("p", {}, intended),
+      element(
+        "p",
+        {},
+        intended,
+        shapes > SEARCHED_SHAPES &&
+          ` A search looks at ${grouped(SEARCHED_SHAPES)} of ${count(shapes, "shape")}; NH is then that of the map of all.`,
+      ),
       offering("Find a few that keep these classes apart", desk.canFind, () => desk.findBins()),
     ];
   const byOther = state.get("projection") === FOUND_BY ? "" : " on a t-SNE map, for which they were searched";
