@@ -97,6 +97,17 @@ def test_a_page_opens_with_all_that_a_site_can_have(visit, page):
     assert len(window.text("main")) > 100
 
 
+def test_what_a_link_names_in_vain_is_said_until_the_reader_goes_on(visit):
+    window = visit("workbench", "index.html#hide=dragon")
+    said = "() => document.getElementById('missing').textContent"
+    sentence = "This link names the class “dragon”, which is not in this database."
+    assert window.evaluate(said) == sentence
+    window.click("#legend button")
+    window.until(f"() => ({said})() === ''")
+    window.evaluate("() => void (location.hash = 'hide=dragon')")
+    window.until(f"(sentence) => ({said})() === sentence", sentence)
+
+
 @pytest.mark.parametrize("file", MAPS)
 def test_a_box_on_a_map_fills_the_tray_and_the_address(visit, file):
     window = visit("bins" if file == "bins.html" else "workbench", file)
