@@ -116,11 +116,19 @@ def clusters_chunk(report: Report) -> Clusters | None:
     }
 
 
+def grouped(number: int) -> str:
+    """A number with its thousands set apart by a narrow space at which no line breaks: "1\u202f870".
+
+    Pages have it as the filter ``grouped``; scripts have the same in ``base/words.js``.
+    """
+    return f"{number:,}".replace(",", "\u202f")
+
+
 def bins_note(projection: Projection) -> str:
     """A sentence on what a map compares where that is a choice of bins; empty for all bins."""
     if projection.bins is None:
         return ""
-    count = "one chosen bin" if len(projection.bins) == 1 else f"{len(projection.bins)} chosen bins"
+    count = "one chosen bin" if len(projection.bins) == 1 else f"{grouped(len(projection.bins))} chosen bins"
     return f" Only {count} of {', '.join(projection.features)} are compared."
 
 

@@ -93,8 +93,7 @@ class TestFirstLook:
         best = subsets_of(site("searched"))[0]
         assert value(page) == f"{best['nh_s']:.3f}"
         assert reading(page).endswith(" ".join(best["features"]))
-        for summary in page.locator("summary").all():
-            summary.click()
+        page.eval_on_selector_all("details", "nodes => nodes.forEach(node => (node.open = true))")
         text = page.locator("main").inner_text()
         for words in ("nearest neighbours", "on average when it joins", "had no say", "dealt out at random"):
             assert words in text
@@ -304,7 +303,17 @@ class TestRankedWithoutLabels:
     def test_an_address_says_what_ranks(self, open_page, site):
         page = open_page("searched", "features.html#rank=continuity")
         assert page.locator("#rank").input_value() == "continuity"
-        assert page.locator("[data-rule=nh]").first.is_hidden()
+        for words in page.locator("[data-rule=nh], [data-rule=best]").all():
+            assert words.is_hidden()
+        assert "NH" not in page.locator(".lead").inner_text()
+        assert (
+            page.locator("#rank-words").inner_text().startswith("The height of a bar: what is alike is near")
+        )
+        page.select_option("#rank", "nh")
+        eventually(page, lambda: page.locator("p[data-rule=nh]").is_visible())
+        assert page.locator("p[data-rule=nh]").inner_text().startswith("The height of a bar is NH")
+        assert page.locator("#rank-words").inner_text() == ""
+        page.select_option("#rank", "continuity")
         assert "a map at random" in page.locator("[data-rule=chance]").inner_text()
 
     @pytest.mark.parametrize("features", [("Gc",), ("Sc", "PFH")])
@@ -347,13 +356,59 @@ class TestOfThePaper:
             eventually(page, lambda: f"rank {place + 1} of 7" in reading(page))  # noqa: B023
             assert f"{hits[place][1]:.3f}" in reading(page)
         page.mouse.move(5, 5)
-        page.click("#panel [data-key=all]")
-        eventually(page, lambda: "own" in reading(page) and "rank" not in reading(page))
+        page.click("#panel [data-key=next]")
         eventually(page, lambda: "features=" in address(page))
         page.go_back()
         eventually(page, lambda: "features=" not in address(page))
         page.go_back()
         eventually(page, lambda: "of 15" in reading(page))
+
+    def test_all_that_is_said_is_of_those_in_view(self, open_page, site):
+        subsets = subsets_of(site("searched with others"))
+        own = [row for row in subsets if "own" not in row["features"]]
+        whole = next(row for row in own if len(row["features"]) == 3)
+        page = open_page("searched with others", "features.html#features=own")
+        everything = next(row for row in subsets if len(row["features"]) == 4)
+        alone = next(row for row in subsets if row["features"] == ["own"])
+
+        def told():
+            return page.locator("#panel .headline").inner_text()
+
+        def against(row, words):
+            return f"{alone['nh_s'] - row['nh_s']:+.3f} against {words}".replace("-", "−")
+
+        lead = page.locator(".lead")
+        assert "one subset of the 4 features" in lead.inner_text()
+        assert against(subsets[0], "the best") in told()
+        assert against(everything, "all features") in told()
+        assert page.locator("#rows li").count() == 4
+        assert page.locator("#trace").inner_text().startswith("Greedy search")
+        assert page.locator("[data-rule=best]").is_visible()
+        page.click("#among label:has([value=paper])")
+        eventually(page, lambda: "one subset of the paper’s 3 features" in lead.inner_text())
+        assert against(own[0], "the best") in told()
+        assert against(whole, "all of the paper’s") in told()
+        # A rank is one among those in view.
+        assert "own" in reading(page)
+        assert "rank" not in reading(page)
+        # No row stays empty; the greedy search and the level of chance are of all subsets.
+        assert sorted(page.locator("#rows li").all_inner_texts()) == ["Gc", "PFH", "Sc"]
+        matrix, bars = page.locator("#feature-matrix svg").bounding_box(), page.locator("#subset-bars")
+        assert matrix["height"] == pytest.approx(3 * 15, abs=3)
+        assert page.locator("#ranking").bounding_box()["height"] == pytest.approx(
+            matrix["height"] + bars.bounding_box()["height"], abs=6
+        )
+        for gone in ("#trace", "#greedy", "[data-rule=best]"):
+            assert page.locator(gone).is_hidden()
+        assert page.locator("#ranking .path circle").count() == 0
+        page.click("#panel [data-key=all]")
+        eventually(page, lambda: " ".join(whole["features"]) in reading(page))
+        # A feature beside them is offered only where it is one of the chosen subset.
+        assert page.locator(".chip").count() == 3
+        page.click("#among label:has([value=all])")
+        eventually(page, lambda: page.locator(".chip").count() == 4)
+        assert page.locator("#rows li").count() == 4
+        assert page.locator("#ranking .path circle").count() > 0
 
     def test_an_address_says_so_and_tables_follow(self, open_page):
         page = open_page("searched with others", "features.html#among=paper")
@@ -513,8 +568,10 @@ class TestStates:
 
     def test_too_many_features(self, open_page, site):
         page = open_page("refused", "features.html")
-        assert "2,047 subsets" in page.locator(".notice").first.inner_text()
         count = len(subsets_of(site("refused")))
+        said = page.locator("#not-all").inner_text()
+        assert "11 features have 2\u202f047 subsets, too many to try" in said
+        assert f"{count} are shown" in said
         assert f"of {count}" in reading(page)
         # Not every neighbour was evaluated.
         chips = page.locator(".chip")
@@ -525,7 +582,7 @@ class TestStates:
 
     def test_a_sample_is_said_and_shown(self, open_page):
         page = open_page("sampled", "features.html")
-        assert "a sample of 24 of the 40 shapes" in page.locator(".lead").inner_text()
+        assert "a sample of 24 of the 40 shapes" in page.locator("#of-a-sample").inner_text()
         assert page.locator("#open-overview").count() == 0
         page.focus(MAP)
         page.keyboard.press("ArrowRight")
@@ -560,6 +617,34 @@ class TestPhone:
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
         page = open_page(name, "index.html#features=Gc Sc PFH", **PHONE)
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+    def test_bars_and_map_come_first_and_the_rest_is_folded(self, open_page):
+        page = open_page("searched with others", "features.html", **PHONE)
+
+        def top(selector):
+            return page.locator(selector).first.bounding_box()["y"]
+
+        assert top("#ranking") < 500
+        assert top("#ranking") < top("#greedy") < top("figure.map .surface") < top("#panel")
+        assert top("figure.map .surface") < 1.2 * 844
+        for part in page.locator("details.folds").all():
+            assert part.get_attribute("open") is None
+        page.click(".effects > summary")
+        assert page.locator("#effect-dots svg").is_visible()
+        names = page.locator(".effects tbody th bdi")
+        assert len(set(names.evaluate_all("nodes => nodes.map(node => node.getClientRects().length)"))) == 1
+        # Each name stands beside its mark.
+        for row in page.locator(".effects tbody .marked").all():
+            mark, name = (row.locator(part).bounding_box() for part in ("i", "bdi"))
+            assert mark["x"] + mark["width"] <= name["x"]
+            assert name["y"] < mark["y"] + mark["height"] < name["y"] + name["height"] + 2
+
+    def test_what_an_address_leads_to_is_open(self, open_page):
+        page = open_page("searched", "features.html", **PHONE)
+        assert not page.locator("#separation > p").first.is_visible()
+        page = open_page("searched", "features.html#separation", **PHONE)
+        assert page.locator("#separation > p").first.is_visible()
+        assert not page.locator(".effects > p").first.is_visible()
 
     def test_a_tap_chooses(self, open_page, site):
         page = open_page("searched", "features.html", **PHONE)

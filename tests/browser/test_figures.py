@@ -123,6 +123,34 @@ def test_a_figure_could_stand_in_a_paper(open_page, tmp_path, view):
         assert found is None, found
 
 
+def test_the_painted_pictures_of_a_bin_and_what_they_show_are_in_its_figure(open_page, tmp_path):
+    page = open_page("bins", "bins.html#bin=Gc:3")
+    root = page.locator("#look")
+    shown = page.locator("#paintings img").count()
+    assert shown >= 2
+    tree = check(save(page, root, "SVG", tmp_path), root)
+    painted = [
+        node for node in tree.iter(f"{SVG}image") if node.get("href").startswith("data:image/webp;base64,")
+    ]
+    # Beside them stands the shape that can be turned.
+    assert len(painted) == shown + 1
+    for word in ("value", "in the bin"):
+        assert words(tree).count(word) >= shown / 2
+
+
+def test_the_letter_of_a_symbol_stands_below_the_line(open_page, tmp_path):
+    page = open_page("bins", "bins.html")
+    root = page.locator(".of-classes")
+    tree = check(save(page, root, "SVG", tmp_path), root)
+    lines = [node for node in tree.findall(f"{SVG}text") if node.get("font-size") == "12px"]
+    (line,) = [node for node in lines if "NH" in "".join(node.itertext())]
+    low, after = line.findall(f"{SVG}tspan")
+    assert low.text == "c"
+    assert float(low.get("dy")) == -float(after.get("dy")) == 3
+    assert "NHc is the share" in re.sub(r"\s+", " ", "".join(line.itertext()))
+    assert "NH_" not in words(tree)
+
+
 def test_a_map_is_drawn_in_shapes_names_and_pictures_with_a_legend_and_its_source(open_page, tmp_path):
     page = open_page("published", "index.html", color_scheme="dark")
     (root, *_) = figures(page)

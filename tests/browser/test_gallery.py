@@ -116,7 +116,7 @@ class TestCopies:
 class TestManyShapes:
     def test_only_what_is_in_sight_is_in_the_page(self, open_page):
         page = open_page("large", "shapes.html")
-        assert page.inner_text("#shown") == "2\u2009000 shapes"
+        assert page.inner_text("#shown") == "2\u202f000 shapes"
         for place in (0, 9000, 1e9):
             page.locator("#scroller").evaluate("(node, place) => { node.scrollTop = place; }", place)
             drawn_again(page)

@@ -112,7 +112,7 @@ def test_a_shape_is_told_whole(shape, tmp_path):
     assert "noopener" in link.get_attribute("rel")
     facts = page.locator(".facts").inner_text()
     for words in (
-        "1\u2009011 faces, 502 vertices",
+        "1\u202f011 faces, 502 vertices",
         "1 × 2 × 11.5",
         "0.120\u00a0% of its diagonal",
         "surface\nwatertight",

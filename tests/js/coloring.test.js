@@ -86,9 +86,9 @@ test("numbers over many powers of ten are told apart by factors", () => {
 
 test("where half would look alike, numbers are told apart by factors, and else by differences", () => {
   const texts = (numbers) => fieldColoring(database, field({ numbers })).legend.ramp.texts;
-  assert.deepEqual(texts([100, 200, 400, 800, 10000]), ["100", "1000", "10\u2009000"]);
+  assert.deepEqual(texts([100, 200, 400, 800, 10000]), ["100", "1000", "10\u202f000"]);
   assert.deepEqual(texts([1, 500, 600, 800, 1000]), ["1", "500.5", "1000"]);
-  assert.deepEqual(texts([0, 200, 400, 800, 10000]), ["0", "5000", "10\u2009000"]);
+  assert.deepEqual(texts([0, 200, 400, 800, 10000]), ["0", "5000", "10\u202f000"]);
 });
 
 test("dates are dates in the legend and in words", () => {

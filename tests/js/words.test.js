@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { percent, percents } from "../../site/scripts/base/words.js";
+import { count, grouped, measured, percent, percents } from "../../site/scripts/base/words.js";
 import { ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
 
 test("shares that differ read differently, with no more digits than that takes", () => {
@@ -17,6 +17,20 @@ test("shares that differ read differently, with no more digits than that takes",
   assert.deepEqual(percents(0.5, 0.5 + 1e-9), ["50\u00a0%", "50\u00a0%"]);
   for (const share of [0, 1e-6, 0.001, 0.0995, 0.5, 1])
     assert.ok(Number.parseFloat(percent(share).replace("<", "")) <= 100);
+});
+
+test("thousands are set apart, whatever stands behind the point", () => {
+  assert.deepEqual([0, 999, 1000, 1870, 1234567].map(grouped), [
+    "0",
+    "999",
+    "1\u202f000",
+    "1\u202f870",
+    "1\u202f234\u202f567",
+  ]);
+  assert.equal(grouped(12345.6789), "12\u202f345.6789");
+  assert.equal(grouped(-1250), "-1\u202f250");
+  assert.equal(count(1250, "value"), "1\u202f250 values");
+  assert.equal(measured(-1254.3), "−1\u202f250");
 });
 
 test("what can be pictured goes first unless something else says much more", () => {

@@ -1,5 +1,7 @@
 // The search among the meshes.
 
+import { grouped } from "../base/words.js";
+
 export function watchMeshes() {
   const meshes = document.getElementById("meshes");
   const field = document.getElementById("find-mesh");
@@ -16,6 +18,6 @@ export function watchMeshes() {
       row.hidden = !words.every((/** @type {string} */ word) => text.includes(word));
       if (!row.hidden) found += 1;
     }
-    status.textContent = field.value.trim() === "" ? "" : `${found} of ${rows.length}`;
+    status.textContent = field.value.trim() === "" ? "" : `${grouped(found)} of ${grouped(rows.length)}`;
   });
 }

@@ -5,6 +5,7 @@
 
 import { chunk } from "./chunks.js";
 import { element, said, svg } from "./dom.js";
+import { drawnSymbols } from "./figures.js";
 import { onPaper } from "./paper.js";
 import { fileName, saveFile, xmlText } from "./saving.js";
 import { snapshot, toldOf } from "./snapshot.js";
@@ -12,6 +13,8 @@ import { snapshot, toldOf } from "./snapshot.js";
 /** Around a figure, and between its parts, in pixels. */
 const MARGIN = 20;
 const LINE = 18;
+/** The size of what is said of a figure, in pixels. */
+const TOLD = 12;
 /** Pixels of a PNG for one of the page, and the most on a side that browsers draw. */
 const DENSITY = 3;
 const LONGEST = 8000;
@@ -105,7 +108,11 @@ async function figureText(root) {
       ),
     ),
     told.map((line, place) =>
-      svg("text", { ...FONT, x: MARGIN, y: below + 10 + 16 * place, "font-size": "12px" }, line),
+      svg(
+        "text",
+        { ...FONT, x: MARGIN, y: below + 10 + 16 * place, "font-size": `${TOLD}px` },
+        drawnSymbols(line, TOLD),
+      ),
     ),
     node,
     source.map((line, place) =>

@@ -1,6 +1,6 @@
-// How the Workbench writes NH and its changes.
+// How NH and its changes are written.
 
-import { element } from "./dom.js";
+import { element, svg } from "./dom.js";
 import { figure } from "./words.js";
 
 /**
@@ -24,4 +24,32 @@ export function symbol() {
 export function changeWords(value) {
   const shown = figure(Math.abs(value));
   return shown === "0.000" ? "unchanged" : `${value < 0 ? "down" : "up"} ${shown}`;
+}
+
+/** How NH of a map and of a class stand in a caption, which is plain text until it is drawn or shown. */
+const SYMBOL = /(?<=NH)_([sc])\b/;
+
+/** How far below the line their letter stands, in parts of the size of the text. */
+const BELOW = 0.25;
+const SMALLER = 0.7;
+
+/**
+ * A line of a caption, to be shown on the page.
+ * @param {string} line
+ */
+export function withSymbols(line) {
+  return line.split(SYMBOL).map((part, place) => (place % 2 === 1 ? element("sub", {}, part) : part));
+}
+
+/**
+ * The same to be drawn in a text of some size, in pixels.
+ * @param {string} line
+ * @param {number} size
+ */
+export function drawnSymbols(line, size) {
+  const below = BELOW * size;
+  return line.split(SYMBOL).map((part, place) => {
+    if (place % 2 === 1) return svg("tspan", { dy: below, "font-size": `${SMALLER * size}px` }, part);
+    return place === 0 || part === "" ? part : svg("tspan", { dy: -below }, part);
+  });
 }

@@ -2,6 +2,7 @@
 
 import { chartsAtRest } from "./chart.js";
 import { element, remeasure, said } from "./dom.js";
+import { withSymbols } from "./figures.js";
 import { drawnWithin, toldOnPaper } from "./snapshot.js";
 import { currentTheme, restyle } from "./theme.js";
 
@@ -43,7 +44,7 @@ export function watchPaper() {
    */
   const tell = (below, text) => {
     if (text === "" || below.clientWidth === 0) return;
-    const node = element("p", { class: "told" }, text);
+    const node = element("p", { class: "told" }, withSymbols(text));
     below.append(node);
     drawn.push(node);
   };

@@ -91,8 +91,8 @@ function captionOf(figure) {
   const caption = [...figure.querySelectorAll(".caption")].find((node) => node.closest("[data-figure]") === figure);
   if (caption === undefined) return "";
   const copy = /** @type {Element} */ (caption.cloneNode(true));
-  // A caption is plain text, in which "NH" has no small letter below it.
-  for (const node of copy.querySelectorAll(".on-screen, .save-figure, sub")) node.remove();
+  for (const node of copy.querySelectorAll(".on-screen, .save-figure")) node.remove();
+  for (const node of copy.querySelectorAll("sub")) node.prepend("_");
   return (copy.textContent ?? "").replace(/\s+/g, " ").trim();
 }
 

@@ -1,6 +1,7 @@
 // The charts as tables: every figure a page draws, to read, and for screen readers.
 
 import { element } from "./dom.js";
+import { grouped } from "./words.js";
 
 /** @import { Children } from "./dom.js" */
 
@@ -29,6 +30,7 @@ export function watchTables(content) {
 }
 
 /**
+ * Numbers that come as such are counts.
  * @param {string} title
  * @param {Children[]} columns
  * @param {Children[][]} rows
@@ -55,7 +57,7 @@ export function table(title, columns, rows) {
           "tr",
           {},
           element("th", { scope: "row", dir: "auto" }, first),
-          rest.map((value) => element("td", {}, value)),
+          rest.map((value) => element("td", {}, typeof value === "number" ? grouped(value) : value)),
         ),
       ),
     ),

@@ -29,11 +29,12 @@ export function numberWord(number) {
 }
 
 /**
- * Thousands set apart by a thin space.
+ * Thousands set apart by a narrow space at which no line breaks, as `grouped` of `pages/base.py` does.
  * @param {number} number
  */
 export function grouped(number) {
-  return String(number).replace(/\B(?=(\d{3})+$)/g, "\u2009");
+  const [whole, ...decimals] = String(number).split(".");
+  return [whole.replace(/\B(?=(\d{3})+$)/g, "\u202f"), ...decimals].join(".");
 }
 
 /**
@@ -72,7 +73,7 @@ export function wholePercent(share) {
  * @param {number} value
  */
 export function measured(value) {
-  return String(Number(value.toPrecision(3))).replace("-", "−");
+  return grouped(Number(value.toPrecision(3))).replace("-", "−");
 }
 
 /** Digits beyond those of `percent` at which two shares are told as the same. */
@@ -96,6 +97,14 @@ export function percents(...shares) {
  */
 export function listed(words) {
   return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
+}
+
+/**
+ * The beginning of a sentence as it stands within one.
+ * @param {string} words
+ */
+export function lowered(words) {
+  return words.slice(0, 1).toLowerCase() + words.slice(1);
 }
 
 /**

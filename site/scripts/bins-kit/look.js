@@ -4,7 +4,7 @@ import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count } from "../base/words.js";
+import { count, lowered } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 import { UNPAINTED } from "./on-surface.js";
@@ -275,9 +275,4 @@ export function shapeLine(database, bins, column, shape) {
     element("bdi", {}, database.labelled ? database.className(group) : database.names[shape]),
     element("span", { class: "quiet" }, `${bins.telling(column)(value)}${bins.isShare(column) ? " in the bin" : ""}`),
   ].filter(Boolean);
-}
-
-/** @param {string} text */
-function lowered(text) {
-  return text.charAt(0).toLocaleLowerCase() + text.slice(1);
 }

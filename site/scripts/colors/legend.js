@@ -2,6 +2,7 @@
 // the classes in such colours.
 
 import { element, swatch } from "../base/dom.js";
+import { grouped } from "../base/words.js";
 import { stripesOf } from "../map/coloring.js";
 
 /** @import { State } from "../base/state.js" */
@@ -50,7 +51,7 @@ function buttonOf({ name, look, shapes }, state) {
     },
     swatch(look.symbol, look.color),
     element("span", { class: "name", dir: "auto" }, name),
-    element("span", { class: "size" }, String(shapes.length)),
+    element("span", { class: "size" }, grouped(shapes.length)),
   );
 }
 

@@ -1,7 +1,7 @@
 // Where a reader chooses the two groups: a list of what there is on each side, and a field to find shapes by words.
 
 import { element } from "../base/dom.js";
-import { count } from "../base/words.js";
+import { count, grouped } from "../base/words.js";
 import { isSame, nameOf } from "./groups.js";
 
 /** @import { GroupSpec } from "../addresses/compare.js" */
@@ -55,7 +55,7 @@ export class Chooser {
     const { database } = this;
     const classes = database.classes.map((name, group) => ({
       spec: { kind: /** @type {const} */ ("class"), group },
-      text: `${name} (${database.sizes.get(group) ?? 0})`,
+      text: `${name} (${grouped(database.sizes.get(group) ?? 0)})`,
     }));
     const found = clusters === null || clusters.standIn ? [] : clusters.clusters;
     return [
@@ -64,7 +64,7 @@ export class Chooser {
         "Clusters, made from the features alone",
         found.map(({ name, size }) => ({
           spec: { kind: /** @type {const} */ ("cluster"), name },
-          text: `${name} (${size})`,
+          text: `${name} (${grouped(size)})`,
         })),
       ],
     ];

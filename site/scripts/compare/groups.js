@@ -1,7 +1,7 @@
 // The two groups: who belongs to them, what they are called, and how they are marked.
 
 import { swatch } from "../base/dom.js";
-import { shortened } from "../base/words.js";
+import { grouped, shortened } from "../base/words.js";
 import { findWords, searchTexts } from "../database/search.js";
 
 /** @import { GroupSpec } from "../addresses/compare.js" */
@@ -139,7 +139,7 @@ export function nameOf(spec, database, other = null) {
   if (spec.kind === "search") return `“${shortened(spec.text, LONGEST)}”`;
   if (spec.kind === "rest") return "the other shapes";
   if (spec.shapes.size === 1) return shortened(database.names[[...spec.shapes][0]], LONGEST);
-  return other?.kind === "shapes" ? `${spec.shapes.size} selected shapes` : "the selected shapes";
+  return other?.kind === "shapes" ? `${grouped(spec.shapes.size)} selected shapes` : "the selected shapes";
 }
 
 /**

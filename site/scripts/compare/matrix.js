@@ -5,7 +5,7 @@ import { galleryOf } from "../addresses/shapes.js";
 import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, shortened, wholePercent } from "../base/words.js";
+import { count, grouped, shortened, wholePercent } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
@@ -296,7 +296,7 @@ export class Matrix {
               ? "No shape of this class has another one of it among its neighbours."
               : "No shape of the one is a neighbour of a shape of the other."
             : [
-                element("b", {}, `${pairs.length} of ${count(database.sizes.get(row) ?? 0, "shape")}`),
+                element("b", {}, `${grouped(pairs.length)} of ${count(database.sizes.get(row) ?? 0, "shape")}`),
                 ` of `,
                 element("bdi", {}, database.className(row)),
                 ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? `of ${pairs.length === 1 ? "its" : "their"} own class` : "of "}`,

@@ -113,7 +113,7 @@ export class Outliers {
     document
       .getElementById("outlier-words")
       .replaceChildren(
-        element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${ranked.length}`),
+        element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${grouped(ranked.length)}`),
         closer > 1 ? " are closer to another class than to their own." : " is closer to another class than to its own.",
       );
     const shown = ranked.slice(0, this.shown);

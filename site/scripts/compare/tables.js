@@ -1,7 +1,7 @@
 // What the page shows, as tables.
 
 import { table } from "../base/tables.js";
-import { figure, percent } from "../base/words.js";
+import { figure, grouped, percent } from "../base/words.js";
 import { highestOf } from "../database/hit-range.js";
 import { mean } from "./distribution.js";
 import { signed } from "./outliers.js";
@@ -64,7 +64,7 @@ function ofGroups(view) {
   ];
   return [
     table(
-      `How much of what shapes differ in goes with the group: ${a.name} (${a.shapes.length}) and ${b.name} (${b.shapes.length})`,
+      `How much of what shapes differ in goes with the group: ${a.name} (${grouped(a.shapes.length)}) and ${b.name} (${grouped(b.shapes.length)})`,
       ["Feature", "Share", "Chance, mean", "Chance, one in 100", "Deals that reach it"],
       [
         feature("all features", apart.all),

@@ -1,5 +1,6 @@
 // What shapes can be grouped, filtered and sorted by: the database's own fields, and the neighbourhood hit on each map.
 
+import { grouped } from "../base/words.js";
 import { highestOf } from "./hit-range.js";
 
 /** @import { Database } from "./database.js" */
@@ -176,7 +177,8 @@ export function numberText(number, { hit = false, date = false } = {}) {
       .toExponential(2)
       .replace(/\.?0+e/, "e")
       .replace("e+", "e");
+  // Four digits may be those of a year.
   if (Number.isInteger(number) && size < 10000) return String(number);
   const rounded = size >= 1000 ? Math.round(number) : Number(number.toPrecision(4));
-  return size >= 10000 ? String(rounded).replace(/\B(?=(\d{3})+$)/g, "\u2009") : String(rounded);
+  return size >= 10000 ? grouped(rounded) : String(rounded);
 }

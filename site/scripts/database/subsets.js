@@ -66,8 +66,24 @@ export class Subsets {
    * @param {Among} among
    */
   isAmong(place, among) {
-    const { paper } = this.data;
-    return among === "all" || paper === null || this.features.every((_, f) => paper.includes(f) || !this.has(place, f));
+    return this.features.every((_, feature) => this.isOf(feature, among) || !this.has(place, feature));
+  }
+
+  /**
+   * Whether a feature may be of such subsets.
+   * @param {number} feature
+   * @param {Among} among
+   */
+  isOf(feature, among) {
+    return among === "all" || this.data.paper === null || this.data.paper.includes(feature);
+  }
+
+  /**
+   * The place of all features of such subsets.
+   * @param {Among} among
+   */
+  whole(among) {
+    return /** @type {number} */ (this.find(this.features.filter((_, feature) => this.isOf(feature, among))));
   }
 
   /**

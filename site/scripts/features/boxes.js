@@ -2,6 +2,7 @@
 
 import { drawChart } from "../base/chart.js";
 import { element } from "../base/dom.js";
+import { grouped } from "../base/words.js";
 import { classMark } from "../colors/legend.js";
 import { hitRange } from "../database/hit-range.js";
 
@@ -89,7 +90,7 @@ export class Boxes {
     const { subsets } = this;
     const among = this.state.get("among");
     const boxes = subsets.boxes(among);
-    document.getElementById("maps-count").textContent = String(subsets.ranked(undefined, among).length);
+    document.getElementById("maps-count").textContent = grouped(subsets.ranked(undefined, among).length);
     const hits = subsets.data.hitOfClass[this.state.get("chosen")];
     const { highestOfClass } = hitRange(
       subsets.data.rows === null ? this.database.groups : subsets.data.rows.map((row) => this.database.groups[row]),

@@ -1,7 +1,7 @@
 // The chosen subset in figures, and chips that lead to each neighbouring subset.
 
 import { element, focused } from "../base/dom.js";
-import { figure } from "../base/words.js";
+import { capitalised, figure } from "../base/words.js";
 import { MEASURES, measuresOf } from "../map/measures.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
@@ -40,7 +40,9 @@ export class Panel {
         element(
           "div",
           { class: "chips", role: "group", "aria-label": "Features of the subset" },
-          subsets.data.order.map((feature) => this.#chip(place, feature)),
+          subsets.data.order
+            .filter((feature) => subsets.isOf(feature, this.state.get("among")) || subsets.has(place, feature))
+            .map((feature) => this.#chip(place, feature)),
         ),
         this.#moves(place),
         this.#truth(place),
@@ -60,6 +62,15 @@ export class Panel {
     return this.subsets.measures.find(({ name }) => name === this.state.get("rank"));
   }
 
+  /**
+   * All features of what is ranked: the place of their subset, and how they are called.
+   * @returns {[number, string]}
+   */
+  #whole() {
+    const among = this.state.get("among");
+    return [this.subsets.whole(among), among === "all" ? "all features" : "all of the paper’s"];
+  }
+
   #hint() {
     const measure = this.#measure;
     if (measure === undefined)
@@ -75,7 +86,10 @@ export class Panel {
   /** @param {number} place */
   #headline(place) {
     const { subsets } = this;
-    const { hit } = subsets.data;
+    const { hit, chanceBest } = subsets.data;
+    const among = this.state.get("among");
+    const [best] = subsets.ranked(undefined, among);
+    const [whole, words] = this.#whole();
     /**
      * @param {number} one
      * @param {number} other
@@ -94,15 +108,15 @@ export class Panel {
       element(
         "span",
         { class: "beside" },
-        place === 0
+        place === best
           ? [
-              "the best of all, chosen by the labels; ",
-              element("b", {}, figure(subsets.data.chanceBest)),
-              " with random ones",
+              `the best of ${among === "all" ? "all" : "these"}, chosen by the labels`,
+              among === "all" &&
+                chanceBest !== null && ["; ", element("b", {}, figure(chanceBest)), " with random ones"],
             ]
-          : against(0, "the best"),
+          : against(best, "the best"),
         element("br"),
-        place === subsets.everything ? "all features" : against(subsets.everything, "all features"),
+        place === whole ? words : against(whole, words),
       ),
     );
   }
@@ -181,11 +195,12 @@ export class Panel {
         words,
       );
     const position = order.indexOf(place);
+    const [whole, words] = this.#whole();
     return element(
       "div",
       { class: "moves" },
       measure && move("best", "Best", order[0]),
-      move("all", "All features", this.subsets.everything),
+      move("all", capitalised(words), whole),
       move("previous", measure ? "‹ Better" : "‹ Previous", order[position - 1]),
       move("next", measure ? "Worse ›" : "Next ›", order[position + 1]),
     );

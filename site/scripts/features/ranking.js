@@ -3,7 +3,7 @@
 import { drawChart } from "../base/chart.js";
 import { element, pause, svg } from "../base/dom.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, grouped, lowered } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { MEASURES } from "../map/measures.js";
 
@@ -51,17 +51,15 @@ export class Ranking {
     this.scroll = this.surface.parentElement;
     this.reading = document.getElementById("reading");
     toldAs(this.surface.closest("[data-figure]"), () => ({
-      words: `${count(this.order.length, "subset")} of ${count((this.among === "paper" ? subsets.data.paper : null)?.length ?? subsets.features.length, "feature")}${this.measure ? `, by ${measureTitle(this.measure.name)}, the best first` : ""}: a column a subset, with a mark for each of its features.`,
+      words: `${count(this.order.length, "subset")} of ${count(this.features.length, "feature")}${this.measure ? `, by ${this.measure.name === "nh" ? "NH_s" : measureTitle(this.measure.name)}, the best first` : ""}: a column a subset, with a mark for each of its features.`,
     }));
     this.top = subsets.measures.length > 0 ? BARS : 0;
-    this.height = this.top + ROW * subsets.features.length;
     this.overlay = svg("svg", { class: "overlay", "aria-hidden": "true" });
     this.levels = this.overlay.appendChild(svg("g", { class: "levels" }));
-    this.pointed = this.overlay.appendChild(svg("rect", { class: "column pointed", y: 0, height: this.height }));
-    this.chosen = this.overlay.appendChild(svg("rect", { class: "column chosen", y: 0.5, height: this.height - 1 }));
+    this.pointed = this.overlay.appendChild(svg("rect", { class: "column pointed", y: 0 }));
+    this.chosen = this.overlay.appendChild(svg("rect", { class: "column chosen", y: 0.5 }));
     this.path = this.overlay.appendChild(svg("g", { class: "path" }));
     this.surface.append(this.overlay);
-    this.surface.style.height = `${this.height}px`;
     if (subsets.labelled) document.getElementById("chance-best").textContent = figure(subsets.data.chanceBest);
     this.#offer();
     this.#rank();
@@ -75,6 +73,17 @@ export class Ranking {
 
   get among() {
     return this.state.get("among");
+  }
+
+  /** The features of what is ranked, as rows from above. */
+  get features() {
+    const { subsets, among } = this;
+    return subsets.data.order.filter((feature) => subsets.isOf(feature, among));
+  }
+
+  /** Of the bars and the rows of features below them. */
+  get height() {
+    return this.top + ROW * this.features.length;
   }
 
   /** What subsets can be ranked by. */
@@ -94,15 +103,17 @@ export class Ranking {
     this.position = [];
     for (const [position, place] of this.order.entries()) this.position[place] = position;
     for (const input of document.querySelectorAll("#among input")) input.checked = input.value === this.among;
+    for (const node of document.querySelectorAll("[data-among]")) node.hidden = node.dataset.among !== this.among;
     if (measure === undefined) return;
     const labelled = measure.name === "nh";
     document.getElementById("rank").value = measure.name;
     document.getElementById("rank-words").textContent =
       measure.name === "nh"
         ? ""
-        : `Ranked by ${MEASURES[measure.name].title.toLowerCase()}. ${MEASURES[measure.name].meaning}. The map of each subset is held to distances by its own features: whether these are worth comparing, it does not say.`;
-    for (const rule of document.querySelectorAll("[data-rule]"))
-      rule.hidden = rule.dataset.rule === "nh" ? !labelled : measure.chance === null;
+        : `The height of a bar: ${lowered(MEASURES[measure.name].meaning)}. The map of each subset is held to distances by its own features: whether these are worth comparing, it does not say.`;
+    /** @type {Record<string, boolean>} */
+    const known = { nh: labelled, best: labelled && this.chanceBest !== null, chance: measure.chance !== null };
+    for (const rule of document.querySelectorAll("[data-rule]")) rule.hidden = !known[rule.dataset.rule ?? ""];
     document.getElementById("chance").textContent = figure(measure.chance);
     document.querySelector("[data-rule=chance] > span").textContent = labelled ? "random labels" : "a map at random";
   }
@@ -138,21 +149,13 @@ export class Ranking {
       "svg",
     );
     this.matrix?.finalize();
-    this.matrix = matrix.height(ROW * subsets.data.order.length);
+    this.matrix = matrix;
     if (subsets.measures.length > 0) {
       const bars = await drawChart(document.getElementById("subset-bars"), charts.bars, this.marks().config, "svg");
       this.bars?.finalize();
       this.bars = bars.signal("bar", this.marks().bar).height(BARS).data("subsets", this.#rows());
     }
-    document
-      .getElementById("rows")
-      .replaceChildren(
-        ...subsets.data.order.map((feature) =>
-          element("li", { dir: "auto", title: subsets.features[feature] }, subsets.features[feature]),
-        ),
-      );
-    this.step = 0;
-    await this.resize();
+    await this.#lay();
   }
 
   #rows() {
@@ -167,6 +170,23 @@ export class Ranking {
     this.#rank();
     if (!this.step) return;
     this.bars?.data("subsets", this.#rows());
+    await this.#lay();
+  }
+
+  /** The rows of the features, and all that has their height. */
+  async #lay() {
+    const { subsets, features, height } = this;
+    this.matrix.height(ROW * features.length);
+    this.surface.style.height = `${height}px`;
+    this.pointed.setAttribute("height", height);
+    this.chosen.setAttribute("height", height - 1);
+    document
+      .getElementById("rows")
+      .replaceChildren(
+        ...features.map((feature) =>
+          element("li", { dir: "auto", title: subsets.features[feature] }, subsets.features[feature]),
+        ),
+      );
     this.step = 0;
     await this.resize();
   }
@@ -206,7 +226,7 @@ export class Ranking {
    */
   #cells(wide) {
     const { subsets, step } = this;
-    return subsets.data.order.map((feature, row) => {
+    return this.features.map((feature, row) => {
       const [top, foot] = [row * ROW, (row + CELL) * ROW];
       const coordinates = this.order
         .filter((place) => subsets.has(place, feature))
@@ -227,9 +247,14 @@ export class Ranking {
     });
   }
 
+  /** What the best of the maps in view reaches with random labels; null where that is not known. */
+  get chanceBest() {
+    return this.among === "all" ? this.subsets.data.chanceBest : null;
+  }
+
   #level() {
     const { measure } = this;
-    const { chanceBest, highest } = this.subsets.data;
+    const { highest } = this.subsets.data;
     /**
      * @param {number | null} value
      * @param {string} kind
@@ -245,7 +270,7 @@ export class Ranking {
         rule(0.75, "grid"),
         rule(1, "grid"),
         rule(measure.chance, "rule"),
-        labelled && rule(chanceBest, "rule strong"),
+        labelled && rule(this.chanceBest, "rule strong"),
         labelled && isBelowOne(highest) && rule(highest, "rule most"),
       ].filter(Boolean),
     );
@@ -297,7 +322,7 @@ export class Ranking {
     const rank =
       measure === undefined
         ? ""
-        : `Rank ${this.position[place] + 1} of ${this.order.length}, ${measureTitle(measure.name)} ${figure(measure.values?.[place])}: `;
+        : `Rank ${grouped(this.position[place] + 1)} of ${grouped(this.order.length)}, ${measureTitle(measure.name)} ${figure(measure.values?.[place])}: `;
     return `${rank}${this.subsets.names(place).join(", ")}`;
   }
 
@@ -318,7 +343,13 @@ export class Ranking {
     /** @param {SubsetMeasure} by */
     const scored = ({ name, values }) => [
       place in this.position &&
-        element("span", {}, "rank ", element("b", {}, String(this.position[place] + 1)), ` of ${this.order.length}`),
+        element(
+          "span",
+          {},
+          "rank ",
+          element("b", {}, grouped(this.position[place] + 1)),
+          ` of ${grouped(this.order.length)}`,
+        ),
       element(
         "span",
         {},
@@ -355,11 +386,10 @@ export class Ranking {
     if (!this.step || words === null) return;
     this.path.replaceChildren();
     words.replaceChildren();
-    if (!greedy) return;
+    // It went among all subsets.
+    if (!greedy || this.among !== "all") return;
     const { hit } = this.subsets.data;
-    const places = greedy.path
-      .filter((place) => place in this.position)
-      .map((place) => [this.#x(place), this.#y(this.measure?.values?.[place])]);
+    const places = greedy.path.map((place) => [this.#x(place), this.#y(this.measure?.values?.[place])]);
     // Numbers that would touch the one before are left out; the words below have them all.
     const numbered = places.filter(([x], index) => index === 0 || Math.abs(x - places[index - 1][0]) >= CLOSEST);
     this.path.append(
@@ -369,7 +399,7 @@ export class Ranking {
         svg(
           "text",
           { x, y: Math.max(y - 8, 10), "text-anchor": "middle" },
-          String(greedy.path.findIndex((place) => place in this.position && this.#x(place) === x) + 1),
+          String(greedy.path.findIndex((place) => this.#x(place) === x) + 1),
         ),
       ),
     );
@@ -392,7 +422,7 @@ export class Ranking {
     words.append(
       `Greedy search, s = ${s}: `,
       .../** @type {any[]} */ (steps).flat().filter(Boolean),
-      ` with ${count(greedy.runs, "map")} of ${this.subsets.count}; ${behind > 0 ? `rank ${last + 1}, ${figure(behind)} below the best.` : "the best of all."}`,
+      ` with ${count(greedy.runs, "map")} of ${grouped(this.subsets.count)}; ${behind > 0 ? `rank ${grouped(last + 1)}, ${figure(behind)} below the best.` : "the best of all."}`,
     );
   }
 }

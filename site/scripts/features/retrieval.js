@@ -4,7 +4,7 @@ import { chunk } from "../base/chunks.js";
 import { dataLink, element, focused } from "../base/dom.js";
 import { table } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, grouped } from "../base/words.js";
 import { Curves, lineMark } from "./curves.js";
 import { Ratings } from "./ratings.js";
 
@@ -102,7 +102,7 @@ class RetrievalSection {
         ["Class", "Shapes", ...titles],
         ratings
           .each(choices[0].rating)
-          .map((scores, place) => [this.#className(place), String(queries[place]), ...scores.map(figure)]),
+          .map((scores, place) => [this.#className(place), grouped(queries[place]), ...scores.map(figure)]),
       ),
       element(
         "p",
@@ -226,7 +226,7 @@ class RetrievalSection {
         "tr",
         {},
         element("th", { scope: "row", dir: "auto" }, this.#className(place)),
-        element("td", { class: "number" }, String(queries[place])),
+        element("td", { class: "number" }, grouped(queries[place])),
         scores.map((value) => element("td", { class: "number" }, figure(value))),
       ),
     );

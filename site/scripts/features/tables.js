@@ -2,7 +2,7 @@
 
 import { dataLink, element } from "../base/dom.js";
 import { table } from "../base/tables.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, grouped } from "../base/words.js";
 import { shapesTable } from "../map/tables.js";
 import { measureTitle } from "./ranking.js";
 
@@ -51,7 +51,7 @@ export function subsetTables(database, subsets, state, retrieval) {
       "Subsets",
       [subsets.labelled ? "Rank" : "Number", ...subsets.measures.map(({ name }) => measureTitle(name)), "Features"],
       places.map((place, position) => [
-        String(position + 1),
+        grouped(position + 1),
         ...subsets.measures.map(({ values }) => figure(values?.[place])),
         names(place),
       ]),

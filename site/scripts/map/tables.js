@@ -2,7 +2,7 @@
 
 import { dataLink, element } from "../base/dom.js";
 import { table } from "../base/tables.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, grouped } from "../base/words.js";
 import { highestOf, rangeOf } from "../database/hit-range.js";
 
 /** @import { State } from "../base/state.js" */
@@ -34,7 +34,7 @@ export function mapTables(database, state, coloring = null) {
         ["Class", "Shapes", "NH", "NH at most"],
         groups.map((group) => [
           database.className(group),
-          String(database.sizes.get(group)),
+          grouped(database.sizes.get(group) ?? 0),
           figure(method.hitOfClass[group]),
           figure(rangeOf(database, method).highestOfClass.get(group)),
         ]),

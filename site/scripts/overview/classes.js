@@ -4,7 +4,7 @@ import { drawChart } from "../base/chart.js";
 import { element, focused, watchSize } from "../base/dom.js";
 import { unstep } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, figure, wholePercent } from "../base/words.js";
+import { count, figure, grouped, wholePercent } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 import { drawShepard, tellFaith } from "./faith.js";
@@ -31,7 +31,7 @@ export class ClassList {
       const { title, neighbours } = database.methods[state.get("method")];
       const kind = database.data.standIn ? "cluster" : "class";
       return {
-        words: `Neighbourhood hit (NH) of each ${kind} on the ${title} map of ${count(database.count, "shape")}: of a shape’s ${count(neighbours, "nearest neighbour")}, the share that is of its ${kind}, on average.`,
+        words: `Neighbourhood hit (NH_c) of each ${kind} on the ${title} map of ${count(database.count, "shape")}: of a shape’s ${count(neighbours, "nearest neighbour")}, the share that is of its ${kind}, on average.`,
       };
     });
     this.asked = document.getElementById("how-good");
@@ -135,7 +135,7 @@ export class ClassList {
       classMark(database, coloring, group),
       element("span", { class: "name", dir: "auto" }, name),
       coloring && makeupOf(database, coloring, group),
-      element("span", { class: "size" }, String(database.sizes.get(group) ?? 0)),
+      element("span", { class: "size" }, grouped(database.sizes.get(group) ?? 0)),
     );
   }
 

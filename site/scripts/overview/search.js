@@ -1,6 +1,6 @@
 // Find shapes as one types: a list with pictures suggests some, and the map marks all.
 
-import { count } from "../base/words.js";
+import { count, grouped } from "../base/words.js";
 import { findWords, searchTexts } from "../database/search.js";
 import { findShapes } from "../database/shape-finder.js";
 
@@ -56,7 +56,7 @@ export class Search {
     const found = findWords(texts, query);
     this.select.hidden = false;
     this.select.disabled = found.length === 0;
-    this.select.textContent = found.length === 0 ? "none found" : `Select ${found.length}`;
+    this.select.textContent = found.length === 0 ? "none found" : `Select ${grouped(found.length)}`;
     this.announce(`${count(found.length, "shape")} found`);
     this.state.set({ matches: new Set(found) });
   }

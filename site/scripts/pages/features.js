@@ -12,6 +12,7 @@ import { Database } from "../database/database.js";
 import { Subsets } from "../database/subsets.js";
 import { Boxes } from "../features/boxes.js";
 import { ChosenMap, nothingShown } from "../features/chosen-map.js";
+import { foldParts } from "../features/controls.js";
 import { dotCharts } from "../features/dot-charts.js";
 import { hues, paintHues } from "../features/hues.js";
 import { Panel } from "../features/panel.js";
@@ -22,6 +23,7 @@ import { carryView } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
+  foldParts();
   const [overview, search] = await Promise.all([chunk("overview"), chunk("search")]);
   const [subsets, database] = [new Subsets(search), new Database(overview, currentTheme)];
   const { state, written, announce, ready } = await openPage({
@@ -39,9 +41,7 @@ async function main() {
   });
   watchTables(() => subsetTables(database, subsets, state, retrieval));
   paintHues(marks());
-  await pause();
   await ranking.start();
-  await pause();
   // The map comes with the largest chunk of the page, so it waits for what is above it.
   const map = new ChosenMap(database, subsets, state, announce);
   new Tray(database, state, { open: (shape) => map.toggle(shape), zoom: () => map.gestures.zoomToSelection() });

@@ -140,6 +140,5 @@ function measured(value) {
   const rounded = Number(value.toPrecision(DIGITS));
   if (rounded !== 0 && (Math.abs(rounded) < 1e-3 || Math.abs(rounded) >= 1e7))
     return rounded.toExponential().replace("-", "−");
-  const [whole, ...parts] = String(rounded).split(".");
-  return [grouped(Number(whole)), ...parts].join(".");
+  return grouped(rounded);
 }

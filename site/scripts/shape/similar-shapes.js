@@ -163,7 +163,7 @@ export class SimilarShapes extends Comparing {
       words.push(
         "Compared by ",
         element("bdi", {}, names.join(", ")),
-        choice.columns.length > MOST_NAMED ? ` and ${choice.columns.length - MOST_NAMED} more bins. ` : ". ",
+        choice.columns.length > MOST_NAMED ? ` and ${count(choice.columns.length - MOST_NAMED, "more bin")}. ` : ". ",
       );
     }
     if (own >= 0 && database.separable) {

@@ -4,7 +4,7 @@ import { compareAddress } from "../addresses/compare.js";
 import { galleryOf } from "../addresses/shapes.js";
 import { element, focused, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
-import { count, shortened } from "../base/words.js";
+import { count, grouped, shortened } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
 import { follow } from "./carry.js";
 import { saveCsv, saveJson } from "./export.js";
@@ -113,10 +113,10 @@ export class Tray {
                 {},
                 swatch(database.symbol(group), database.color(group)),
                 `${shortened(database.className(group), 20)} `,
-                element("b", {}, String(number)),
+                element("b", {}, grouped(number)),
               ),
             ),
-          census.length > MOST_CLASSES && element("span", {}, `and ${census.length - MOST_CLASSES} more`),
+          census.length > MOST_CLASSES && element("span", {}, `and ${grouped(census.length - MOST_CLASSES)} more`),
         ),
       ways &&
         element(

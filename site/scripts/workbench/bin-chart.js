@@ -469,7 +469,7 @@ export class BinChart {
     this.plot.reveal(this.plot.placeOf[column]);
     this.point(column);
     this.announce(
-      `${this.bins.names[column]}, rank ${this.rankOf[column]} of ${this.ranking.length}, score ${figure(this.scores[column])}${this.chosen.has(column) ? ", chosen" : ""}`,
+      `${this.bins.names[column]}, rank ${grouped(this.rankOf[column])} of ${grouped(this.ranking.length)}, score ${figure(this.scores[column])}${this.chosen.has(column) ? ", chosen" : ""}`,
     );
   }
 

@@ -1,5 +1,6 @@
 // Pointer, wheel, fingers and keys on the bars.
 
+import { count } from "../base/words.js";
 import { Brush } from "../map/brush.js";
 
 /** @import { Fingers, Place } from "../map/brush.js" */
@@ -181,7 +182,7 @@ export class BinGestures extends Brush {
     plot.reveal(end);
     chart.point(places[end]);
     chart.mark([from, end]);
-    chart.announce(`${chart.marked.length} bins marked, to ${chart.bins.names[places[end]]}`);
+    chart.announce(`${count(chart.marked.length, "bin")} marked, to ${chart.bins.names[places[end]]}`);
   }
 
   #letGo() {

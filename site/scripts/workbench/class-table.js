@@ -2,7 +2,7 @@
 
 import { element, focused } from "../base/dom.js";
 import { difference } from "../base/figures.js";
-import { figure } from "../base/words.js";
+import { figure, grouped } from "../base/words.js";
 import { classMark } from "../colors/legend.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
 
@@ -102,7 +102,7 @@ export class ClassTable {
           { class: "of-class" },
           use,
           only,
-          element("span", { class: "size" }, String(database.sizes.get(group) ?? 0)),
+          element("span", { class: "size" }, grouped(database.sizes.get(group) ?? 0)),
         ),
       ),
       element("td", { class: "tick" }, ticks.get("from")),

@@ -109,7 +109,7 @@ function binsText(bins, { chosen, scores, words, refinedMap, address }) {
   const order =
     scores === null ? [...chosen].sort((a, b) => a - b) : [...ranked(scores)].filter((column) => chosen.has(column));
   const header = [
-    `${count(chosen.size, "bin").replaceAll("\u2009", "")} chosen on the Workbench of ${document.title.split(" · ").at(-1)}`,
+    `${chosen.size} ${chosen.size === 1 ? "bin" : "bins"} chosen on the Workbench of ${document.title.split(" · ").at(-1)}`,
     ...words,
     ...(refinedMap?.hitOfAll ? [`NH_s of their map ${figure(refinedMap.hitOfAll)}`] : []),
     address,

@@ -1,6 +1,7 @@
 // The feature types in use, in their colours.
 
 import { element, focused } from "../base/dom.js";
+import { grouped } from "../base/words.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -63,9 +64,9 @@ export class FeatureList {
       element(
         "span",
         { class: "size" },
-        chosen > 0 ? element("b", { title: "bins chosen" }, String(chosen)) : "",
+        chosen > 0 ? element("b", { title: "bins chosen" }, grouped(chosen)) : "",
         chosen > 0 && " of ",
-        String(width),
+        grouped(width),
       ),
     );
   }

@@ -27,6 +27,11 @@ def test_it_names_every_failed_file_with_its_reason(text):
     assert "the file ends in the middle of its faces" in text
 
 
+def test_thousands_are_set_apart(text):
+    assert '<td class="number">9\u202f000</td>' in text
+    assert ">9000<" not in text
+
+
 def test_of_many_failed_files_the_first_are_listed_and_the_rest_is_counted(tmp_path):
     failures = [Failure(f"{number:04}.off", "read", "it is empty") for number in range(MOST_LISTED + 20)]
     write_site(make_report(["ant"], 2, failures=failures), tmp_path)
