@@ -69,7 +69,7 @@ def _verdict(found: Separation, method: str) -> str:
         return f"{blame} This one loses more." if loses else blame
     if loses:
         return "The map is to blame: it mixes classes that the features tell apart."
-    return "The map keeps what the features know: classes that mix on it, the features mix, too."
+    return "The map keeps what the features know: classes that mix on it are mixed by the features too."
 
 
 def _know(found: Separation) -> bool:

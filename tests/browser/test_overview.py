@@ -328,7 +328,11 @@ class TestWhoIsLikeWhom:
             for method in ("tsne", "umap", "pca")
         }
         assert f"{few['umap']} of 120 shapes keep two of them at most." in words
-        assert f"On the t-SNE map {few['tsne']} and on the PCA map {few['pca']} keep two at most." in words
+        by = {method: count or "none" for method, count in few.items()}
+        assert (
+            f"Two at most are kept by {by['tsne']} on the t-SNE map and by {by['pca']} on the PCA map."
+            in words
+        )
         assert page.locator("#shepard svg").is_visible()
         assert page.locator("#shepard .cells path").count() == 9
 

@@ -5,7 +5,7 @@ import { offerFigures } from "./figure-export.js";
 import { bringIntoRow } from "./dom.js";
 import { watchPaper } from "./paper.js";
 import { Missing } from "./missing.js";
-import { arriveHere, pushHash, readHash, replaceHash, walk, whereabouts } from "./place.js";
+import { arriveHere, goToPlace, pushHash, readHash, replaceHash, walk, whereabouts } from "./place.js";
 import { watchLink } from "./link.js";
 import { State } from "./state.js";
 import { currentTheme, watchTheme } from "./theme.js";
@@ -138,6 +138,7 @@ export async function openPage({
       });
       offerFigures();
       watchPaper();
+      goToPlace();
       document.documentElement.dataset.ready = "";
     },
   };

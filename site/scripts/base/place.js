@@ -23,6 +23,15 @@ export function readHash() {
   return new URLSearchParams((singleFile ? hash.replace(PAGE, "") : hash).replace(/^#/, ""));
 }
 
+/** Scroll to what a link like `about.html#clusters` names, which is a place on the page and no state of a view. */
+export function goToPlace() {
+  const [[name, value] = ["", null]] = readHash();
+  const place = value === "" ? document.getElementById(name) : null;
+  const folded = place?.closest("details");
+  if (folded) folded.open = true;
+  place?.scrollIntoView();
+}
+
 /**
  * Write the state of the view into the address, in place of what was there. Where that is the place before once more, the
  * next step takes its place too: it is none that one would come back to.

@@ -4,7 +4,7 @@ import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, lowered } from "../base/words.js";
+import { count } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 import { UNPAINTED } from "./on-surface.js";
@@ -123,7 +123,7 @@ export class Look {
     return [
       element("h3", { class: "in-page" }, binName(bins, column)),
       feature.measures !== "" &&
-        element("p", { class: "quiet in-page" }, element("b", {}, feature.title), ": ", lowered(feature.measures)),
+        element("p", { class: "quiet in-page" }, element("b", {}, `${feature.title}.`), ` ${feature.measures}`),
       element("p", { class: "who" }, this.#who(column)),
       element("div", { class: "bin-card" }, card.classes(column)),
       exactly(bins, column),

@@ -97,17 +97,16 @@ export function answer(contrast, a, b, data, kin) {
  * @param {Group} b
  */
 function headline(contrast, a, b) {
+  // No sentence begins with a name, which may be in small letters.
+  const both = [called(a), " and ", called(b)];
   const [best] = contrast.beyond;
-  if (best === undefined) return [called(a), " and ", called(b), " differ, but only as wholes."];
+  if (best === undefined) return ["Different, but only as wholes: ", ...both, "."];
   const ahead = contrast.ahead(best);
   const apart = Math.max(ahead, 1 - ahead);
-  if (apart >= CLEARLY) return [called(a), " and ", called(b), " are clearly different."];
-  return [
-    called(a),
-    " and ",
-    called(b),
-    apart >= WELL ? " differ." : " differ a little: on average, not shape by shape.",
-  ];
+  if (apart >= CLEARLY) return ["Clearly different: ", ...both, "."];
+  return apart >= WELL
+    ? ["Different: ", ...both, "."]
+    : ["A little different, on average but not shape by shape: ", ...both, "."];
 }
 
 /**
@@ -258,8 +257,13 @@ export function kinship(a, b, neighbours) {
     count(neighbours.k, "shape"),
     " most like a shape of ",
     called(a),
-    `, ${percent(there)} on average are of `,
+    `, on average ${part(there)} are of `,
     called(b),
-    `; the other way round, ${percent(back)}.`,
+    `; the other way round, ${part(back)}.`,
   ];
+}
+
+/** @param {number} share */
+function part(share) {
+  return share === 0 ? "none" : percent(share);
 }

@@ -134,12 +134,23 @@ export class Groups {
  * @param {GroupSpec | null} [other]
  */
 export function nameOf(spec, database, other = null) {
-  if (spec.kind === "class") return shortened(database.className(spec.group), LONGEST);
-  if (spec.kind === "cluster") return shortened(spec.name, LONGEST);
+  if (spec.kind === "class") return groupName(database, spec.group);
+  // A cluster is called "like ant 03".
+  if (spec.kind === "cluster") return `those ${shortened(spec.name, LONGEST)}`;
   if (spec.kind === "search") return `“${shortened(spec.text, LONGEST)}”`;
   if (spec.kind === "rest") return "the other shapes";
   if (spec.shapes.size === 1) return shortened(database.names[[...spec.shapes][0]], LONGEST);
   return other?.kind === "shapes" ? `${grouped(spec.shapes.size)} selected shapes` : "the selected shapes";
+}
+
+/**
+ * The name of a class within a sentence, or of a cluster that stands in for one: "those like ant 03".
+ * @param {Database} database
+ * @param {number} group
+ */
+export function groupName(database, group) {
+  const name = shortened(database.className(group), LONGEST);
+  return database.data.standIn && group >= 0 ? `those ${name}` : name;
 }
 
 /**

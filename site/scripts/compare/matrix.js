@@ -6,6 +6,7 @@ import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
 import { count, grouped, shortened, wholePercent } from "../base/words.js";
+import { kind } from "../database/kind.js";
 import { writeSelection } from "../database/selection.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
@@ -42,7 +43,7 @@ export class Matrix {
     if (this.node === null) return;
     this.words = document.getElementById("cell-words");
     toldAs(this.node.closest("[data-figure]"), () => ({
-      words: `Of the ${count(neighbours.k, "nearest neighbour")} of the shapes of each ${this.#kind} (row), how many in a hundred are of each ${this.#kind} (column), ${this.#where()}; ${count(database.count, "shape")}. The diagonal is a ${this.#kind}’s own share.`,
+      words: `Of the ${count(neighbours.k, "nearest neighbour")} of the shapes of each ${kind(this.database)} (row), how many in a hundred are of each ${kind(this.database)} (column), ${this.#where()}; ${count(database.count, "shape")}. The diagonal is a ${kind(this.database)}’s own share.`,
     }));
     this.node.addEventListener("keydown", (event) => this.#key(event));
     this.node.addEventListener("pointerover", (event) => this.#point(event.target.closest("[data-row]")));
@@ -58,10 +59,6 @@ export class Matrix {
       if (["view", "space", "theme"].some((name) => changed.has(name))) this.render();
       else if (changed.has("row") || changed.has("column")) this.#behind();
     });
-  }
-
-  get #kind() {
-    return this.database.data.standIn ? "cluster" : "class";
   }
 
   /** Where neighbours are looked for, in words. */
@@ -112,7 +109,7 @@ export class Matrix {
     );
     document.getElementById("likest-none").hidden = pairs.length > 0;
     document.getElementById("likest-none").textContent =
-      database.classes.length > 1 ? "No shape has a neighbour of another class: the classes are all apart." : "";
+      database.classes.length > 1 ? `No shape has a neighbour of another ${kind(database)}: they are all apart.` : "";
   }
 
   #draw() {
@@ -198,7 +195,7 @@ export class Matrix {
     const names = [row, column].map((group) => database.className(group));
     const all = (database.sizes.get(row) ?? 0) * neighbours.k;
     return row === column
-      ? `${names[0]}: ${wholePercent(this.share(row, row))} of the neighbours of its shapes are of its own class`
+      ? `${names[0]}: ${wholePercent(this.share(row, row))} of the neighbours of its shapes are of its own ${kind(database)}`
       : `${names[0]} to ${names[1]}: ${wholePercent(this.share(row, column))}, ${this.counts[row][column]} of ${all} neighbours`;
   }
 
@@ -293,13 +290,13 @@ export class Matrix {
           {},
           pairs.length === 0
             ? own
-              ? "No shape of this class has another one of it among its neighbours."
+              ? `No shape of this ${kind(database)} has another one of it among its neighbours.`
               : "No shape of the one is a neighbour of a shape of the other."
             : [
                 element("b", {}, `${grouped(pairs.length)} of ${count(database.sizes.get(row) ?? 0, "shape")}`),
                 ` of `,
                 element("bdi", {}, database.className(row)),
-                ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? `of ${pairs.length === 1 ? "its" : "their"} own class` : "of "}`,
+                ` ${pairs.length === 1 ? "has" : "have"} neighbours ${own ? `of ${pairs.length === 1 ? "its" : "their"} own ${kind(database)}` : "of "}`,
                 !own && element("bdi", {}, database.className(column)),
                 ": ",
                 `${wholePercent(this.share(row, column))} of all their neighbours.`,

@@ -7,7 +7,9 @@ import { toldAs } from "../base/snapshot.js";
 import { count, figure, grouped } from "../base/words.js";
 import { inWords } from "../bins-kit/bin-name.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
+import { kind } from "../database/kind.js";
 import { distribution, mean } from "./distribution.js";
+import { groupName } from "./groups.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -55,9 +57,9 @@ export class Outliers {
     this.filter = document.getElementById("outliers-of");
     this.shown = PAGE;
     if (this.list === null) return;
-    const kind = database.data.standIn ? "cluster" : "class";
+    const own = kind(database);
     toldAs(document.getElementById("outliers"), () => ({
-      words: `The ${count(this.list.childElementCount, "shape")} that fit their ${kind} least, of ${grouped(this.ranked().length)}. The fit compares how far the five nearest shapes of its own ${kind} are with how far the five nearest of another are, in all that is compared: 1 where only its own is near, below 0 where another is closer.`,
+      words: `The ${count(this.list.childElementCount, "shape")} that fit their ${own} least, of ${grouped(this.ranked().length)}. The fit compares how far the five nearest shapes of its own ${own} are with how far the five nearest of another are, in all that is compared: 1 where only its own is near, below 0 where another is closer.`,
     }));
     this.#offer();
     this.filter.addEventListener("change", () =>
@@ -114,7 +116,9 @@ export class Outliers {
       .getElementById("outlier-words")
       .replaceChildren(
         element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${grouped(ranked.length)}`),
-        closer > 1 ? " are closer to another class than to their own." : " is closer to another class than to its own.",
+        closer > 1
+          ? ` are closer to another ${kind(this.database)} than to their own.`
+          : ` is closer to another ${kind(this.database)} than to its own.`,
       );
     const shown = ranked.slice(0, this.shown);
     this.more.hidden = ranked.length <= shown.length;
@@ -163,8 +167,8 @@ export class Outliers {
           "p",
           {},
           fit < 0
-            ? ["Closer to ", name(database, rival), " than to its own class."]
-            : ["Closest to its own class, with ", name(database, rival), " next."],
+            ? ["Closer to ", name(database, rival), ` than to its own ${kind(database)}.`]
+            : [`Closest to its own ${kind(database)}, with `, name(database, rival), " next."],
         ),
         element(
           "p",
@@ -212,7 +216,7 @@ export class Outliers {
                 { kind: "class", group: own },
               ),
             },
-            "Compare with its class",
+            `Compare with its ${kind(database)}`,
           ),
           " ",
           element(
@@ -221,7 +225,7 @@ export class Outliers {
               class: "on-screen",
               href: compareAddress(database, { kind: "class", group: own }, { kind: "class", group: rival }),
             },
-            "Compare the two classes",
+            `Compare the two ${database.data.standIn ? "clusters" : "classes"}`,
           ),
         ),
       ),
@@ -238,7 +242,7 @@ export class Outliers {
       .map(([group, number], place) => [
         place > 0 && ", ",
         `${number} of `,
-        element("bdi", {}, database.className(group)),
+        element("bdi", {}, groupName(database, group)),
       ]);
     return [`Its ${count(near.length, "nearest neighbour")}: `, parts];
   }
@@ -278,7 +282,7 @@ export class Outliers {
         element(
           "p",
           { class: "quiet" },
-          "No single bin sets it apart from its class: it is unlike in many ways, a little in each.",
+          `No single bin sets it apart from its ${kind(this.database)}: it is unlike in many ways, a little in each.`,
         ),
       ];
     return chosen.map(([, column]) => this.#reason(index, column, group, other, bins));
@@ -321,9 +325,9 @@ export class Outliers {
         {},
         words,
         `, against ${usual} on average in `,
-        element("bdi", {}, database.className(group)),
+        element("bdi", {}, groupName(database, group)),
         ` and ${bins.telling(column)(means[1])} in `,
-        element("bdi", {}, database.className(other)),
+        element("bdi", {}, groupName(database, other)),
         ".",
       ),
       distribution(rows, bins.inPercent(column)),
@@ -392,7 +396,7 @@ function name(database, group) {
     "span",
     { class: "called" },
     swatch(database.symbol(group), database.color(group)),
-    element("bdi", {}, database.className(group)),
+    element("bdi", {}, groupName(database, group)),
   );
 }
 

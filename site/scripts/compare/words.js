@@ -35,15 +35,22 @@ export function statement(column, contrast, a, b, data) {
   const told = bins.tell(column, [means[more.side], means[less.side]]);
   return bins.isShare(column)
     ? moreOf({ clause: /** @type {string} */ (data.clauses[column]), trend: "", fewer: false }, more, less, told, data)
-    : [
-        element("bdi", {}, capitalised(bins.called[column]) || bins.names[column]),
-        " is higher in ",
-        called(more),
-        " than in ",
-        called(less),
-        ...against(told),
-      ];
+    : [...valueName(column, bins), " is higher in ", called(more), " than in ", called(less), ...against(told)];
 }
+
+/**
+ * What has a value of its own, as a sentence begins with it.
+ * @param {number} column
+ * @param {Bins} bins
+ */
+function valueName(column, bins) {
+  const name = bins.called[column];
+  // What is put in after a comma ends with one.
+  return [element("bdi", {}, capitalised(name) || bins.names[column]), INSERTED.test(name) ? "," : ""];
+}
+
+/** A comma that stands in no brackets. */
+const INSERTED = /,[^()]*$/;
 
 /**
  * That the surface of one group does something more than that of another: what a stranger sees of it, and how much.
@@ -100,11 +107,7 @@ export function inBoth(column, means, { a, b, bins, data }) {
     ".",
   ];
   if (!bins.isShare(column))
-    return [
-      element("bdi", {}, capitalised(bins.called[column]) || bins.names[column]),
-      ` is ${more ? "higher" : "lower"} in both than in other shapes: `,
-      ...figures,
-    ];
+    return [...valueName(column, bins), ` is ${more ? "higher" : "lower"} in both than in other shapes: `, ...figures];
   return [
     `${more ? "More" : "Less"} of ${data.whole} of both than of other shapes ${data.clauses[column]}: `,
     ...figures,

@@ -1,7 +1,5 @@
 // What the reader sets on the Features page: keys of its map, and what is folded.
 
-import { readHash } from "../base/place.js";
-
 /** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Gestures } from "../map/gestures.js" */
 
@@ -24,8 +22,5 @@ export function watchMapKeys(surface, state, gestures) {
 /** Where there is little room, what is below the map stands in a line each, to be opened. */
 export function foldParts() {
   if (!window.matchMedia("(width < 1000px)").matches) return;
-  const [[name] = [""]] = readHash();
-  const asked = document.getElementById(name)?.closest("details.folds") ?? null;
-  for (const part of document.querySelectorAll("details.folds")) part.open = part === asked;
-  asked?.scrollIntoView();
+  for (const part of document.querySelectorAll("details.folds")) part.open = false;
 }

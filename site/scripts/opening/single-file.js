@@ -1,7 +1,7 @@
 // Opens a page of a site that is one file. It runs at the end of the document: pages stand in templates, scripts have
 // been handed over to be run, and files wait as blocks of text.
 
-import { addressedFile, readHash, settle } from "../base/place.js";
+import { addressedFile, goToPlace, settle } from "../base/place.js";
 
 const opened = addressedFile();
 
@@ -31,9 +31,3 @@ document.body.replaceChildren(content);
 // Scripts that only hand over data have nothing to run here.
 for (const address of scripts) window.shapeviz.scripts.get(address)?.();
 goToPlace();
-
-/** Scroll to what a link like `about.html#clusters` names, which is a place on the page and no state of a view. */
-function goToPlace() {
-  const [[name, value] = ["", null]] = readHash();
-  if (value === "") document.getElementById(name)?.scrollIntoView();
-}

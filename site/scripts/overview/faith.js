@@ -57,7 +57,7 @@ function lost(database, { faith, neighbours, base }) {
   const here = lostOn(faith);
   const others = database.data.methods.filter((other, index) => index !== base && other.faith);
   const most = few === 1 ? "one" : numberWord(few);
-  const there = others.map((other) => `on the ${other.title} map ${lostOn(other.faith) || "none"}`);
+  const there = others.map((other) => `by ${numberOrNone(lostOn(other.faith))} on the ${other.title} map`);
   return [
     element(
       "p",
@@ -68,10 +68,14 @@ function lost(database, { faith, neighbours, base }) {
             element("b", {}, `${grouped(here)} of ${count(database.count, "shape")}`),
             ` ${here === 1 ? "keeps" : "keep"} ${most} of them at most.`,
           ],
-      there.length > 0 &&
-        ` ${capitalised(listed(there))} ${lostOn(others.at(-1)?.faith) > 1 ? "keep" : "keeps"} ${most} at most.`,
+      there.length > 0 && ` ${capitalised(most)} at most ${few === 1 ? "is" : "are"} kept ${listed(there)}.`,
     ),
   ];
+}
+
+/** @param {number} number */
+function numberOrNone(number) {
+  return number === 0 ? "none" : grouped(number);
 }
 
 /**

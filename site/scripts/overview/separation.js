@@ -58,7 +58,7 @@ function lostOf({ name, shapes, features, map }) {
   return [
     " It loses most of ",
     element("bdi", {}, name),
-    `: by the features ${features} of ${count(shapes, "shape")} have another of it nearest, on this map ${map}.`,
+    `: by the features ${features} of ${count(shapes, "shape")} ${has(features)} another of it nearest, on this map ${map}.`,
   ];
 }
 
@@ -67,8 +67,13 @@ function hardestOf({ name, shapes, features, mistaken }) {
   return [
     " Hardest for the features is ",
     element("bdi", {}, name),
-    `: ${features} of ${count(shapes, "shape")} have another of it nearest`,
+    `: ${features} of ${count(shapes, "shape")} ${has(features)} another of it nearest`,
     mistaken !== null && ["; the others are nearest to ", element("bdi", {}, mistaken), " most often"],
     ".",
   ];
+}
+
+/** @param {number} number */
+function has(number) {
+  return number === 1 ? "has" : "have";
 }

@@ -6,7 +6,7 @@ import { Bins } from "../database/bins.js";
 import { Similarity } from "../database/similarity.js";
 import { Comparison } from "./comparison.js";
 import { Histograms } from "./histograms.js";
-import { kind } from "./kind.js";
+import { kind } from "../database/kind.js";
 import { SideBySide } from "./side-by-side.js";
 import { SimilarShapes } from "./similar-shapes.js";
 import { Spread } from "./spread.js";

@@ -97,7 +97,7 @@ export class Heading {
     ];
     if (id === null) return [element("p", {}, "The address names no shape. ", offer)];
     return [
-      element("p", {}, "There is no shape ", element("b", {}, element("bdi", {}, id)), " in this database. ", offer),
+      element("p", {}, "There is no shape “", element("bdi", {}, id), "” in this database. ", offer),
       element(
         "p",
         {},

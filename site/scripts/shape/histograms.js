@@ -7,7 +7,7 @@ import { capitalised, count, measured, percent, shortened, wholePercent } from "
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { quantityInWords } from "../bins-kit/legend.js";
 import { hue } from "./hue.js";
-import { kind } from "./kind.js";
+import { kind } from "../database/kind.js";
 
 /** @import { Child } from "../base/dom.js" */
 /** @import { ShapeState } from "../addresses/shape.js" */

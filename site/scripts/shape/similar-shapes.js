@@ -8,7 +8,7 @@ import { count, figure, grouped, listed, shortened, wholePercent } from "../base
 import { writeSelection } from "../database/selection.js";
 import { Comparing, isNone } from "./comparing.js";
 import { hue } from "./hue.js";
-import { kind } from "./kind.js";
+import { kind } from "../database/kind.js";
 
 /** @import { Child } from "../base/dom.js" */
 /** @import { Choice, Similar } from "../database/similarity.js" */

@@ -7,7 +7,7 @@ import { styleColor } from "../base/theme.js";
 import { count, figure } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { Plot } from "../map/plot.js";
-import { kind } from "./kind.js";
+import { kind } from "../database/kind.js";
 
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database, Method } from "../database/database.js" */

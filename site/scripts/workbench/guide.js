@@ -165,8 +165,9 @@ export class Guide {
     return [
       () => ({
         words: [
+          "Mixed on the map of all shapes: ",
           ...pair,
-          ` are mixed: of their nearest neighbours on the map of all shapes, ${wholePercent(example.mixed)} are of the other of the two.`,
+          `. Of their nearest neighbours, ${wholePercent(example.mixed)} are of the other of the two.`,
         ],
         action: "Show only these two",
         todo: () => act.use({ hidden: new Set(others) }),

@@ -1,6 +1,6 @@
 // What the groups of the database are: classes, or the clusters that stand in for them.
 
-/** @import { Database } from "../database/database.js" */
+/** @import { Database } from "./database.js" */
 
 /** @param {Database} database */
 export function kind({ data }) {
