@@ -395,7 +395,7 @@ test("what is missing is one sentence, whose names are apart, few and short", ()
   );
   assert.equal(
     said({ shape: Array.from({ length: 1203 }, (_, number) => `s${number}`) }),
-    "This link names the shapes “s0”, “s1”, “s2” and 1\u2009200 more, which are not in this database.",
+    "This link names the shapes “s0”, “s1”, “s2” and 1\u202f200 more, which are not in this database.",
   );
   assert.equal(
     said({ selection: [""] }),
