@@ -16,8 +16,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 from scipy.spatial.transform import Rotation
 
-from shapeviz_report.descriptors.kernels.boxes import LEAF, along_curve, box_faces
-from shapeviz_report.descriptors.kernels.closest import find_closest
+from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
+from shapeviz_report.mesh.closest import find_closest
 from shapeviz_report.mesh.sampling import sample_surface
 from shapeviz_report.types import FloatArray, Mesh
 from shapeviz_report.types.copies import (

@@ -177,7 +177,11 @@ def find_bins(values: npt.NDArray[np.float32], edges: FloatArray) -> npt.NDArray
         As for :func:`compute_histograms`.
     """
     limits = edges[:, 1:-1].astype(np.float32)
-    return (values[:, :, None] >= limits[:, None, :]).sum(axis=2, dtype=np.uint8)
+    # The sum over the few limits as a loop: along the values it is quick.
+    bins = np.zeros(values.shape, np.uint8)
+    for limit in limits.T:
+        bins += values >= limit[:, None]
+    return bins
 
 
 def measure(mesh: Mesh, dimensions: Sequence[int]) -> npt.NDArray[np.float32]:

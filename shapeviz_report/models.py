@@ -57,7 +57,7 @@ def simplify(mesh: Mesh, faces: int = FACES) -> Model:
     -------
     Model
     """
-    tree = cKDTree(mesh.vertices)
+    tree = cKDTree(mesh.vertices, balanced_tree=False, compact_nodes=False)
     vertices, triangles = mesh.vertices, mesh.faces
     if len(triangles) > faces:
         # Edges collapse first where the surface is flat, and leave slivers there along which colours smear. On a rough

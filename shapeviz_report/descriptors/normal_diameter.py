@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from shapeviz_report.descriptors.base import Descriptor
-from shapeviz_report.descriptors.kernels.boxes import LEAF, along_curve, box_faces
 from shapeviz_report.descriptors.kernels.rays import cast_inward
 from shapeviz_report.descriptors.surface import Surface
+from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
 from shapeviz_report.types import FloatArray
 
 SAME_PLACE = 1e-6

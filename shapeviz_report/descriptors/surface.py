@@ -10,9 +10,9 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from shapeviz_report.descriptors.kernels.angles import gather_angles
-from shapeviz_report.descriptors.kernels.boxes import along_curve
 from shapeviz_report.descriptors.kernels.geodesics import add_source, draw_lines, pack_rows
 from shapeviz_report.descriptors.kernels.grid import find_nearest
+from shapeviz_report.mesh.boxes import along_curve
 from shapeviz_report.types import FloatArray, IntArray, Mesh
 
 NEIGHBOURS = 30

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.spatial import cKDTree
-from trimesh.triangles import closest_point
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
 from shapeviz_report.mesh.clean import bounding_diagonal, clean, count_components, is_watertight
+from shapeviz_report.mesh.closest import largest_distance
 from shapeviz_report.mesh.read import content_hash, parse_mesh
-from shapeviz_report.mesh.remesh import affordable_edge_length, remesh, surface_size
+from shapeviz_report.mesh.remesh import MOST_VERTICES, affordable_edge_length, remesh, surface_size
 from shapeviz_report.mesh.sampling import sample_surface
 from shapeviz_report.types import FloatArray, Mesh, ShapeFacts
 
@@ -23,14 +23,11 @@ Wide enough for the rims of coarse open surfaces, which the remesher rounds; far
 MAX_PARTS = 100_000
 """A surface of more parts is refused: each takes vertices of its own, however small it is."""
 
+RIDGES = (20.0, 5.0)
+"""Degrees between faces from which on creases are kept, to try where a surface strays."""
+
 SAMPLES_PER_VERTEX = 1
 """How densely a surface is sampled to find the deviation, relative to the prepared mesh."""
-
-EXAMINED = 300
-"""Points whose distance is measured exactly, of those that sampling finds farthest."""
-
-CANDIDATES = 8
-"""Samples nearest to such a point whose faces are tried."""
 
 
 def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, ShapeFacts]:
@@ -65,9 +62,12 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
     wanted = edge_length * surface_size(cleaned)
     length = affordable_edge_length(cleaned, wanted)
     if length > wanted:
-        repairs["edges lengthened, for the surface is folded many times over"] = 1
+        repairs["edges lengthened, for the surface is large or rich in ridges"] = 1
     remeshed = remesh(cleaned, length)
     distance = deviation(cleaned, remeshed)
+    if distance > MAX_DEVIATION:
+        remeshed, distance, repair = _remesh_closer(cleaned, length)
+        repairs[repair] = 1
     if distance > MAX_DEVIATION:
         raise MeshError(
             f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}; its parts "
@@ -91,6 +91,25 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
         up=original.up,
     )
     return normalise(remeshed), facts
+
+
+def _remesh_closer(mesh: Mesh, edge_length: float) -> tuple[Mesh, float, str]:
+    """A mesh that strays less from a cleaned one, how far, and what it took.
+
+    Large faces that meet at less than a ridge are rounded, so ridges are kept from smaller angles on; and parts thinner
+    than an edge vanish, so edges are made shorter, until it fits or takes ``MOST_VERTICES``.
+    """
+    for ridge in RIDGES:
+        remeshed = remesh(mesh, edge_length, ridge)
+        distance = deviation(mesh, remeshed)
+        if distance <= MAX_DEVIATION:
+            return remeshed, distance, "flat creases kept, for rounding them moved the surface"
+    least = affordable_edge_length(mesh, 0, MOST_VERTICES)
+    while distance > MAX_DEVIATION and edge_length > least:
+        edge_length = max(edge_length / 2, least)
+        remeshed = remesh(mesh, edge_length, RIDGES[-1])
+        distance = deviation(mesh, remeshed)
+    return remeshed, distance, "edges shortened, for parts are thinner"
 
 
 def normalise(mesh: Mesh) -> Mesh:
@@ -160,28 +179,16 @@ def deviation(before: Mesh, after: Mesh) -> float:
         At least 0.
     """
     count = SAMPLES_PER_VERTEX * len(after.vertices)
-    there = _largest_distance(
-        np.concatenate([sample_surface(before, count)[0], before.vertices]), after, count
+    there, back = (
+        _largest_distance(np.concatenate([sample_surface(one, count)[0], one.vertices]), other)
+        for one, other in ((before, after), (after, before))
     )
-    back = _largest_distance(np.concatenate([sample_surface(after, count)[0], after.vertices]), before, count)
     diagonal = np.linalg.norm(before.vertices.max(axis=0) - before.vertices.min(axis=0))
     return float(max(there, back) / diagonal)
 
 
-def _largest_distance(points: FloatArray, mesh: Mesh, count: int) -> float:
-    """How far the farthest of some points is from a surface.
-
-    Points spread over the surface tell roughly; for the ``EXAMINED`` that seem farthest the faces of the nearest
-    of those points tell exactly.
-    """
-    samples, owners = sample_surface(mesh, count)
-    # Large faces need many points, and small ones, which chance may pass over, one each.
-    samples = np.concatenate([samples, mesh.vertices[mesh.faces].mean(axis=1)])
-    owners = np.concatenate([owners, np.arange(len(mesh.faces))])
-    tree = cKDTree(samples, balanced_tree=False, compact_nodes=False)
-    index = np.argsort(tree.query(points)[0])[-EXAMINED:]
-    near = tree.query(points[index], k=min(CANDIDATES, len(samples)))[1].reshape(len(index), -1)
-    corners = mesh.vertices[mesh.faces[owners[near]]]
-    asked = np.repeat(points[index], near.shape[1], axis=0)
-    closest = closest_point(corners.reshape(-1, 3, 3), asked).reshape(*near.shape, 3)
-    return float(np.linalg.norm(closest - points[index][:, None], axis=2).min(axis=1).max())
+def _largest_distance(points: FloatArray, mesh: Mesh) -> float:
+    """How far the farthest of some points is from a surface."""
+    corners = mesh.vertices[mesh.faces]
+    corners = corners[along_curve(corners[:, 0] + corners[:, 1] + corners[:, 2])]
+    return largest_distance(points[along_curve(points)], corners, box_faces(corners), LEAF)

@@ -3,10 +3,8 @@
 import numpy as np
 
 from shapeviz_report.compilation import kernel
+from shapeviz_report.mesh.boxes import DEPTH
 from shapeviz_report.types import FloatArray, IntArray
-
-DEPTH = 64
-"""Deeper than any tree gets: its boxes are numbered by 32 bits."""
 
 MARGIN = 1e-8
 """Boxes are wider than their faces by this on every side.

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from solids import rotation, sheet
 
-from shapeviz_report.descriptors.kernels.boxes import LEAF, along_curve, box_faces
 from shapeviz_report.descriptors.kernels.rays import cast_inward
 from shapeviz_report.descriptors.normal_diameter import SAME_PLACE, compute
 from shapeviz_report.descriptors.surface import Surface
+from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
 from shapeviz_report.types import Mesh
 
 ORIENTATIONS = [

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from shapeviz_report.descriptors.kernels.boxes import LEAF, along_curve, box_faces
-from shapeviz_report.descriptors.kernels.closest import find_closest
+from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
+from shapeviz_report.mesh.closest import find_closest, largest_distance
 
 
 def gaps(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
@@ -46,3 +46,5 @@ def test_no_face_is_nearer(kind: str, count: int) -> None:
     every = gaps(points, corners)
     np.testing.assert_allclose(found, every.min(axis=1), atol=1e-9)
     np.testing.assert_allclose(every[np.arange(len(points)), places], found, atol=1e-9)
+    farthest = largest_distance(points, corners, box_faces(corners), LEAF)
+    assert farthest == pytest.approx(every.min(axis=1).max(), abs=1e-9)

@@ -9,6 +9,9 @@ from shapeviz_report.types import FloatArray
 LEAF = 4
 """Faces in a leaf of the tree: a power of two."""
 
+DEPTH = 64
+"""Deeper than any tree gets: its boxes are numbered by 32 bits."""
+
 
 def along_curve(points: FloatArray) -> np.ndarray:
     """The order of points along Morton's curve: what is near on it is near in space.  (n,) int64."""
