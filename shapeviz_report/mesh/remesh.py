@@ -18,8 +18,11 @@ RIDGE = 45.0
 """Degrees between two faces from which on Mmg keeps the edge between them; what is flatter it takes for a round surface
 in coarse faces, and rounds it."""
 
-ATTEMPTS = (1.0, 0.99, 0.97, 0.94)
-"""Shares of the edge length to try: Mmg may give up at one length, and come through at another hardly shorter."""
+ATTEMPTS = ((1.0, 0.5), (1.0, 0.01), (0.99, 0.5), (0.97, 0.5), (0.94, 0.5))
+"""Shares of the edge length to try, and the least length of an edge as a share of that.
+
+Mmg may give up at one length, and come through at another hardly shorter or with shorter edges; without a least length
+it splits the edges of some faces a hundred times over."""
 
 ROOM = 2**28
 """Bytes that Mmg may take for any mesh. It takes half of it before it begins."""
@@ -123,7 +126,7 @@ def remesh(mesh: Mesh, edge_length: float, ridge: float = RIDGE) -> Mesh:
     # Mmg judges some things by absolute size.
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     diagonal = float(np.linalg.norm(high - low))
-    for share in ATTEMPTS:
+    for share, least in ATTEMPTS:
         target = share * edge_length / diagonal
         surface = MmgMeshS()
         try:
@@ -132,9 +135,8 @@ def remesh(mesh: Mesh, edge_length: float, ridge: float = RIDGE) -> Mesh:
             surface.set_triangles(mesh.faces)
             # Moving vertices would take as long as all the rest, and the edges are as even as is needed without. Edges
             # turned once, at the end, make faces as good as when Mmg turns them again and again, in half the time.
-            # Without a least length it splits the edges of some faces a hundred times over.
             surface.remesh(
-                hsiz=target, hmin=target / 2, hausd=target / 2, ar=ridge, nomove=1, noswap=1, verbose=-1
+                hsiz=target, hmin=least * target, hausd=target / 2, ar=ridge, nomove=1, noswap=1, verbose=-1
             )
         except RuntimeError:
             continue
