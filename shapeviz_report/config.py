@@ -131,7 +131,11 @@ class Config:
     )
     thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
     seed: int = _option(0, "seed of everything random", "N")
-    time_limit: float = _machine_option(300.0, "seconds that one mesh may take in one stage", "SECONDS")
+    time_limit: float = _machine_option(
+        300.0,
+        "seconds that one mesh may take in one stage; a question of the whole database may take twenty times as long",
+        "SECONDS",
+    )
     memory_limit: float | None = _machine_option(
         None,
         "GiB of memory that one worker process may take; by default its share of most of what is free",

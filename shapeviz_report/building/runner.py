@@ -196,7 +196,7 @@ class Runner:
                 del task
                 yield arguments.pop()
 
-        for outcome in self.executor.run(stage.compute, open_tasks()):
+        for outcome in self.executor.run(stage.compute, open_tasks(), stage.patience):
             name, key = sent[outcome.index]
             if outcome.reason is None:
                 self._cache.store(stage.folder, key, outcome.value)

@@ -332,6 +332,11 @@ def read_found_bins(content: bytes) -> Any:
     return HeldOutBins(**fields)
 
 
+PATIENCE = 20.0
+"""Times the time limit of a mesh that a question of the whole database may take: an hour and a half, for what takes
+minutes on a machine that has nothing else to do."""
+
+
 @dataclass(frozen=True)
 class Stage(Generic[R]):
     """All that is known of a stage whose results are kept.
@@ -363,6 +368,11 @@ class Stage(Generic[R]):
     def version(self) -> str:
         """A name for the code behind the results."""
         return function_version(self.compute)
+
+    @property
+    def patience(self) -> float:
+        """Times the time limit of a mesh that a task may take: where one that fails ends the build, more."""
+        return PATIENCE if self.failing else 1.0
 
     def key(self, *inputs: object) -> str:
         """A name for the result of some inputs, whose ``repr`` must tell them apart."""

@@ -40,13 +40,15 @@ class Executor(Protocol):
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None: ...
 
-    def run(self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]) -> Iterator[Outcome]:
+    def run(
+        self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], patience: float = 1.0
+    ) -> Iterator[Outcome]:
         """Call ``function(*task)`` for each task; outcomes as they come, in any order.
 
         Tasks are drawn only as workers become free for them, so their inputs need not all be in memory at
         once. ``function`` must be importable by name, and must find all it needs in its arguments: the worker
         may be on a machine that has neither our files nor our cache. A :class:`ShapevizError` that it raises, a
         crash and a task over the time limit or the bound of memory become outcomes with a reason; any other exception
-        is a bug and is raised here.
+        is a bug and is raised here. A task may take ``patience`` times the time limit.
         """
         ...

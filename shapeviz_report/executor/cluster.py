@@ -99,7 +99,9 @@ class DaskExecutor:
         with suppress(OSError, TimeoutError):
             self._client.close()
 
-    def run(self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]) -> Iterator[Outcome]:
+    def run(
+        self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], patience: float = 1.0
+    ) -> Iterator[Outcome]:
         """See :meth:`Executor.run`.
 
         Raises
@@ -111,6 +113,8 @@ class DaskExecutor:
         from distributed.comm import CommClosedError
 
         waiting = enumerate(tasks)
+        time_limit, memory_limit = self.limits
+        limits = time_limit * patience, memory_limit
         done: queue.SimpleQueue[Any] = queue.SimpleQueue()
         running: dict[Any, int] = {}
         try:
@@ -118,7 +122,7 @@ class DaskExecutor:
                 room = TASKS_A_THREAD * self._threads() - len(running)
                 for index, task in islice(waiting, max(0, room)):
                     future = self._client.submit(
-                        _run_there, self._expected, self.limits, function, task, pure=False
+                        _run_there, self._expected, limits, function, task, pure=False
                     )
                     running[future] = index
                     future.add_done_callback(done.put)

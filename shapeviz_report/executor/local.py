@@ -52,10 +52,13 @@ class LocalExecutor:
             worker.stop()
         self._workers.clear()
 
-    def run(self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]) -> Iterator[Outcome]:
+    def run(
+        self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], patience: float = 1.0
+    ) -> Iterator[Outcome]:
         """See :meth:`Executor.run`."""
         # no `enumerate`, which holds the last of them while the next is made: a task may be a gigabyte
         waiting, count = iter(tasks), 0
+        limit = self.time_limit * patience
         idle = list(self._workers)
         busy: dict[Connection, tuple[_Worker, int, float]] = {}
         try:
@@ -63,7 +66,7 @@ class LocalExecutor:
                 while len(busy) < self.jobs and (task := next(waiting, None)) is not None:
                     worker = self._send((function, task), idle)
                     del task
-                    busy[worker.connection] = (worker, count, time.monotonic() + self.time_limit)
+                    busy[worker.connection] = (worker, count, time.monotonic() + limit)
                     count += 1
                 if not busy:
                     return
@@ -78,9 +81,7 @@ class LocalExecutor:
                     if connection in late:
                         worker.stop()
                         self._workers.remove(worker)
-                        reason = (
-                            f"it took longer than {self.time_limit:g} seconds; a larger time_limit may help"
-                        )
+                        reason = f"it took longer than {limit:g} seconds; a larger time_limit may help"
                         yield Outcome(index, None, reason, 0.0)
                         continue
                     try:

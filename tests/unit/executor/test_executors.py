@@ -108,6 +108,14 @@ def test_a_task_that_hangs_is_stopped(make_executor) -> None:
     assert all(reason is None for _, reason in found.values())
 
 
+def test_with_patience_a_task_may_take_longer(make_executor) -> None:
+    with make_executor(1) as executor:
+        (outcome,) = executor.run(time.sleep, [(2,)], 20.0)
+        assert outcome.reason is None
+        (outcome,) = executor.run(time.sleep, [(60,)], 2.5)
+        assert outcome.reason == "it took longer than 2.5 seconds; a larger time_limit may help"
+
+
 # Touched and untouched memory, in one piece and in many, asked for by Python, by numpy and by C.
 _GREEDY = {
     "one piece": "bytearray(3 << 30)",
