@@ -272,7 +272,7 @@ def test_what_was_measured_on_a_sample_says_so(bench, open_page):
     page = bench("bins of a sample")
     assert "measured on 16 of 32 shapes" in page.inner_text(REFINED)
     page = open_page("large", "workbench.html")
-    eventually(page, lambda: "A search looks at 400 of 2\u2009000 shapes" in page.inner_text(REFINED))
+    eventually(page, lambda: "A search looks at 400 of 2\u202f000 shapes" in page.inner_text(REFINED))
 
 
 def test_a_separation_of_groups_is_scored_as_python_scores_it(bench):
