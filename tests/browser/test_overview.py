@@ -755,6 +755,24 @@ class TestSearch:
         assert told == [[12, ""]] * 3
         eventually(page, lambda: "find=kin" in page.url)
 
+    def test_what_arrives_after_a_word_was_typed_is_found_too(self, open_page):
+        page = open_page("plain")
+        # The details arrive late: their script is added to the page when the test says so.
+        page.evaluate(
+            """() => {
+                const { head } = document;
+                head.append = (script) => {
+                    window.arrive = () => Element.prototype.append.call(head, script);
+                };
+            }"""
+        )
+        page.fill("#search", "class002 n.")
+        lines = page.locator("#search-found li")
+        eventually(page, lambda: lines.all_inner_texts() == ["searching …"])
+        page.evaluate("arrive()")
+        page.locator("#search-found [role=option]").first.wait_for()
+        assert page.locator("#search-found [role=option]").count() == 10
+
     def test_nothing_found_is_said(self, open_page):
         page = open_page("plain")
         page.fill("#search", "unicorn")

@@ -12,7 +12,7 @@ const MOST = 12;
  * @property {(text: string) => Value[]} find best first
  * @property {(value: Value) => Children} label the content of a line
  * @property {(value: Value) => void} choose is told of the chosen one
- * @property {() => unknown} [prepare] is told when the reader comes to the field
+ * @property {() => Promise<unknown>} [prepare] brings what else can be found, when the reader comes to the field
  * @property {() => string} [none] what is said where nothing is found
  */
 
@@ -23,8 +23,9 @@ export class Finder {
    * @param {string} list id of the list below it
    * @param {Finding<Value>} finding
    */
-  constructor(field, list, { find, label, choose, prepare = () => {}, none = () => "none found" }) {
+  constructor(field, list, { find, label, choose, prepare = async () => {}, none = () => "none found" }) {
     this.find = find;
+    this.prepare = prepare;
     this.label = label;
     this.choose = choose;
     this.none = none;
@@ -43,10 +44,7 @@ export class Finder {
       this.field.setAttribute(key, value);
     }
     this.field.addEventListener("input", () => this.#look());
-    this.field.addEventListener("focus", () => {
-      prepare();
-      this.#look();
-    });
+    this.field.addEventListener("focus", () => this.#look());
     this.field.addEventListener("blur", () => this.#close());
     this.field.addEventListener("keydown", (event) => this.#key(event));
     // A press would take the focus, and with it the list.
@@ -57,7 +55,22 @@ export class Finder {
     });
   }
 
-  #look() {
+  /** Whether all that can be found is there. */
+  #prepared = false;
+
+  /** @type {Promise<void> | null} */
+  #preparing = null;
+
+  async #bring() {
+    await this.prepare();
+    this.#prepared = true;
+    // What has come may be what the reader looks for.
+    if (!this.list.hidden) this.#look(this.found[this.at]);
+  }
+
+  /** @param {Value} [held] is chosen by Enter if it is found, else the first */
+  #look(held) {
+    this.#preparing ??= this.#bring();
     const text = this.field.value.trim();
     if (text === "") {
       this.#close();
@@ -65,7 +78,7 @@ export class Finder {
     }
     const all = this.find(text);
     this.found = all.slice(0, MOST);
-    this.at = 0;
+    this.at = held === undefined ? 0 : Math.max(this.found.indexOf(held), 0);
     this.more = all.length - this.found.length;
     this.#render();
     this.list.scrollIntoView({ block: "nearest" });
@@ -84,7 +97,8 @@ export class Finder {
         this.label(value),
       ),
     );
-    const rest = this.found.length === 0 ? this.none() : this.more > 0 ? `and ${this.more} more` : null;
+    const none = this.#prepared ? this.none() : "searching …";
+    const rest = this.found.length === 0 ? none : this.more > 0 ? `and ${this.more} more` : null;
     this.list.replaceChildren(
       ...lines,
       ...(rest ? [element("li", { class: "quiet", role: "presentation" }, rest)] : []),

@@ -20,13 +20,6 @@ export function findShapes(database, choose, { field, list } = { field: "shape-s
   let texts = names.map((name, index) =>
     plain(`${name}\n${database.ids[index]}\n${database.className(database.groups[index])}`),
   );
-  document.getElementById(field).addEventListener(
-    "focus",
-    async () => {
-      texts = await searchTexts(database);
-    },
-    { once: true },
-  );
   return new Finder(field, list, {
     find: (text) => {
       const whole = plain(text);
@@ -50,6 +43,9 @@ export function findShapes(database, choose, { field, list } = { field: "shape-s
             element("bdi", {}, database.className(database.groups[index])),
           ),
       ].filter(Boolean),
+    prepare: async () => {
+      texts = await searchTexts(database);
+    },
     choose,
   });
 }
