@@ -198,10 +198,31 @@ class TestTwoGroups:
         query += [("b-select", report.shapes[row].id) for row in rows[1::2]]
         page = compare(wait="html[data-ready]")
         page.evaluate("(hash) => { location.hash = hash; }", urlencode(query))
-        eventually(page, lambda: "8 selected shapes" in title(page))
+        eventually(page, lambda: "A: 8 kind c and B: 8 kind c" in title(page))
         assert title(page).startswith("Nothing sets ")
         assert title(page).endswith("apart beyond chance.")
         assert page.locator("#apart-bins.within").count() == 1
+
+    def test_two_groups_of_selected_shapes_are_told_apart_by_name(self, compare, reports):
+        report = reports("workbench")
+        rows = {letter: rows_of(report, f"kind {letter}") for letter in "abce"}
+        mixed = [*rows["c"][:4], *rows["e"][:4]]
+        query = [("a", "shapes"), ("b", "shapes")]
+        query += [("a-select", report.shapes[row].id) for row in rows["b"][:8]]
+        page = compare(wait="html[data-ready]")
+        for other, name in ((rows["a"][:8], "B: 8 kind a"), (mixed, "B: 8 shapes")):
+            chosen = [*query, *(("b-select", report.shapes[row].id) for row in other)]
+            page.evaluate("(hash) => { location.hash = hash; }", urlencode(chosen))
+            eventually(page, lambda name=name: "A: 8 kind b" in title(page) and name in title(page))
+            for side, own in (("a", "A: 8 kind b"), ("b", name)):
+                assert page.locator(f"#group-{side} option:checked").inner_text() == own
+                offers = page.locator(f"#group-{side} option").all_inner_texts()
+                assert [offers.count(text) for text in ("A: 8 kind b", name)] == [1, 1]
+            in_charts = page.locator(".bin-of-two").first.locator(".group-name bdi")
+            assert in_charts.all_inner_texts()[:2] == ["A: 8 kind b", name]
+            assert in_charts.evaluate_all(
+                "all => all.every(({ parentNode: { scrollWidth, clientWidth } }) => scrollWidth <= clientWidth)"
+            )
 
     def test_groups_are_chosen_from_lists_and_found_by_words(self, compare):
         page = compare()

@@ -102,15 +102,15 @@ export class Chooser {
   render() {
     for (const side of SIDES) {
       const spec = this.state.get(side);
-      const other = this.state.get(side === "a" ? "b" : "a");
       /** @type {Offer[]} */
       const own = [{ spec: { kind: "rest" }, text: "all other shapes" }];
       // The set of shapes that came along can be chosen on both sides.
-      for (const known of [spec, other]) {
-        if (known?.kind === "shapes" || known?.kind === "search") {
-          if (!own.some((offer) => isSame(offer.spec, known)))
-            own.push({ spec: known, text: textOf(known, this.database) });
-        }
+      for (const from of side === "a" ? SIDES : SIDES.toReversed()) {
+        const known = this.state.get(from);
+        if (known?.kind !== "shapes" && known?.kind !== "search") continue;
+        const other = this.state.get(from === "a" ? "b" : "a");
+        if (!own.some((offer) => isSame(offer.spec, known)))
+          own.push({ spec: known, text: textOf(known, this.database, { side: from, other }) });
       }
       /** @type {[string, Offer[]][]} */
       const groups = [...this.offers, ["Other groups", own]];
@@ -138,8 +138,10 @@ export class Chooser {
 /**
  * @param {Extract<GroupSpec, { kind: "search" | "shapes" }>} spec
  * @param {Database} database
+ * @param {{ side: Side, other: GroupSpec | null }} among
  */
-function textOf(spec, database) {
-  if (spec.kind === "search") return `found by ${nameOf(spec, database)}`;
-  return spec.shapes.size === 1 ? nameOf(spec, database) : `${count(spec.shapes.size, "selected shape")}`;
+function textOf(spec, database, among) {
+  const name = nameOf(spec, database, among);
+  if (spec.kind === "search") return `found by ${name}`;
+  return spec.shapes.size === 1 || among.other?.kind === "shapes" ? name : count(spec.shapes.size, "selected shape");
 }

@@ -1,7 +1,7 @@
 // The two groups: who belongs to them, what they are called, and how they are marked.
 
 import { swatch } from "../base/dom.js";
-import { grouped, shortened } from "../base/words.js";
+import { count, grouped, shortened } from "../base/words.js";
 import { findWords, searchTexts } from "../database/search.js";
 
 /** @import { GroupSpec } from "../addresses/compare.js" */
@@ -43,10 +43,6 @@ export class Groups {
    */
   async resolve(a, b) {
     const [first, second] = await Promise.all([this.#shapes(a), this.#shapes(b)]);
-    /**
-     * @param {number[] | null} shapes
-     * @param {number[] | null} other
-     */
     /**
      * @param {number[] | null} shapes
      * @param {number[] | null} other
@@ -121,7 +117,7 @@ export class Groups {
     return {
       spec,
       side,
-      name: nameOf(spec, database, other),
+      name: nameOf(spec, database, { side, other }),
       color,
       mark: () => swatch(own ? database.symbol(spec.group) : database.data.marks.plain, color()),
     };
@@ -129,18 +125,36 @@ export class Groups {
 }
 
 /**
+ * The name of a group within a sentence; of two that are of selected shapes, it says which side each of them is.
  * @param {GroupSpec} spec
  * @param {Database} database
- * @param {GroupSpec | null} [other]
+ * @param {{ side: Side, other: GroupSpec | null } | null} [among]
  */
-export function nameOf(spec, database, other = null) {
+export function nameOf(spec, database, among = null) {
   if (spec.kind === "class") return groupName(database, spec.group);
   // A cluster is called "like ant 03".
   if (spec.kind === "cluster") return `those ${shortened(spec.name, LONGEST)}`;
   if (spec.kind === "search") return `“${shortened(spec.text, LONGEST)}”`;
   if (spec.kind === "rest") return "the other shapes";
-  if (spec.shapes.size === 1) return shortened(database.names[[...spec.shapes][0]], LONGEST);
-  return other?.kind === "shapes" ? `${grouped(spec.shapes.size)} selected shapes` : "the selected shapes";
+  const words = selectionName(spec.shapes, database);
+  const single = spec.shapes.size === 1;
+  if (among?.other?.kind === "shapes" && !(single && words !== selectionName(among.other.shapes, database)))
+    return `${among.side.toUpperCase()}: ${words}`;
+  return single ? words : "the selected shapes";
+}
+
+/**
+ * "8 fish", where all shapes are of one class, else "8 shapes"; a single one by its name.
+ * @param {Set<number>} shapes
+ * @param {Database} database
+ */
+function selectionName(shapes, database) {
+  const [first] = shapes;
+  if (shapes.size === 1) return shortened(database.names[first], LONGEST);
+  const [[group], ...others] = database.census(shapes);
+  return group < 0 || others.length > 0
+    ? count(shapes.size, "shape")
+    : `${grouped(shapes.size)} ${shortened(database.className(group), LONGEST)}`;
 }
 
 /**
