@@ -44,19 +44,56 @@ const boxOf = (place, marks, names) => {
 const gap = (box, { x, y }) =>
   Math.hypot(Math.max(box.left - x, 0, x - box.right), Math.max(box.top - y, 0, y - box.bottom));
 
+/** The largest cluster of a class as it is drawn, its marks linked where their edges are 20 pixels apart or less. */
+function largestCluster(marks, group) {
+  let rest = marks.filter((mark) => mark.group === group);
+  let largest = [];
+  while (rest.length > 0) {
+    const cluster = [rest[0]];
+    rest = rest.slice(1);
+    for (const mark of cluster) {
+      const near = ({ x, y }) => Math.hypot(mark.x - x, mark.y - y) <= 2 * RADIUS + 20;
+      cluster.push(...rest.filter(near));
+      rest = rest.filter((other) => !near(other));
+    }
+    if (cluster.length > largest.length) largest = cluster;
+  }
+  return largest;
+}
+
+/** The marks of other classes that a line crosses. */
+function crossed({ x1, y1, x2, y2 }, marks, group) {
+  return marks.filter((mark) => {
+    if (mark.group === group) return false;
+    const squared = (x2 - x1) ** 2 + (y2 - y1) ** 2;
+    const along = Math.min(Math.max(((mark.x - x1) * (x2 - x1) + (mark.y - y1) * (y2 - y1)) / squared, 0), 1);
+    return Math.hypot(x1 + along * (x2 - x1) - mark.x, y1 + along * (y2 - y1) - mark.y) < RADIUS;
+  }).length;
+}
+
 /** What no placing may ever break, by brute force. */
 function assertTrue(places, { marks, names, frame }) {
   const boxes = places.map((place) => boxOf(place, marks, names));
   for (const [position, place] of places.entries()) {
     const box = boxes[position];
     assert.ok(box.left >= 0 && box.top >= 0 && box.right <= frame.width && box.bottom <= frame.height, "outside");
-    const nearest = (test) => Math.min(...marks.filter(test).map((mark) => gap(box, mark)));
-    const own = nearest((mark) => mark.group === place.group);
-    const others = nearest((mark) => mark.group !== place.group);
+    const nearest = (of) => Math.min(...of.map((mark) => gap(box, mark)));
+    const strangers = marks.filter((mark) => mark.group !== place.group);
+    const cluster = largestCluster(marks, place.group);
+    // Of two as large as each other either will do.
+    const anchor = marks.find((mark) => mark.index === place.anchor);
+    const own = cluster.includes(anchor)
+      ? cluster
+      : largestCluster([anchor, ...marks.filter((mark) => mark !== anchor)], place.group);
+    assert.ok(own.includes(anchor), `the name of ${place.group} is that of a stray`);
+    const others = nearest(strangers);
     if (place.leader) {
       assert.ok(others > RADIUS, "a name with a line covers marks");
-      assert.equal(marks.find((mark) => mark.index === place.anchor).group, place.group);
-    } else assert.ok(own < others, `${place.group} is nearer to another class: ${own} and ${others}`);
+      assert.ok(
+        Math.min(...strangers.map(({ x, y }) => Math.hypot(x - anchor.x, y - anchor.y))) > RADIUS - 1.5,
+        "unseen",
+      );
+    } else assert.ok(nearest(own) < others, `${place.group} is nearer to another class: ${nearest(own)} and ${others}`);
     for (const other of boxes.slice(0, position)) {
       const apart =
         box.left >= other.right || other.left >= box.right || box.top >= other.bottom || other.top >= box.bottom;
@@ -133,6 +170,52 @@ test("a class among others, without space beside it, has a line or no name", () 
   assert.equal(
     placeNames(moved, names, close, RADIUS).find(({ group }) => group === 0),
     undefined,
+  );
+});
+
+test("a name stands at the cluster of its class and not at a stray, and its line crosses no others without need", () => {
+  // A cluster of class 0 between two walls of others, and one of its marks far below, where there is room for a name.
+  const marks = [];
+  const add = (group, x, y) => marks.push({ index: marks.length, group, x, y });
+  add(0, 200, 330);
+  for (let x = 180; x <= 220; x += 8) for (let y = 180; y <= 220; y += 8) add(0, x, y);
+  for (let y = 160; y <= 240; y += 8)
+    for (const x of [160, 240]) {
+      add(1, x, y);
+      add(1, x + (x < 200 ? -8 : 8), y);
+    }
+  for (let x = 168; x <= 232; x += 8) add(2, x, 160);
+  const names = new Map([0, 1, 2].map((group) => [group, { width: 70, height: 18 }]));
+  const map = { marks, names, frame: { width: 400, height: 400 } };
+  const places = placeNames(marks, names, map.frame, RADIUS);
+  assertTrue(places, map);
+  const place = places.find(({ group }) => group === 0);
+  assert.ok(place.leader);
+  const line = leaderOf(boxOf(place, marks, names), marks[place.anchor]);
+  assert.equal(crossed(line, marks, 0), 0);
+  // Who has a name keeps it only as long as it is not that of a stray.
+  const stray = { group: 0, anchor: 0, dx: 0, dy: 20, leader: false };
+  assertTrue(placeNames(marks, names, map.frame, RADIUS, [stray]), map);
+});
+
+test("a class whose every mark others cover has no name", () => {
+  const marks = [
+    { index: 0, group: 0, x: 100, y: 100 },
+    { index: 1, group: 1, x: 102, y: 100, radius: 20 },
+  ];
+  const names = new Map([
+    [0, { width: 60, height: 18 }],
+    [1, { width: 60, height: 18 }],
+  ]);
+  const places = placeNames(
+    marks.map((mark) => ({ radius: 4, ...mark })),
+    names,
+    { width: 300, height: 300 },
+    20,
+  );
+  assert.deepEqual(
+    places.map(({ group }) => group),
+    [1],
   );
 });
 

@@ -557,10 +557,11 @@ export class MapView {
       const [x, y] = placeOf(index);
       if (x < 0 || y < 0 || x > this.width || y > this.height) continue;
       const group = naming.groupOf(index);
-      points.push({ index, group: named === null || named.has(group) ? group : -1, x, y });
+      const radius = this.pictured[index] ? this.pictureSize / 2 : this.markRadius;
+      points.push({ index, group: named === null || named.has(group) ? group : -1, x, y, radius });
     }
-    const radius = this.name === "thumbnail" ? this.pictureSize / 2 : this.markRadius;
-    this.labels.place(points, this.width, this.height, radius);
+    const largest = Math.max(...points.map(({ radius }) => radius), 0);
+    this.labels.place(points, this.width, this.height, largest);
     this.labels.follow(placeOf);
   }
 }

@@ -1,10 +1,14 @@
 // Where names stand on a map: never nearer to another class than to their own, or with a line to it, or nowhere.
 //
-// A name is read as that of the marks closest to it. So a place beside its class counts only if the nearest mark of
-// the class is clearly nearer than that of any other; where there is none, a name stands in free space with a line to
-// its class; and where there is no such space either, it is left out.
+// A name is read as that of the marks closest to it, and as that of a whole class: so it stands at the largest cluster of
+// its class as it is drawn, never at a stray. A place there counts only if the nearest mark of the cluster is clearly nearer
+// than that of any other class; where there is none, a name stands in free space with a line to a mark that others leave
+// to be seen; and where there is no such space either, it is left out.
 
-/** @typedef {{ index: number, group: number, x: number, y: number }} Mark a shape that is shown, in pixels */
+/**
+ * A shape that is shown, in pixels; with a radius of its own where it is not drawn as large as most.
+ * @typedef {{ index: number, group: number, x: number, y: number, radius?: number }} Mark
+ */
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
 /** @typedef {{ x1: number, y1: number, x2: number, y2: number }} Line */
 /**
@@ -16,7 +20,7 @@
  * @property {boolean} leader whether a line leads from the name to the anchor
  */
 
-/** @typedef {{ x: number, y: number, group: number }} Dot */
+/** @typedef {{ x: number, y: number, group: number, radius: number, main: boolean }} Dot whether in its largest cluster */
 
 /** How much nearer than another class its own has to be, in pixels. */
 const CLEARLY = 4;
@@ -33,12 +37,14 @@ const WAYS = Array.from({ length: 20 }, (_, step) => {
 const STEP = 5;
 /** The radius of marks from which there is something to see on them. */
 const LARGE = 6;
-/** The longest way from the anchor, beside the class and with a line. */
+/** The longest way from the anchor beside the class; and from a mark by a line, longer by what it crosses of others. */
 const BESIDE = 130;
 const LED = 190;
-/** Classes are in pieces; a name may stand at one of the largest. */
-const PIECES = 3;
+/** Marks whose edges are no farther from each other are one cluster. */
+const LINK = 20;
 const NEIGHBOURHOOD = 40;
+/** Lines may end at so many marks of a cluster. */
+const ENDS = 24;
 
 /**
  * Choose places for names.
@@ -46,44 +52,47 @@ const NEIGHBOURHOOD = 40;
  * @param {readonly Mark[]} marks shapes that are shown; those of group -1 have no name and are in the way all the same
  * @param {ReadonlyMap<number, { width: number, height: number }>} names the size of each name with what stands before it
  * @param {{ width: number, height: number }} frame
- * @param {number} radius of a mark
+ * @param {number} radius of a mark, the largest
  * @param {readonly Place[]} [kept] places from before, kept where they still hold, so that names do not jump
  * @returns {Place[]} large classes first
  */
 export function placeNames(marks, names, frame, radius, kept = []) {
-  const field = new Field(marks, radius);
   // Where there is room for some names only, those of large classes help most.
   const groups = [...Map.groupBy(marks, ({ group }) => group)]
     .flatMap(([group, members]) => {
       const size = names.get(group);
-      return size === undefined ? [] : [{ group, members, size }];
+      return size === undefined ? [] : [{ group, members, size, cluster: largestCluster(members, radius) }];
     })
     .sort((a, b) => b.members.length - a.members.length || a.group - b.group);
+  const clustered = new Set(groups.flatMap(({ cluster }) => cluster));
+  const field = new Field(marks, clustered, radius);
   const taken = new Taken(frame);
   /** @type {Map<number, Place>} */
   const places = new Map();
-  const before = new Map(kept.map((place) => [place.group, place]));
-  const positions = new Map(marks.map((mark) => [mark.index, mark]));
-  // Names that can stay go first: otherwise a newcomer takes their places.
-  for (const { group, size } of groups) {
-    const place = before.get(group);
-    if (place === undefined) continue;
-    const anchor = positions.get(place.anchor);
-    if (anchor?.group !== group) continue;
-    const candidate = new Candidate(anchor, place.dx, place.dy, size, place.leader);
-    if (taken.hasRoom(candidate) && holds(candidate, group, field)) {
-      taken.add(candidate);
-      places.set(group, place);
-    }
-  }
-  for (const { group, members, size } of groups) {
-    if (places.has(group)) continue;
-    const candidate = best(pieces(members), group, size, field, taken, radius);
-    if (candidate === null) continue;
+  /**
+   * @param {number} group
+   * @param {Candidate | null} candidate
+   */
+  const take = (group, candidate) => {
+    if (candidate === null) return;
     taken.add(candidate);
     const { anchor, dx, dy, leader } = candidate;
     places.set(group, { group, anchor: anchor.index, dx, dy, leader });
+  };
+  const before = new Map(kept.map((place) => [place.group, place]));
+  // Names that can stay go first: otherwise a newcomer takes their places. Then those that stand beside their class,
+  // which find room at few places.
+  for (const { group, size, cluster } of groups) {
+    const place = before.get(group);
+    const anchor = cluster.find(({ index }) => index === place?.anchor);
+    if (place === undefined || anchor === undefined) continue;
+    const candidate = new Candidate(anchor, place.dx, place.dy, size, place.leader);
+    if (taken.hasRoom(candidate) && holds(candidate, group, field)) take(group, candidate);
   }
+  for (const { group, size, cluster } of groups)
+    if (!places.has(group)) take(group, beside(heartOf(cluster, radius), group, size, field, taken));
+  for (const { group, size, cluster } of groups)
+    if (!places.has(group)) take(group, led(heartOf(cluster, radius), cluster, group, size, field, taken));
   return groups.flatMap(({ group }) => places.get(group) ?? []);
 }
 
@@ -133,50 +142,105 @@ export function leaderOf(box, anchor) {
  * @param {Field} field
  */
 function holds(candidate, group, field) {
-  const others = field.gap(candidate.box, SIGHT, (of) => of !== group);
-  if (candidate.leader) return others > 1;
-  return others > 1 && field.gap(candidate.box, SIGHT, (of) => of === group) + 1 < others;
+  const others = field.gap(candidate.box, SIGHT, (dot) => dot.group !== group);
+  if (others <= 1) return false;
+  if (candidate.line !== null) return field.seen(candidate.anchor) && costOf(candidate.line, group, field) < LED;
+  return field.gap(candidate.box, SIGHT, (dot) => dot.group === group && dot.main) + 1 < others;
 }
 
 /**
- * The best place for a name: beside one of the pieces of its class, else with a line, else null.
+ * The places about a mark where a name has room, from near to far on each way.
  *
- * @param {Mark[]} anchors
+ * @param {Mark} heart
+ * @param {{ width: number, height: number }} size
+ * @param {Taken} taken
+ * @param {() => number} most how far it is worth to go, at any moment
+ * @returns {Generator<{ candidate: Candidate, way: number }>}
+ */
+function* placesAbout(heart, size, taken, most) {
+  for (const [cos, sin] of WAYS) {
+    const [sideways, upwards] = [(cos * Math.abs(cos) * size.width) / 2, (sin * Math.abs(sin) * size.height) / 2];
+    for (let way = 0; way < most(); way += STEP) {
+      const candidate = new Candidate(heart, cos * way + sideways, sin * way + upwards, size, false);
+      if (taken.hasRoom(candidate)) yield { candidate, way };
+    }
+  }
+}
+
+/**
+ * The best place for a name beside the largest cluster of its class, or null.
+ *
+ * @param {Mark} heart of the cluster
  * @param {number} group
  * @param {{ width: number, height: number }} size
  * @param {Field} field
  * @param {Taken} taken
- * @param {number} radius
  * @returns {Candidate | null}
  */
-function best(anchors, group, size, field, taken, radius) {
-  let [led, shortest] = [/** @type {Candidate | null} */ (null), LED];
-  for (const [rank, anchor] of anchors.entries()) {
-    // The largest piece is where a name is looked for; others only help where it has no place there.
-    let [beside, least] = [/** @type {Candidate | null} */ (null), Infinity];
-    for (const [cos, sin] of WAYS) {
-      const [sideways, upwards] = [(cos * Math.abs(cos) * size.width) / 2, (sin * Math.abs(sin) * size.height) / 2];
-      for (let way = 0; way < Math.min(least, Math.max(BESIDE, shortest)); way += STEP) {
-        const candidate = new Candidate(anchor, cos * way + sideways, sin * way + upwards, size, false);
-        if (!taken.hasRoom(candidate)) continue;
-        const others = field.gap(candidate.box, FREE, (of) => of !== group);
-        if (others <= radius / 2) continue;
-        const own = field.gap(candidate.box, SIGHT, (of) => of === group);
-        if (way <= BESIDE && own < SIGHT) {
-          // Better a little farther than over marks of its own, and much farther than over its pictures.
-          const cost = way + (own > 0 ? 0 : 12 + 4 * (field.covered(candidate.box) + Math.max(radius - LARGE, 0)));
-          if (cost < least && field.gap(candidate.box, own + CLEARLY, (of) => of !== group) > own + CLEARLY)
-            [beside, least] = [candidate, cost];
-        }
-        if (beside === null && own > 0 && others > FREE && way + 30 * rank < shortest) {
-          const lined = new Candidate(anchor, candidate.dx, candidate.dy, size, true);
-          if (taken.hasRoom(lined)) [led, shortest] = [lined, way + 30 * rank];
-        }
-      }
-    }
-    if (beside !== null) return beside;
+function beside(heart, group, size, field, taken) {
+  let [best, least] = [/** @type {Candidate | null} */ (null), Infinity];
+  for (const { candidate, way } of placesAbout(heart, size, taken, () => Math.min(least, BESIDE))) {
+    /** @param {Dot} dot */
+    const foreign = (dot) => dot.group !== group;
+    // What is close is told quickest.
+    if (field.gap(candidate.box, CLEARLY, foreign) <= CLEARLY) continue;
+    const own = field.gap(candidate.box, SIGHT, (dot) => dot.group === group && dot.main);
+    if (own >= SIGHT || field.gap(candidate.box, own + CLEARLY, foreign) <= own + CLEARLY) continue;
+    // Better a little farther than over marks of its own, and much farther than over its pictures.
+    const over = field.covered(candidate.box) + Math.max(field.radius - LARGE, 0);
+    const cost = way + (own > 0 ? 0 : 12 + 4 * over);
+    if (cost < least) [best, least] = [candidate, cost];
   }
-  return led;
+  return best;
+}
+
+/**
+ * The best place for a name with a line to a mark of the largest cluster of its class, or null.
+ *
+ * @param {Mark} heart of the cluster
+ * @param {Mark[]} cluster
+ * @param {number} group
+ * @param {{ width: number, height: number }} size
+ * @param {Field} field
+ * @param {Taken} taken
+ * @returns {Candidate | null}
+ */
+function led(heart, cluster, group, size, field, taken) {
+  const seen = cluster.filter((mark) => field.seen(mark));
+  const ends = [heart, ...seen.filter((_, place) => place % Math.ceil(seen.length / ENDS) === 0)].filter((mark) =>
+    field.seen(mark),
+  );
+  let [best, least] = [/** @type {Candidate | null} */ (null), LED];
+  if (ends.length === 0) return best;
+  for (const { candidate } of placesAbout(heart, size, taken, () => LED)) {
+    if (field.gap(candidate.box, FREE, () => true) <= FREE) continue;
+    const x = heart.x + candidate.dx;
+    const y = heart.y + candidate.dy;
+    for (const end of ends) {
+      const lined = new Candidate(end, x - end.x, y - end.y, size, true);
+      const line = /** @type {Line} */ (lined.line);
+      if (lengthOf(line) >= least) continue;
+      const cost = costOf(line, group, field);
+      if (cost < least && taken.hasRoom(lined)) [best, least] = [lined, cost];
+    }
+  }
+  return best;
+}
+
+/**
+ * The length of a line, and once more the width of the marks of others that it crosses.
+ *
+ * @param {Line} line
+ * @param {number} group
+ * @param {Field} field
+ */
+function costOf(line, group, field) {
+  return lengthOf(line) + field.crossed(line, group);
+}
+
+/** @param {Line} line */
+function lengthOf({ x1, y1, x2, y2 }) {
+  return Math.hypot(x2 - x1, y2 - y1);
 }
 
 /** Marks in cells, to find those near a box. */
@@ -186,20 +250,23 @@ class Field {
 
   /**
    * @param {readonly Mark[]} marks
-   * @param {number} radius
+   * @param {ReadonlySet<Mark>} clustered those in the largest cluster of their class
+   * @param {number} radius the largest
    */
-  constructor(marks, radius) {
+  constructor(marks, clustered, radius) {
     this.radius = radius;
     // Marks on one pixel of one class are one.
-    const seen = new Set();
-    for (const { x, y, group } of marks) {
-      const [column, row] = [Math.round(x), Math.round(y)];
-      const dot = `${column},${row},${group}`;
-      if (seen.has(dot)) continue;
-      seen.add(dot);
+    const known = new Set();
+    for (const mark of marks) {
+      const { group, radius: own = radius } = mark;
+      const [column, row] = [Math.round(mark.x), Math.round(mark.y)];
+      const main = clustered.has(mark);
+      const dot = `${column},${row},${group},${own},${main}`;
+      if (known.has(dot)) continue;
+      known.add(dot);
       const key = keyOf(Math.floor(column / CELL), Math.floor(row / CELL));
       const cell = this.#cells.get(key) ?? [];
-      if (cell.push({ x: column, y: row, group }) === 1) this.#cells.set(key, cell);
+      if (cell.push({ x: column, y: row, group, radius: own, main }) === 1) this.#cells.set(key, cell);
     }
   }
 
@@ -208,17 +275,46 @@ class Field {
    *
    * @param {Box} box
    * @param {number} reach
-   * @param {(group: number) => boolean} counts which classes count
+   * @param {(dot: Dot) => boolean} counts which marks count
    */
   gap(box, reach, counts) {
     let closest = Infinity;
-    this.#each(box, reach + this.radius, ({ x, y, group }) => {
-      if (!counts(group)) return;
-      const dx = Math.max(box.left - x, 0, x - box.right);
-      const dy = Math.max(box.top - y, 0, y - box.bottom);
-      closest = Math.min(closest, dx * dx + dy * dy);
+    this.#each(box, reach + this.radius, (dot) => {
+      const dx = Math.max(box.left - dot.x, 0, dot.x - box.right);
+      const dy = Math.max(box.top - dot.y, 0, dot.y - box.bottom);
+      // Most are too far, and that is told without a root.
+      if (dx * dx + dy * dy < (closest + dot.radius) ** 2 && counts(dot))
+        closest = Math.min(closest, Math.hypot(dx, dy) - dot.radius);
     });
-    return Math.max(0, Math.sqrt(closest) - this.radius);
+    return Math.max(0, closest);
+  }
+
+  /**
+   * Whether the middle of a mark is covered by none of another class.
+   *
+   * @param {Mark} mark
+   */
+  seen({ x, y, group }) {
+    return this.gap({ left: x, right: x, top: y, bottom: y }, 0, (dot) => dot.group !== group) > 0;
+  }
+
+  /**
+   * The widths of all marks of other classes that a line crosses, together.
+   *
+   * @param {Line} line
+   * @param {number} group
+   */
+  crossed({ x1, y1, x2, y2 }, group) {
+    const box = { left: Math.min(x1, x2), right: Math.max(x1, x2), top: Math.min(y1, y2), bottom: Math.max(y1, y2) };
+    const [dx, dy] = [x2 - x1, y2 - y1];
+    const squared = Math.max(dx * dx + dy * dy, 1e-9);
+    let sum = 0;
+    this.#each(box, this.radius, (dot) => {
+      if (dot.group === group) return;
+      const along = Math.min(Math.max(((dot.x - x1) * dx + (dot.y - y1) * dy) / squared, 0), 1);
+      if (Math.hypot(x1 + along * dx - dot.x, y1 + along * dy - dot.y) < dot.radius) sum += 2 * dot.radius;
+    });
+    return sum;
   }
 
   /**
@@ -335,42 +431,81 @@ function sideOf({ x1, y1, x2, y2 }, x, y) {
 }
 
 /**
- * The marks at the hearts of the largest pieces of a class, so that a name does not float between two halves of it.
+ * The largest cluster of a class: marks each of which is linked to another of them.
  *
  * @param {readonly Mark[]} members
+ * @param {number} most the largest radius
  * @returns {Mark[]}
  */
-function pieces(members) {
-  /** @type {Mark[]} */
-  const found = [];
-  let rest = members;
-  while (rest.length > 0 && found.length < PIECES) {
-    const densest = densestOf(rest);
-    const crowd = rest.filter((mark) => near(mark, densest, 1.5 * NEIGHBOURHOOD));
-    const x = crowd.reduce((sum, mark) => sum + mark.x, 0) / crowd.length;
-    const y = crowd.reduce((sum, mark) => sum + mark.y, 0) / crowd.length;
-    found.push(crowd.reduce((a, b) => ((b.x - x) ** 2 + (b.y - y) ** 2 < (a.x - x) ** 2 + (a.y - y) ** 2 ? b : a)));
-    rest = rest.filter((mark) => !near(mark, densest, 2 * NEIGHBOURHOOD));
+function largestCluster(members, most) {
+  const side = 2 * most + LINK;
+  /** @type {Map<number, Mark[]>} */
+  const cells = new Map();
+  for (const mark of members) {
+    const key = keyOf(Math.floor(mark.x / side), Math.floor(mark.y / side));
+    const cell = cells.get(key) ?? [];
+    if (cell.push(mark) === 1) cells.set(key, cell);
   }
-  return found;
+  /** @type {Mark[]} */
+  let largest = [];
+  for (const cell of cells.values()) {
+    while (cell.length > 0) {
+      const cluster = [/** @type {Mark} */ (cell.pop())];
+      for (const mark of cluster) {
+        for (let i = -1; i <= 1; i += 1) {
+          for (let j = -1; j <= 1; j += 1) {
+            const near = cells.get(keyOf(Math.floor(mark.x / side) + i, Math.floor(mark.y / side) + j));
+            if (near === undefined) continue;
+            for (let place = near.length - 1; place >= 0; place -= 1)
+              if (linked(mark, near[place], most)) cluster.push(...near.splice(place, 1));
+          }
+        }
+      }
+      if (cluster.length > largest.length) largest = cluster;
+    }
+  }
+  return largest;
 }
 
 /**
  * @param {Mark} mark
  * @param {Mark} other
- * @param {number} reach
+ * @param {number} most
  */
-function near(mark, other, reach) {
-  return Math.abs(mark.x - other.x) < reach && Math.abs(mark.y - other.y) < reach;
+function linked({ x, y, radius }, other, most) {
+  return Math.hypot(x - other.x, y - other.y) <= (radius ?? most) + (other.radius ?? most) + LINK;
+}
+
+/**
+ * The mark in the middle of where most of a cluster lie, so that a name does not float between two halves of it; one of the
+ * largest, such as a picture among dots.
+ *
+ * @param {readonly Mark[]} cluster
+ * @param {number} most the largest radius
+ * @returns {Mark}
+ */
+function heartOf(cluster, most) {
+  const reach = Math.max(NEIGHBOURHOOD, 3 * most);
+  const densest = densestOf(cluster, reach);
+  const crowd = cluster.filter(
+    (mark) => Math.abs(mark.x - densest.x) < 1.5 * reach && Math.abs(mark.y - densest.y) < 1.5 * reach,
+  );
+  const x = crowd.reduce((sum, mark) => sum + mark.x, 0) / crowd.length;
+  const y = crowd.reduce((sum, mark) => sum + mark.y, 0) / crowd.length;
+  /** @param {Mark} mark */
+  const rank = (mark) => Math.hypot(mark.x - x, mark.y - y);
+  const largest = Math.max(...crowd.map(({ radius }) => radius ?? most));
+  return crowd.filter(({ radius }) => (radius ?? most) === largest).reduce((a, b) => (rank(b) < rank(a) ? b : a));
 }
 
 /**
  * A mark with most others in its cell and those around it.
  *
  * @param {readonly Mark[]} marks
+ * @param {number} side of a cell
  */
-function densestOf(marks) {
-  const cells = marks.map(({ x, y }) => keyOf(Math.floor(x / NEIGHBOURHOOD), Math.floor(y / NEIGHBOURHOOD)));
+function densestOf(marks, side) {
+  const cells = marks.map(({ x, y }) => keyOf(Math.floor(x / side), Math.floor(y / side)));
   /** @type {Map<number, number>} */
   const counts = new Map();
   for (const cell of cells) counts.set(cell, (counts.get(cell) ?? 0) + 1);
