@@ -292,6 +292,24 @@ class TestColors:
         page.locator(".masthead nav a", has_text="Overview").click()
         page.wait_for_selector("figure[data-slot=large][data-view=hit]")
 
+    def test_the_legend_stays_in_view_beside_an_open_shape(self, open_page, reports):
+        shape = reports("searched").shapes[0].id
+        page = open_page("searched", f"index.html#color=fact:faces&open={shape}")
+        for viewport in ((1440, 900), (1700, 900)):
+            page.set_viewport_size(dict(zip(("width", "height"), viewport, strict=True)))
+            detail = page.locator("#detail")
+            detail.wait_for()
+            drawn_again(page)
+            ramp = page.locator("#color-legend .ramp")
+            assert ramp.evaluate(
+                """node => {
+                    const { left, top, width, height } = node.getBoundingClientRect();
+                    return document.elementFromPoint(left + width / 2, top + height / 2) === node;
+                }"""
+            )
+            legend = page.locator("#color-legend").bounding_box()
+            assert legend["y"] + legend["height"] <= detail.bounding_box()["y"] + 1
+
 
 def truth_of(site, method) -> dict:
     """How far a map shows who is like whom, as the site's data says it."""
