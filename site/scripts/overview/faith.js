@@ -22,6 +22,17 @@ const TEXT = 15;
 export function tellFaith(database, method, state) {
   const { faith, neighbours } = method;
   if (!faith) return [];
+  // Of all others any map keeps all.
+  if (faith.chance === 1)
+    return [
+      element("h3", {}, "Does it show who is like whom?"),
+      element(
+        "p",
+        {},
+        `${count(database.count, "shape")} are too few to say by their neighbours: each has all others among its ${neighbours} nearest, on any map.`,
+      ),
+      measuresOf(faith),
+    ];
   /** @param {number} share */
   const many = (share) => (share * neighbours).toFixed(1);
   return [
