@@ -62,7 +62,7 @@ def shared(browser, address):
 def page(shared):
     """The page with nothing chosen, nothing pointed at and all bars in view."""
     shared.fill("#bin-search", "")
-    shared.click("#bin-order >> text=By score")
+    shared.click("#bin-order >> text=Chosen first")
     shared.locator("#bin-clear").evaluate("button => button.click()")
     shared.click(".bin-zoom >> text=All")
     shared.mouse.move(5, 5)
@@ -192,6 +192,7 @@ class TestChoosing:
         names, _ = ranking
         page.mouse.click(*point_on(page, 9))
         assert reading(page).endswith("chosen")
+        page.mouse.move(5, 5)
         assert name_at(page, 0) == names[9]
         assert name_at(page, 1) == names[0]
         page.mouse.move(5, 5)
@@ -204,6 +205,28 @@ class TestChoosing:
         page.mouse.click(*point_on(page, 0))
         page.mouse.move(5, 5)
         assert reading(page) == "0 of 50 bins chosen"
+
+    def test_under_the_pointer_a_chosen_bar_stays_where_it_is(self, page, ranking):
+        names, _ = ranking
+        page.mouse.click(*point_on(page, 9))
+        assert reading(page).startswith(f"{names[9]} rank 10 of 50")
+        assert f"{names[9]} chosen, 1 bin chosen" in heard(page)
+        # Not even other bars move, so that one chooses several, and the second click gives the first one up.
+        page.mouse.click(*point_on(page, 20))
+        assert f"{names[20]} chosen, 2 bins chosen" in heard(page)
+        page.mouse.click(*point_on(page, 9))
+        page.mouse.click(*point_on(page, 9))
+        page.mouse.click(*point_on(page, 9))
+        assert f"{names[9]} removed, 1 bin chosen" in heard(page)
+        page.mouse.move(5, 5)
+        assert [name_at(page, place) for place in range(3)] == [names[20], names[0], names[1]]
+
+    def test_by_score_is_by_score_whatever_is_chosen(self, page, ranking):
+        names, _ = ranking
+        page.mouse.click(*point_on(page, 9))
+        page.mouse.move(5, 5)
+        page.click("#bin-order >> text=By score")
+        assert [name_at(page, place) for place in range(50)] == names
 
     def test_dragging_over_bars_adds_them_and_over_chosen_ones_removes_them(self, page, ranking):
         names, _ = ranking

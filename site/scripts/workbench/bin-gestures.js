@@ -24,7 +24,11 @@ export class BinGestures extends Brush {
     this.plot = plot;
     this.chart = chart;
     const { surface } = plot;
-    surface.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && chart.point(null));
+    surface.addEventListener("pointerenter", (event) => chart.hold(event.pointerType === "mouse"));
+    surface.addEventListener("pointerleave", (event) => {
+      if (event.pointerType === "mouse") chart.point(null);
+      chart.hold(false);
+    });
     surface.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     surface.addEventListener("keydown", (event) => this.#key(event));
     surface.addEventListener("blur", () => this.#letGo());
