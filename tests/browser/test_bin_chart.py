@@ -1,5 +1,6 @@
 """The Workbench's bars of bins as a reader uses them: by mouse, by keyboard and by touch."""
 
+import base64
 import io
 import re
 from pathlib import Path
@@ -155,6 +156,30 @@ class TestReading:
         page.mouse.move(5, 5)
         assert card.is_hidden()
 
+    def test_the_card_goes_when_a_bar_is_chosen_and_comes_with_another_bar(self, page):
+        card = page.locator(".bin-card")
+        page.mouse.move(*point_on(page, 7))
+        assert card.is_visible()
+        page.mouse.click(*point_on(page, 7))
+        assert card.is_hidden()
+        # The line above the bars still says which it was.
+        assert reading(page).endswith("chosen")
+        page.mouse.move(*point_on(page, 8))
+        assert card.is_visible()
+
+    def test_names_of_chosen_bars_keep_all_their_letters(self, open_page, tmp_path):
+        write_site(make_report(CLASSES, 10, features=("MWMWMWMWM", "Gc")), tmp_path / "site")
+        page = opened(open_page, f"{(tmp_path / 'site').as_uri()}/workbench.html#scorer=anova")
+        page.fill("#bin-number", "20")
+        page.click("#bin-add")
+        page.mouse.move(5, 5)
+        drawn_again(page)
+        # Names hang from the bars; one that is cut has ink in the last row.
+        address = page.locator(f"{SURFACE} canvas").evaluate("canvas => canvas.toDataURL()")
+        alpha = np.asarray(Image.open(io.BytesIO(base64.b64decode(address.split(",")[1]))))[:, :, 3]
+        assert alpha[-20].any()
+        assert not alpha[-1].any()
+
     def test_bars_rise_with_their_scores(self, page, report, ranking):
         _, scores = ranking
         rows = drawn(page, SURFACE)
@@ -264,6 +289,16 @@ class TestChoosing:
         page.click("#bin-clear")
         assert reading(page) == "0 of 50 bins chosen"
         assert page.locator("#bin-clear").is_disabled()
+
+    def test_the_number_stands_with_what_it_is_the_number_of(self, page):
+        row = page.locator(".bin-best")
+        assert row.locator("*:has(> #bin-number) > button").all_inner_texts() == [
+            "Add the best",
+            "Remove the weakest",
+        ]
+        number, finder = (page.locator(f"#{id_}").bounding_box() for id_ in ("bin-number", "bin-find"))
+        remove = page.locator("#bin-remove").bounding_box()
+        assert number["x"] < remove["x"] < finder["x"]
 
 
 class TestKeyboard:

@@ -196,7 +196,7 @@ export class BinChart {
       min: 1,
       max: this.bins.count,
       value: 10,
-      "aria-label": "How many bins",
+      "aria-label": "How many bins to add or remove",
       oninput: () => this.#offer(),
     });
     this.add = action("bin-add", "Add the best", () => this.#add(this.#best()));
@@ -208,11 +208,9 @@ export class BinChart {
     return element(
       "div",
       { class: "bin-best", role: "group", "aria-label": "Choose bins by score" },
-      this.finder,
-      this.number,
-      this.add,
-      this.remove,
+      element("div", { class: "so-many" }, this.number, this.add, this.remove),
       this.clear,
+      this.finder,
     );
   }
 
