@@ -133,6 +133,15 @@ class TestFirstLook:
             for other_left, other_top, *_ in places[:index]:
                 assert np.hypot(left - other_left, top - other_top) > 0.93 * size
 
+    @pytest.mark.parametrize("method", ["umap", "pca"])
+    def test_every_class_has_a_picture_on_a_crowded_map(self, open_page, method):
+        page = open_page("plain", f"index.html#map={method}")
+        page.set_viewport_size({"width": 390, "height": 640})
+        colours = (
+            "nodes => new Set(nodes.map(node => getComputedStyle(node).getPropertyValue('--mark'))).size"
+        )
+        eventually(page, lambda: page.eval_on_selector_all(f"{LARGE} .pictured", colours) == 12)
+
     def test_exact_places_are_a_toggle_away(self, open_page):
         page = open_page("plain")
         spread = pictured(page)
@@ -292,24 +301,6 @@ class TestColors:
         page.locator(".masthead nav a", has_text="Overview").click()
         page.wait_for_selector("figure[data-slot=large][data-view=hit]")
 
-    def test_the_legend_stays_in_view_beside_an_open_shape(self, open_page, reports):
-        shape = reports("searched").shapes[0].id
-        page = open_page("searched", f"index.html#color=fact:faces&open={shape}")
-        for viewport in ((1440, 900), (1700, 900)):
-            page.set_viewport_size(dict(zip(("width", "height"), viewport, strict=True)))
-            detail = page.locator("#detail")
-            detail.wait_for()
-            drawn_again(page)
-            ramp = page.locator("#color-legend .ramp")
-            assert ramp.evaluate(
-                """node => {
-                    const { left, top, width, height } = node.getBoundingClientRect();
-                    return document.elementFromPoint(left + width / 2, top + height / 2) === node;
-                }"""
-            )
-            legend = page.locator("#color-legend").bounding_box()
-            assert legend["y"] + legend["height"] <= detail.bounding_box()["y"] + 1
-
 
 def truth_of(site, method) -> dict:
     """How far a map shows who is like whom, as the site's data says it."""
@@ -345,11 +336,12 @@ class TestWhoIsLikeWhom:
             method: sum(share <= 0.2 for share in shares_of(site("plain"), f"kept:{method}").values())
             for method in ("tsne", "umap", "pca")
         }
+        assert f"{few['umap']} of 120 shapes keep two of them at most." in words
         by = {method: count or "none" for method, count in few.items()}
         assert (
-            f"In the wrong place are shapes that keep at most two of them: {by['umap']} of 120 on this map, "
-            f"{by['tsne']} on the t-SNE map and {by['pca']} on the PCA map."
-        ) in words
+            f"Two at most are kept by {by['tsne']} on the t-SNE map and by {by['pca']} on the PCA map."
+            in words
+        )
         assert page.locator("#shepard svg").is_visible()
         assert page.locator("#shepard .cells path").count() == 9
 

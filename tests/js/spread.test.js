@@ -50,7 +50,7 @@ for (const [name, map, size, least] of [
 ]) {
   test(`no picture covers another: ${name}`, () => {
     const { x, y } = makeMap(map);
-    const found = spread(x, y, size, FRAME);
+    const found = spread(x, y, size, { frame: FRAME });
     const share = assertApart(found, size) / x.length;
     assert.ok(share >= least, `only ${share} of the shapes have a picture`);
     for (let row = 0; row < x.length; row += 1) {
@@ -60,6 +60,47 @@ for (const [name, map, size, least] of [
       else {
         assert.ok(found.x[row] >= size / 2 - 1e-6 && found.x[row] <= 960 - size / 2 + 1e-6, "it leaves the frame");
         assert.ok(found.y[row] >= size / 2 - 1e-6 && found.y[row] <= 700 - size / 2 + 1e-6, "it leaves the frame");
+      }
+    }
+  });
+}
+
+/** Many groups in a few tight clumps, as UMAP makes them, the first shape of each group first. */
+function makeClumps({ seed, clumps, groups, each, radius }) {
+  const random = randomOf(seed);
+  const middles = Array.from({ length: clumps }, () => [120 + random() * 720, 120 + random() * 460]);
+  const [x, y, of] = [[], [], []];
+  for (let member = 0; member < each; member += 1) {
+    for (let group = 0; group < groups; group += 1) {
+      const [angle, distance] = [random() * 7, radius * Math.sqrt(random())];
+      x.push(middles[group % clumps][0] + distance * Math.cos(angle));
+      y.push(middles[group % clumps][1] + distance * Math.sin(angle));
+      of.push(group);
+    }
+  }
+  return { x, y, groups: of };
+}
+
+for (const [name, given, size] of [
+  ["fourteen in three clumps", { clumps: 3, groups: 14, each: 12, radius: 30 }, 42],
+  ["in one place", { clumps: 1, groups: 10, each: 12, radius: 1 }, 36],
+  ["small pictures", { clumps: 4, groups: 14, each: 20, radius: 40 }, 28],
+]) {
+  test(`every group has a picture where groups lie in tight clumps, and no dot is under that of another: ${name}`, () => {
+    for (let seed = 1; seed <= 6; seed += 1) {
+      const { x, y, groups } = makeClumps({ seed, ...given });
+      const found = spread(x, y, size, { frame: FRAME, first: given.groups, groups, dot: 3 });
+      const count = assertApart(found, size);
+      assert.ok(count < x.length, "the clumps are too wide to tell anything");
+      const shown = new Set(groups.filter((_, row) => found.pictured[row] === 1));
+      assert.equal(shown.size, given.groups, `${shown.size} groups have a picture, seed ${seed}`);
+      for (let row = 0; row < x.length; row += 1) {
+        if (found.pictured[row] === 1) continue;
+        for (let other = 0; other < x.length; other += 1) {
+          if (found.pictured[other] === 0 || groups[other] === groups[row] || other < given.groups) continue;
+          const distance = Math.hypot(found.x[other] - x[row], found.y[other] - y[row]);
+          assert.ok(distance >= size / 2, `the picture of ${other} lies on the dot of ${row}, seed ${seed}`);
+        }
       }
     }
   });
@@ -110,7 +151,7 @@ test("it is done within a frame or a few", () => {
     const { x, y } = makeMap({ seed: 9, groups, each, radius: 80 });
     const times = [1, 2, 3].map(() => {
       const started = performance.now();
-      spread(x, y, 36, FRAME);
+      spread(x, y, 36, { frame: FRAME });
       return performance.now() - started;
     });
     const took = Math.min(...times);

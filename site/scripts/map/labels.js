@@ -5,7 +5,8 @@ import { shortened } from "../base/words.js";
 import { leaderOf, placeNames } from "./placement.js";
 
 /** @import { Naming } from "./coloring.js" */
-/** @import { Mark, Place } from "./placement.js" */
+/** @import { Mark } from "./clusters.js" */
+/** @import { Place } from "./placement.js" */
 /** @typedef {Place & { node: Element, mark: Element, line: Element | null }} Label */
 
 const HEIGHT = 18;

@@ -3,7 +3,9 @@
 import { drawChart } from "../base/chart.js";
 import { element, svg } from "../base/dom.js";
 import { drawnAs, toldAs } from "../base/snapshot.js";
+import { entry } from "../base/entry.js";
 import { currentTheme } from "../base/theme.js";
+import { heartOf, largestCluster } from "./clusters.js";
 import { classColoring, classNaming, hitColoring, placedGroups } from "./coloring.js";
 import { Dots } from "./dots.js";
 import { mapFigure, mapWords } from "./figure.js";
@@ -13,6 +15,7 @@ import { animate, CHOSEN, crowded } from "./scene.js";
 import { spread, thinned } from "./spread.js";
 
 /** @import { Theme } from "../base/theme.js" */
+/** @import { Bounds } from "../database/database.js" */
 /** @import { Coloring, Naming } from "./coloring.js" */
 /** @import { Parted } from "./lines.js" */
 /** @import { Camera, Scene } from "./scene.js" */
@@ -27,6 +30,14 @@ const RIM = 3;
 const FILLED = 0.4;
 const SMALLEST = 36;
 const LARGEST = 110;
+/** Pictures of so many shapes make way for dots within a frame or a few. */
+const MAKING_WAY = 800;
+/** Radius of a mark, about, on a map that is shown whole. */
+const DOT = 4;
+/** Where shapes lie in tight clumps pictures are smaller, so that this share of the shapes have one; down to this size, if half do. */
+const MOST = 0.75;
+const HALF = 0.5;
+const TIGHTEST = 28;
 /** The largest beside other maps, whose margins hold half of it: shapes are then at the same places on all. */
 const LARGEST_BESIDE = 60;
 /** The largest when zoomed in. */
@@ -161,11 +172,19 @@ export class MapView {
   // Plane and screen
 
   get scale() {
-    const { width, height } = this.scene.bounds;
-    const margin = Math.max(Math.min(this.width / 14, 36), this.name === "thumbnail" ? this.#wholeSize / 2 + RIM : 0);
-    /** @param {number} size */
-    const room = (size) => Math.max(size - 2 * margin, 8);
-    return Math.min(room(this.width) / width, room(this.height) / height) * this.scene.camera().zoom;
+    return this.#scaleOf(this.scene.bounds, this.#wholeSize) * this.scene.camera().zoom;
+  }
+
+  /**
+   * Pixels for a unit of a plane that is shown whole.
+   * @param {Bounds} bounds
+   * @param {number} size of a picture
+   */
+  #scaleOf({ width, height }, size) {
+    const margin = Math.max(Math.min(this.width / 14, 36), this.name === "thumbnail" ? size / 2 + RIM : 0);
+    /** @param {number} length */
+    const room = (length) => Math.max(length - 2 * margin, 8);
+    return Math.min(room(this.width) / width, room(this.height) / height);
   }
 
   /** How the plane lies on the screen at this moment. */
@@ -228,10 +247,65 @@ export class MapView {
     return Math.min(this.#wholeSize * this.scene.camera().zoom ** 0.6, Math.max(CLOSEST, this.#wholeSize));
   }
 
-  /** Size of a picture when the whole map is shown. */
+  /** Size of a picture when the whole map is shown; from one map to another it changes as shapes go their way. */
   get #wholeSize() {
+    const { origin, target, progress } = this.scene;
+    const size = this.#sizeOn(target);
+    return progress === 1 ? size : size + (1 - progress) * (this.#sizeOn(origin) - size);
+  }
+
+  /** @param {number} method */
+  #sizeOn(method) {
     const room = Math.sqrt((this.width * this.height * FILLED) / this.database.count);
-    return Math.min(Math.max(room, Math.min(SMALLEST, this.width / 13)), this.charted ? LARGEST_BESIDE : LARGEST);
+    const roomy = Math.min(
+      Math.max(room, Math.min(SMALLEST, this.width / 13)),
+      this.charted ? LARGEST_BESIDE : LARGEST,
+    );
+    if (this.name !== "thumbnail" || this.charted || crowded(this.database)) return roomy;
+    return entry(this.#sizes, [method, this.database.revision, this.width, this.height].join(" "), () => {
+      const tightest = Math.min(TIGHTEST, roomy);
+      if (this.#shareWith(tightest, method) < HALF) return roomy;
+      let size = roomy;
+      while (size > tightest && this.#shareWith(size, method) < MOST) size = Math.max(0.9 * size, tightest);
+      return size;
+    });
+  }
+
+  /** @type {Map<string, number>} */
+  #sizes = new Map();
+
+  /**
+   * The share of all shapes that have a picture where pictures are of a size on a map that is shown whole.
+   * @param {number} size
+   * @param {number} method
+   */
+  #shareWith(size, method) {
+    const { x, y } = this.database.methods[method];
+    const bounds = this.database.bounds[method];
+    const scale = this.#scaleOf(bounds, size);
+    const { pictured } = spread(
+      this.#scattered().map((index) => x[index] * scale),
+      this.#scattered().map((index) => -y[index] * scale),
+      size + RIM,
+      { frame: this.#frameOf(bounds, scale, 1) },
+    );
+    return pictured.reduce((sum, value) => sum + value, 0) / pictured.length;
+  }
+
+  /**
+   * The whole map in pixels from the origin of its plane.
+   * @param {Bounds} bounds
+   * @param {number} scale
+   * @param {number} zoom
+   */
+  #frameOf({ x, y }, scale, zoom) {
+    const [halfWidth, halfHeight] = [(this.width * zoom) / 2, (this.height * zoom) / 2];
+    return {
+      left: x * scale - halfWidth,
+      right: x * scale + halfWidth,
+      top: -y * scale - halfHeight,
+      bottom: -y * scale + halfHeight,
+    };
   }
 
   /**
@@ -414,24 +488,25 @@ export class MapView {
       const [scale, size] = [this.scale, this.pictureSize + RIM];
       // Beyond what is in view, too: a map that is moved a little shows the same pictures.
       const [wide, high] = [this.width, this.height].map((room) => room / scale);
-      const rows = this.#scattered().filter(
-        (index) =>
-          this.scene.visible(index) && Math.abs(x[index] - camera.x) < wide && Math.abs(y[index] - camera.y) < high,
-      );
+      /** @param {number} index */
+      const near = (index) =>
+        this.scene.visible(index) && Math.abs(x[index] - camera.x) < wide && Math.abs(y[index] - camera.y) < high;
+      // Every group has a picture before any has two.
+      const middles = this.#middles();
+      const first = [...middles].filter(near);
+      const rows = [...first, ...this.#scattered().filter((index) => near(index) && !middles.has(index))];
       const places = [rows.map((index) => x[index] * scale), rows.map((index) => -y[index] * scale)];
-      const { bounds } = this.scene;
-      const [halfWidth, halfHeight] = [(this.width * zoom) / 2, (this.height * zoom) / 2];
-      const frame = {
-        left: bounds.x * scale - halfWidth,
-        right: bounds.x * scale + halfWidth,
-        top: -bounds.y * scale - halfHeight,
-        bottom: -bounds.y * scale + halfHeight,
-      };
+      const naming = this.#naming;
       // Beside another map a shape is where it is on that one.
       const found =
         this.charted || this.state.get("exact")
           ? thinned(places[0], places[1], size, EXACT_APART)
-          : spread(places[0], places[1], size, frame);
+          : spread(places[0], places[1], size, {
+              frame: this.#frameOf(this.scene.bounds, scale / zoom, zoom),
+              first: first.length,
+              groups: rows.length > MAKING_WAY ? null : rows.map((index) => naming.groupOf(index)),
+              dot: this.markRadius,
+            });
       for (const [place, index] of rows.entries()) {
         pictured[index] = found.pictured[place];
         shift.x[index] = (found.x[place] - places[0][place]) / this.pictureSize;
@@ -529,6 +604,37 @@ export class MapView {
     return this.order;
   }
 
+  /** The groups whose names stand on the map. */
+  get #naming() {
+    return this.coloring.naming ?? classNaming(this.database);
+  }
+
+  /** @type {{ coloring: Coloring | null, map: string, middles: Set<number> } | null} */
+  #known = null;
+
+  /** The shape in the middle of the largest cluster of each group, in the order of shapes. */
+  #middles() {
+    const { scene, database, width, height, chosenColoring: coloring } = this;
+    const naming = this.#naming;
+    const map = [scene.target, database.revision, width, height].join(" ");
+    if (this.#known?.coloring !== coloring || this.#known.map !== map) {
+      const scale = Math.min(width / scene.bounds.width, height / scene.bounds.height);
+      const marks = database.ids.map((_, index) => ({
+        index,
+        group: naming.groupOf(index),
+        x: scene.x[index] * scale,
+        y: scene.y[index] * scale,
+      }));
+      const groups = Map.groupBy(
+        marks.filter(({ group }) => group >= 0),
+        ({ group }) => group,
+      );
+      const middles = [...groups.values()].map((members) => heartOf(largestCluster(members, DOT), DOT).index);
+      this.#known = { coloring, map, middles: new Set(middles.sort((a, b) => a - b)) };
+    }
+    return this.#known.middles;
+  }
+
   /** @type {{ coloring: Coloring, map: string, groups: Set<number> } | null} */
   #together = null;
 
@@ -548,7 +654,7 @@ export class MapView {
   #name() {
     const placeOf = this.placing();
     const { coloring } = this;
-    const naming = coloring.naming ?? classNaming(this.database);
+    const naming = this.#naming;
     this.labels.naming = naming;
     const named = coloring.naming && !coloring.ofClasses ? this.#placed(coloring) : null;
     const points = [];

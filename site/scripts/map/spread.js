@@ -1,8 +1,8 @@
 // Pictures of shapes beside each other: where they stand on a map so that none covers another, and which have no room.
 //
 // Pictures are pushed apart until they no longer touch; where more shapes lie together than there is room for within reach
-// of their places, the rest stay dots; and in a crowd few pictures stand among many dots. Nothing here knows what part of
-// the map is in view, so that moving a map moves no picture on it.
+// of their places, the rest stay dots, and pictures make way for dots of other groups; in a crowd few pictures stand among
+// many dots. Nothing here knows what part of the map is in view, so that moving a map moves no picture on it.
 
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Frame */
 /**
@@ -18,10 +18,12 @@ export const FARTHEST = 3;
 const AROUND = 3;
 const FULLEST = 0.62;
 /** Where so many times more shapes lie than have room, pictures stand for others: so many sizes apart, among dots. */
-const CROWD = 3;
+const CROWD = 6;
 const APART = 1.15;
 /** The share of a picture that another may cover. */
 export const TOLERANCE = 0.06;
+/** How often pictures are pushed apart again without those that found no place. */
+const ROUNDS = 12;
 
 const STEPS = 120;
 /** Squares of a grid on a side: a map that is zoomed far in is large, and few of its shapes are looked at. */
@@ -35,32 +37,72 @@ const PULL = 0.06;
  * @param {ArrayLike<number>} x places in pixels of the whole map
  * @param {ArrayLike<number>} y
  * @param {number} size of a picture
- * @param {Frame | null} [frame] which pictures do not leave
+ * @param {object} [among]
+ * @param {Frame | null} [among.frame] which pictures do not leave
+ * @param {number} [among.first] so many shapes, the first, have a picture wherever it finds a place within reach
+ * @param {ArrayLike<number> | null} [among.groups] dots of one group are left to be seen by pictures of others
+ * @param {number} [among.dot] radius of a dot
  * @returns {Spread} shapes that come first come first to a picture
  */
-export function spread(x, y, size, frame = null) {
-  const pictured = chosen(x, y, size);
-  const rows = [];
-  for (let row = 0; row < x.length; row += 1) if (pictured[row] === 1) rows.push(row);
-  const places = { x: Float64Array.from(x), y: Float64Array.from(y) };
-  const moved = apart(
-    rows.map((row) => x[row]),
-    rows.map((row) => y[row]),
-    size,
-    frame,
-  );
-  // What could not be pushed apart within reach has no room.
-  const standing = new Cells(moved.x, moved.y, size);
-  standing.clear();
-  const least = size * (1 - TOLERANCE);
-  for (const [place, row] of rows.entries()) {
-    if (standing.any(moved.x[place], moved.y[place], least)) pictured[row] = 0;
-    else {
-      standing.add(place);
-      [places.x[row], places.y[row]] = [moved.x[place], moved.y[place]];
+export function spread(x, y, size, { frame = null, first = 0, groups = null, dot = 0 } = {}) {
+  const pictured = chosen(x, y, size, first);
+  for (let round = 1; ; round += 1) {
+    /** @type {number[][]} */
+    const [rows, dots] = [[], []];
+    for (let row = 0; row < x.length; row += 1) (pictured[row] === 0 ? dots : rows).push(row);
+    const places = { x: Float64Array.from(x), y: Float64Array.from(y) };
+    const obstacles = groups === null ? null : new Obstacles(x, y, groups, dots, size, dot);
+    const own = rows.map((row) => groups?.[row] ?? -1);
+    const moved = apart(
+      rows.map((row) => x[row]),
+      rows.map((row) => y[row]),
+      size,
+      frame,
+      (places) => obstacles?.push(places, own) ?? 0,
+    );
+    // What could not be pushed apart within reach has no room.
+    const standing = new Cells(moved.x, moved.y, size);
+    standing.clear();
+    const least = size * (1 - TOLERANCE);
+    let without = 0;
+    for (const [place, row] of rows.entries()) {
+      const isFree = (/** @type {number} */ left, /** @type {number} */ top) => !standing.any(left, top, least);
+      let fits = isFree(moved.x[place], moved.y[place]);
+      if (row < first) {
+        const room = fits ? null : roomNear([x[row], y[row]], size, frame, isFree);
+        if (room !== null) [moved.x[place], moved.y[place], fits] = [...room, true];
+      } else fits &&= !obstacles?.anyUnder(moved.x[place], moved.y[place], own[place]);
+      if (fits) {
+        standing.add(place);
+        [places.x[row], places.y[row]] = [moved.x[place], moved.y[place]];
+      } else {
+        pictured[row] = 0;
+        without += 1;
+      }
+    }
+    // What has no room is a dot, which others make way for in their turn.
+    if (without === 0 || round === ROUNDS) return { ...places, pictured };
+  }
+}
+
+/**
+ * The place nearest to one, within reach, where a picture has room; null where there is none.
+ * @param {[number, number]} place
+ * @param {number} size
+ * @param {Frame | null} frame
+ * @param {(x: number, y: number) => boolean} isFree
+ * @returns {[number, number] | null}
+ */
+function roomNear([x, y], size, frame, isFree) {
+  for (let distance = 0; distance <= FARTHEST * size; distance += size / 4) {
+    for (let turn = 0; turn < 24; turn += 1) {
+      const angle = (2 * Math.PI * turn) / 24;
+      const left = within(x + distance * Math.cos(angle), frame?.left, frame?.right, size);
+      const top = within(y + distance * Math.sin(angle), frame?.top, frame?.bottom, size);
+      if (isFree(left, top)) return [left, top];
     }
   }
-  return { ...places, pictured };
+  return null;
 }
 
 /**
@@ -89,8 +131,9 @@ export function thinned(x, y, size, distance) {
  * @param {ArrayLike<number>} x
  * @param {ArrayLike<number>} y
  * @param {number} size
+ * @param {number} first so many have one in any case
  */
-function chosen(x, y, size) {
+function chosen(x, y, size, first) {
   const reach = AROUND * size;
   const room = FULLEST * 4 * AROUND ** 2 - 1;
   const all = new Cells(x, y, reach);
@@ -99,7 +142,11 @@ function chosen(x, y, size) {
   const pictured = new Uint8Array(x.length);
   for (let row = 0; row < x.length; row += 1) {
     const crowd = all.count(x[row], y[row], reach, CROWD * room) > CROWD * room;
-    if (crowd ? taken.any(x[row], y[row], APART * size) : taken.count(x[row], y[row], reach, room) > room) continue;
+    if (
+      row >= first &&
+      (crowd ? taken.any(x[row], y[row], APART * size) : taken.count(x[row], y[row], reach, room) > room)
+    )
+      continue;
     taken.add(row);
     pictured[row] = 1;
   }
@@ -112,8 +159,9 @@ function chosen(x, y, size) {
  * @param {number[]} y
  * @param {number} size
  * @param {Frame | null} frame
+ * @param {(places: { x: Float64Array, y: Float64Array }) => number} makeWay moves places; by how far is the farthest from its goal
  */
-function apart(x, y, size, frame) {
+function apart(x, y, size, frame, makeWay) {
   const moved = { x: Float64Array.from(x), y: Float64Array.from(y) };
   const reach = FARTHEST * size;
   const cells = new Cells(moved.x, moved.y, size);
@@ -141,6 +189,7 @@ function apart(x, y, size, frame) {
       moved.x[other] += push * dx;
       moved.y[other] += push * dy;
     });
+    worst = Math.max(worst, makeWay(moved));
     for (let row = 0; row < x.length; row += 1) {
       const [dx, dy] = [moved.x[row] - x[row], moved.y[row] - y[row]];
       const shorter = Math.min(reach / Math.max(Math.hypot(dx, dy), 1e-9), 1);
@@ -160,6 +209,67 @@ function apart(x, y, size, frame) {
  */
 function within(value, from = -Infinity, to = Infinity, size = 0) {
   return to - from < size ? (from + to) / 2 : Math.min(Math.max(value, from + size / 2), to - size / 2);
+}
+
+/** Dots that pictures of other groups make way for. */
+class Obstacles {
+  /**
+   * @param {ArrayLike<number>} x
+   * @param {ArrayLike<number>} y
+   * @param {ArrayLike<number>} groups
+   * @param {number[]} dots the rows of dots
+   * @param {number} size of a picture
+   * @param {number} radius of a dot
+   */
+  constructor(x, y, groups, dots, size, radius) {
+    this.groups = dots.map((row) => groups[row]);
+    this.size = size;
+    this.clear = Math.min(size / 2 + radius, size);
+    this.cells = new Cells(
+      dots.map((row) => x[row]),
+      dots.map((row) => y[row]),
+      size,
+    );
+  }
+
+  /**
+   * Push pictures a step away from the dot of another group that each covers most; how much that is at worst.
+   * @param {{ x: Float64Array, y: Float64Array }} places of pictures
+   * @param {number[]} groups of the pictures
+   */
+  push({ x, y }, groups) {
+    let worst = 0;
+    for (const [place, group] of groups.entries()) {
+      let [nearest, least] = [-1, this.clear];
+      this.cells.near(x[place], y[place], this.clear, (dot, distance) => {
+        if (this.groups[dot] !== group && distance < least) [nearest, least] = [dot, distance];
+      });
+      if (nearest < 0) continue;
+      const push = this.clear - least;
+      worst = Math.max(worst, push);
+      const [dx, dy] =
+        least > 1e-6 * this.size
+          ? [(x[place] - this.cells.x[nearest]) / least, (y[place] - this.cells.y[nearest]) / least]
+          : [Math.cos(2.4 * place), Math.sin(2.4 * place)];
+      x[place] += (push / 2) * dx;
+      y[place] += (push / 2) * dy;
+    }
+    return worst;
+  }
+
+  /**
+   * Whether a picture covers the middle of a dot of another group.
+   * @param {number} x
+   * @param {number} y
+   * @param {number} group of the picture
+   */
+  anyUnder(x, y, group) {
+    let found = false;
+    this.cells.near(x, y, this.size / 2, (dot) => {
+      found ||= this.groups[dot] !== group;
+    });
+    return found;
+  }
 }
 
 /** Places in squares of a grid, to find those near one. */
@@ -231,6 +341,25 @@ class Cells {
       }
     }
     return found;
+  }
+
+  /**
+   * Tell of those within a distance of a place.
+   * @param {number} x
+   * @param {number} y
+   * @param {number} distance no more than the side of a square
+   * @param {(row: number, distance: number) => void} tell
+   */
+  near(x, y, distance, tell) {
+    const [column, line] = [this.#column(x), this.#line(y)];
+    for (let high = Math.max(line - 1, 0); high <= Math.min(line + 1, this.lines - 1); high += 1) {
+      for (let wide = Math.max(column - 1, 0); wide <= Math.min(column + 1, this.columns - 1); wide += 1) {
+        for (let row = this.last[high * this.columns + wide]; row >= 0; row = this.before[row]) {
+          const away = Math.hypot(this.x[row] - x, this.y[row] - y);
+          if (away < distance) tell(row, away);
+        }
+      }
+    }
   }
 
   /**

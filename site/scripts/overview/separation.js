@@ -34,7 +34,7 @@ export function tellSeparation({ data }, method) {
     element(
       "p",
       {},
-      "For so many shapes the nearest one is of the same class. ",
+      `For so many shapes the nearest other one is of their class. `,
       element("b", {}, map.verdict),
       map.lost && lostOf(map.lost),
       found.hardest && hardestOf(found.hardest),
@@ -56,19 +56,24 @@ function signed(value) {
 /** @param {Chunk.ClassCounts} counts */
 function lostOf({ name, shapes, features, map }) {
   return [
-    " It does worst by ",
+    " It loses most of ",
     element("bdi", {}, name),
-    `: the nearest shape is of this class for ${features} of its ${count(shapes, "shape")} by features, but for only ${map} on this map.`,
+    `: by the features ${features} of ${count(shapes, "shape")} ${has(features)} another of it nearest, on this map ${map}.`,
   ];
 }
 
 /** @param {Chunk.ClassCounts} counts */
 function hardestOf({ name, shapes, features, mistaken }) {
   return [
-    " Hardest to tell by features is ",
+    " Hardest for the features is ",
     element("bdi", {}, name),
-    `: the nearest shape is of this class for ${features || "none"} of its ${count(shapes, "shape")}`,
-    mistaken !== null && ["; for the others it is most often of ", element("bdi", {}, mistaken)],
+    `: ${features} of ${count(shapes, "shape")} ${has(features)} another of it nearest`,
+    mistaken !== null && ["; the others are nearest to ", element("bdi", {}, mistaken), " most often"],
     ".",
   ];
+}
+
+/** @param {number} number */
+function has(number) {
+  return number === 1 ? "has" : "have";
 }

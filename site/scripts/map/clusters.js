@@ -1,0 +1,107 @@
+// Clusters of marks on a map as it is drawn: which is the largest of a class, and what is in its middle.
+
+/**
+ * A shape that is shown, in pixels; with a radius of its own where it is not drawn as large as most.
+ * @typedef {{ index: number, group: number, x: number, y: number, radius?: number }} Mark
+ */
+
+/** Marks whose edges are no farther from each other are one cluster. */
+const LINK = 20;
+const NEIGHBOURHOOD = 40;
+
+/**
+ * The largest cluster of a class: marks each of which is linked to another of them.
+ *
+ * @param {readonly Mark[]} members
+ * @param {number} most the largest radius
+ * @returns {Mark[]}
+ */
+export function largestCluster(members, most) {
+  const side = 2 * most + LINK;
+  /** @type {Map<number, Mark[]>} */
+  const cells = new Map();
+  for (const mark of members) {
+    const key = keyOf(Math.floor(mark.x / side), Math.floor(mark.y / side));
+    const cell = cells.get(key) ?? [];
+    if (cell.push(mark) === 1) cells.set(key, cell);
+  }
+  /** @type {Mark[]} */
+  let largest = [];
+  for (const cell of cells.values()) {
+    while (cell.length > 0) {
+      const cluster = [/** @type {Mark} */ (cell.pop())];
+      for (const mark of cluster) {
+        for (let i = -1; i <= 1; i += 1) {
+          for (let j = -1; j <= 1; j += 1) {
+            const near = cells.get(keyOf(Math.floor(mark.x / side) + i, Math.floor(mark.y / side) + j));
+            if (near === undefined) continue;
+            for (let place = near.length - 1; place >= 0; place -= 1)
+              if (linked(mark, near[place], most)) cluster.push(...near.splice(place, 1));
+          }
+        }
+      }
+      if (cluster.length > largest.length) largest = cluster;
+    }
+  }
+  return largest;
+}
+
+/**
+ * @param {Mark} mark
+ * @param {Mark} other
+ * @param {number} most
+ */
+function linked({ x, y, radius }, other, most) {
+  return Math.hypot(x - other.x, y - other.y) <= (radius ?? most) + (other.radius ?? most) + LINK;
+}
+
+/**
+ * The mark in the middle of where most of a cluster lie, so that a name does not float between two halves of it; one of the
+ * largest, such as a picture among dots.
+ *
+ * @param {readonly Mark[]} cluster
+ * @param {number} most the largest radius
+ * @returns {Mark}
+ */
+export function heartOf(cluster, most) {
+  const reach = Math.max(NEIGHBOURHOOD, 3 * most);
+  const densest = densestOf(cluster, reach);
+  const crowd = cluster.filter(
+    (mark) => Math.abs(mark.x - densest.x) < 1.5 * reach && Math.abs(mark.y - densest.y) < 1.5 * reach,
+  );
+  const x = crowd.reduce((sum, mark) => sum + mark.x, 0) / crowd.length;
+  const y = crowd.reduce((sum, mark) => sum + mark.y, 0) / crowd.length;
+  /** @param {Mark} mark */
+  const rank = (mark) => Math.hypot(mark.x - x, mark.y - y);
+  const largest = Math.max(...crowd.map(({ radius }) => radius ?? most));
+  return crowd.filter(({ radius }) => (radius ?? most) === largest).reduce((a, b) => (rank(b) < rank(a) ? b : a));
+}
+
+/**
+ * A mark with most others in its cell and those around it.
+ *
+ * @param {readonly Mark[]} marks
+ * @param {number} side of a cell
+ */
+function densestOf(marks, side) {
+  const cells = marks.map(({ x, y }) => keyOf(Math.floor(x / side), Math.floor(y / side)));
+  /** @type {Map<number, number>} */
+  const counts = new Map();
+  for (const cell of cells) counts.set(cell, (counts.get(cell) ?? 0) + 1);
+  let [best, most] = [marks[0], -1];
+  for (const [position, cell] of cells.entries()) {
+    let sum = 0;
+    for (let i = -1; i <= 1; i += 1) for (let j = -1; j <= 1; j += 1) sum += counts.get(cell + keyOf(i, j)) ?? 0;
+    if (sum > most) [best, most] = [marks[position], sum];
+  }
+  return best;
+}
+
+/**
+ * The key of a cell.
+ * @param {number} column
+ * @param {number} row
+ */
+export function keyOf(column, row) {
+  return row * 100000 + column;
+}
