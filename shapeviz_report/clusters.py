@@ -26,6 +26,7 @@ from shapeviz_report.types import (
 )
 from shapeviz_report.wording import (
     GLOBAL_WORDINGS,
+    WORDINGS,
     Dimension,
     agreed,
     call_bins,
@@ -63,9 +64,8 @@ TYPICAL = 3
 WORTH_SAYING = 0.02
 """The least difference of a share of the surface that a sentence tells of."""
 
-CLEAR = 1.0
-"""Standard deviations by which a feature that one number describes must differ to go before those that are harder to
-picture."""
+ENOUGH = 3.0
+"""Standard deviations by which means differ whose groups hardly overlap: larger differences say no more."""
 
 
 @dataclass(frozen=True)
@@ -282,13 +282,19 @@ def _word_typical(
     """What tells each of some groups from the rest: of the features that do so most, a sentence each.
 
     Of a feature it is the share of the surface above some value, or the value of an external one, whose means within
-    and without the group are farthest apart in standard deviations within the two.
+    and without the group are farthest apart in standard deviations within the two. What is easily pictured goes
+    first, unless the rest says much more.
     """
     dimensions, calls = tuple(dimensions_of(table, edges)), call_bins(table, edges)
-    found: list[list[tuple[bool, float, str]]] = [[] for _ in rows]
+    found: list[list[tuple[float, float, str]]] = [[] for _ in rows]
     for block in table.blocks:
         own_dimensions = [dimension for dimension in dimensions if dimension.block == block]
         values = table.values[:, table.slice_of(block.name)]
+        wording = WORDINGS.get(block.name) or GLOBAL_WORDINGS.get(block.name)
+        # What somebody brought along as one number has a name that says what it is.
+        ease = (2.0 if block.width == 1 else 1.0) if wording is None else wording.ease
+        # Values as they are told: shares of the surface, of whole shapes shares or numbers.
+        in_percent = block.bins > 1 or (wording is not None and wording.rooted)
         if block.bins > 1:
             shares = values.reshape(len(values), block.dimensions, block.bins)
             # From the second bin on: the share that lies at or above each inner edge.
@@ -301,8 +307,12 @@ def _word_typical(
             within = np.maximum(squares - size * here**2 - others * there**2, 0) / len(values)
             gaps = np.abs(here - there)
             effects = np.divide(gaps, np.sqrt(within), out=np.zeros_like(gaps), where=within > 1e-18)
-            if block.bins > 1:
-                effects[gaps < WORTH_SAYING] = 0
+            told_gaps = gaps
+            if in_percent and block.bins == 1:
+                shown = np.square(values)
+                told_gaps = np.abs(shown[own].mean(axis=0) - (squares - shown[own].sum(axis=0)) / others)
+            if in_percent:
+                effects[told_gaps < WORTH_SAYING] = 0
             best = int(effects.argmax())
             if effects[best] == 0:
                 continue
@@ -311,26 +321,27 @@ def _word_typical(
                 sentence = _word_shares(own_dimensions[number], step, here[best], there[best], preset)
             else:
                 called = calls[table.slice_of(block.name).start + best] or block.columns[best]
-                rooted = block.name in GLOBAL_WORDINGS and GLOBAL_WORDINGS[block.name].rooted
-                shown = np.square(values[:, best]) if rooted else values[:, best]
+                shown = np.square(values[:, best]) if in_percent else values[:, best]
                 mean = float(shown[own].mean())
                 others_mean = float((shown.sum() - size * mean) / others)
-                told = percents(mean, others_mean) if rooted else (_number(mean), _number(others_mean))
+                told = percents(mean, others_mean) if in_percent else (_number(mean), _number(others_mean))
+                if told[0] == told[1]:
+                    continue
                 sentence = _word_values(called, mean > others_mean, *told)
-            hard = block.dimensions > 1 or effects[best] < CLEAR
-            candidates.append((hard, -effects[best], sentence))
+            candidates.append((-ease * min(effects[best], ENOUGH), -effects[best], sentence))
     return [tuple(sentence for _, _, sentence in sorted(candidates)[:TYPICAL]) for candidates in found]
 
 
 def _word_shares(dimension: Dimension, step: int, here: float, there: float, preset: Preset) -> str:
-    """That more of a group's surface than of the rest's lies on one side of an inner edge."""
+    """That more of a group's surface than of the rest's lies on one side of an inner edge; where one sees that there is
+    less of something, how much of that there is."""
     edge = float(dimension.edges[step + 1])
-    if here > there:
-        said = dimension.say(edge, None)
-    else:
+    below, above = dimension.say(None, edge), dimension.say(edge, None)
+    said, other = (above, below) if here > there else (below, above)
+    clause = other.clause if said.fewer else said.clause
+    if clause == below.clause:
         here, there = 1 - here, 1 - there
-        said = dimension.say(None, edge)
-    said = agreed(said, preset.by_area)
+    said = agreed(said._replace(clause=clause), preset.by_area)
     trend = f"{said.trend[0].upper()}{said.trend[1:]}: " if said.trend else ""
     own, others = percents(here, there)
     return f"{trend}{own} of {word_whole(preset.by_area)} {said.clause}, in other shapes {others}."

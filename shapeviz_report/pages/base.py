@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
@@ -15,8 +15,9 @@ from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescrip
 from shapeviz_report.order import classes_of
 from shapeviz_report.pages.chunks import Chunks, Clusters, FeatureMarks, ThemeName
 from shapeviz_report.projections import PROJECTIONS
+from shapeviz_report.quality import hit_range
 from shapeviz_report.search.certainty import measure_distinct_gain
-from shapeviz_report.types import FloatArray, HeldOutBins, HeldOutFold, Projection, Report
+from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutBins, HeldOutFold, Projection, Report
 
 #: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
 COORDINATE_STEPS = 32767
@@ -92,6 +93,43 @@ class Page(Protocol):
 def class_names(report: Report) -> tuple[str, ...]:
     """The classes of the active labeling that have a shape, in natural order."""
     return classes_of(report.labels)
+
+
+def search_of(report: Report) -> FeatureSearch | None:
+    """The search for the best subset of features; as one without labels where these cannot rank maps."""
+    search = report.search
+    if search is None or nothing_told(report, search.k) is None:
+        return search
+    subsets = replace(
+        search.subsets,
+        nh=np.full_like(search.subsets.nh, np.nan),
+        nh_s=np.full_like(search.subsets.nh_s, np.nan),
+        nh_c=np.full_like(search.subsets.nh_c, np.nan),
+    )
+    return replace(
+        search,
+        subsets=subsets,
+        greedy=(),
+        table=(),
+        spread=(),
+        held_out=(),
+        null_best=np.empty(0),
+        effects=(),
+    )
+
+
+def nothing_told(report: Report, k: int) -> str | None:
+    """Why labels cannot tell one map from another by their neighbourhood hit, as a sentence; None where they can, and
+    without labels. In the words of ``nothingTold`` in ``database/hit-range.js``."""
+    limits = hit_range(report.labels, k)
+    if limits.tells or not limits.highest_of_class:
+        return None
+    if len(limits.highest_of_class) == 1:
+        return "All labelled shapes are of one class, which no map can mix with another."
+    if k >= len(report.labels) - 1:
+        shapes = grouped(len(report.labels))
+        return f"With {shapes} shapes, each has all others among its {grouped(k)} nearest on any map."
+    return "Each shape is alone in its class, so none can have another of it near on any map."
 
 
 def clusters_chunk(report: Report) -> Clusters | None:

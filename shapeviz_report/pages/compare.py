@@ -43,6 +43,8 @@ class ComparePage:
                 ],
                 "space": _space(projection.bins),
                 "k": hits.k,
+                # Where all others are neighbours of each shape, they say nothing of classes.
+                "too_few": len(report.shapes) if hits.k >= len(report.shapes) - 1 else None,
             },
             chunks={
                 "compare": _compare(report, points, codes, hits.k, list(spaces)),

@@ -20,7 +20,9 @@ from shapeviz_report.pages.base import (
     coordinate_steps,
     distinct_means,
     feature_marks,
+    nothing_told,
     rounded,
+    search_of,
 )
 from shapeviz_report.pages.chunks import Box, Chunks, Search, SubsetFaith, SubsetMaps, SubsetNeighbours
 from shapeviz_report.pages.fields import color_choices
@@ -65,7 +67,7 @@ class FeaturesPage:
         if report.retrieval is not None:
             context["retrieval"] = retrieval_context(report, report.retrieval)
             chunks["retrieval"] = retrieval_chunk(report, report.retrieval)
-        search = report.search
+        search = search_of(report)
         if search is not None:
             ranking = Ranking.of(search)
             context |= {"search": _context(report, search, ranking), "colors": color_choices(report)}
@@ -280,6 +282,7 @@ def _context(report: Report, search: FeatureSearch, ranking: Ranking) -> dict[st
         "shapes": len(search.rows),
         "shape_count": search.shape_count,
         "labelled": labelled,
+        "nothing": nothing_told(report, search.k),
         "measured": labelled or search.subsets.faithfulness is not None,
         "neighbours": search.k,
         "highest": _range(report, search).highest,

@@ -14,6 +14,7 @@ from shapeviz_report.pages.base import (
     class_names,
     clusters_chunk,
     rounded,
+    search_of,
 )
 from shapeviz_report.pages.chunks import Chunks, Details, Faith, Marks, Method, ShapeList, SubsetChoice
 from shapeviz_report.pages.chunks import Shepard as ShepardChunk
@@ -189,7 +190,7 @@ def _shepard(found: Shepard) -> ShepardChunk:
 def _subsets(report: Report) -> SubsetChoice | None:
     """Whose maps the page can show beside those of all features or of chosen bins: those of the search, or of one that
     laid out a sample the best; None if there is none."""
-    search = report.search
+    search = search_of(report)
     if search is None or search.method not in report.projections:
         return None
     whole = len(search.rows) == search.shape_count

@@ -28,10 +28,15 @@ def separation_of(report: Report) -> Separation | None:
     return None if report.clusters is not None and report.clusters.stand_in else report.separation
 
 
+def _too_few(found: Separation) -> bool:
+    """Whether the neighbours that elect a class are all other shapes, so that no feature could tell it."""
+    return found.k >= found.shapes - 1
+
+
 def separation_chunk(report: Report) -> SeparationChunk | None:
     """What the Overview says of each map."""
     found = separation_of(report)
-    if found is None:
+    if found is None or _too_few(found):
         return None
     number = {name: place for place, name in enumerate(class_names(report))}
     return {
@@ -99,6 +104,10 @@ def separation_context(report: Report) -> dict[str, object] | None:
     found = separation_of(report)
     if found is None:
         return None
+    compared = next(iter(report.projections.values()))[0].bins
+    bins = None if compared is None else len(compared)
+    if _too_few(found):
+        return {"too_few": found.shapes, "k": found.k, "bins": bins}
     order = np.argsort(found.features.nearest, kind="stable")
     groups = found.features.silhouette > found.likely
     return {
@@ -106,7 +115,8 @@ def separation_context(report: Report) -> dict[str, object] | None:
         "shapes": found.shapes,
         "shape_count": found.shape_count,
         "features": len(report.features.blocks),
-        "bins": None if (bins := next(iter(report.projections.values()))[0].bins) is None else len(bins),
+        "too_few": None,
+        "bins": bins,
         "nearest": found.over_shapes(found.features.nearest),
         "chance": found.over_shapes(found.chance.nearest),
         "elected": found.over_shapes(found.features.elected),

@@ -182,10 +182,10 @@ def _example(report: Report, classes: tuple[str, ...]) -> MixedClasses | None:
     """The two classes most mixed on the map of all features: whose shapes have the most neighbours of the other class.
 
     ``mixed`` is the mean of two shares: of the neighbours of the one class that belong to the other, and the other
-    way round. None where no two classes are neighbours, or there is no such map.
+    way round. None where no two classes are neighbours, there is no such map, or all others are neighbours on any.
     """
     original = _original_map(report)
-    if original is None or len(classes) < 2:
+    if original is None or not quality.hit_range(report.labels, original[1]).tells:
         return None
     xy, k = original
     member = np.array([[label == name for label in report.labels] for name in classes], dtype=float)

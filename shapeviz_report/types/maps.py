@@ -52,6 +52,17 @@ class HitRange:
     highest: float | None
     chance: float | None
 
+    @property
+    def tells(self) -> bool:
+        """Whether maps can differ in NH at all: not where all shapes are of one class, each is alone in its own, or k
+        neighbours are all others."""
+        return (
+            self.highest is not None
+            and self.chance is not None
+            and len(self.highest_of_class) > 1
+            and self.highest - self.chance > 1e-9
+        )
+
 
 @dataclass(frozen=True)
 class Shepard:

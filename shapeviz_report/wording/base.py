@@ -25,7 +25,8 @@ class Said(NamedTuple):
         What a stranger sees of a shape that has more of it, as it stands before "in bird than in fish": "bodies are
         thicker". Empty where the clause says it all.
     fewer : bool
-        Whether the trend is that there is less of something: then what lies beyond the range has more of it.
+        Whether the trend is that there is less of something: then it is of what lies beyond the range, and so are its
+        figures where any are told.
     """
 
     name: str

@@ -67,6 +67,11 @@ SITES = {
     "published": lambda: with_publication(make_report(["ant", "bird", "cup"], 6, name="Vessels")),
     "one shape": lambda: make_report(["ant"], 1),
     "one class": lambda: make_report(["ant"], 12),
+    "few": lambda: with_scores(
+        with_search(make_report([f"kind {letter}" for letter in "abcd"], 2, features=FEATURES[:2]))
+    ),
+    "six": lambda: make_report(["ant", "bird", "cup"], 2),
+    "one class searched": lambda: with_search(make_report(["ant"], 24, features=FEATURES[:2])),
     "no labels": lambda: make_report([None, None], 12),
     "clusters": lambda: with_clusters(make_report([None] * 4, 8, features=FEATURES[:3])),
     "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),

@@ -1,5 +1,6 @@
 """The Workbench's bars of bins as a reader uses them: by mouse, by keyboard and by touch."""
 
+import base64
 import io
 import re
 from pathlib import Path
@@ -62,7 +63,7 @@ def shared(browser, address):
 def page(shared):
     """The page with nothing chosen, nothing pointed at and all bars in view."""
     shared.fill("#bin-search", "")
-    shared.click("#bin-order >> text=By score")
+    shared.click("#bin-order >> text=Chosen first")
     shared.locator("#bin-clear").evaluate("button => button.click()")
     shared.click(".bin-zoom >> text=All")
     shared.mouse.move(5, 5)
@@ -155,6 +156,30 @@ class TestReading:
         page.mouse.move(5, 5)
         assert card.is_hidden()
 
+    def test_the_card_goes_when_a_bar_is_chosen_and_comes_with_another_bar(self, page):
+        card = page.locator(".bin-card")
+        page.mouse.move(*point_on(page, 7))
+        assert card.is_visible()
+        page.mouse.click(*point_on(page, 7))
+        assert card.is_hidden()
+        # The line above the bars still says which it was.
+        assert reading(page).endswith("chosen")
+        page.mouse.move(*point_on(page, 8))
+        assert card.is_visible()
+
+    def test_names_of_chosen_bars_keep_all_their_letters(self, open_page, tmp_path):
+        write_site(make_report(CLASSES, 10, features=("MWMWMWMWM", "Gc")), tmp_path / "site")
+        page = opened(open_page, f"{(tmp_path / 'site').as_uri()}/workbench.html#scorer=anova")
+        page.fill("#bin-number", "20")
+        page.click("#bin-add")
+        page.mouse.move(5, 5)
+        drawn_again(page)
+        # Names hang from the bars; one that is cut has ink in the last row.
+        address = page.locator(f"{SURFACE} canvas").evaluate("canvas => canvas.toDataURL()")
+        alpha = np.asarray(Image.open(io.BytesIO(base64.b64decode(address.split(",")[1]))))[:, :, 3]
+        assert alpha[-20].any()
+        assert not alpha[-1].any()
+
     def test_bars_rise_with_their_scores(self, page, report, ranking):
         _, scores = ranking
         rows = drawn(page, SURFACE)
@@ -192,6 +217,7 @@ class TestChoosing:
         names, _ = ranking
         page.mouse.click(*point_on(page, 9))
         assert reading(page).endswith("chosen")
+        page.mouse.move(5, 5)
         assert name_at(page, 0) == names[9]
         assert name_at(page, 1) == names[0]
         page.mouse.move(5, 5)
@@ -204,6 +230,28 @@ class TestChoosing:
         page.mouse.click(*point_on(page, 0))
         page.mouse.move(5, 5)
         assert reading(page) == "0 of 50 bins chosen"
+
+    def test_under_the_pointer_a_chosen_bar_stays_where_it_is(self, page, ranking):
+        names, _ = ranking
+        page.mouse.click(*point_on(page, 9))
+        assert reading(page).startswith(f"{names[9]} rank 10 of 50")
+        assert f"{names[9]} chosen, 1 bin chosen" in heard(page)
+        # Not even other bars move, so that one chooses several, and the second click gives the first one up.
+        page.mouse.click(*point_on(page, 20))
+        assert f"{names[20]} chosen, 2 bins chosen" in heard(page)
+        page.mouse.click(*point_on(page, 9))
+        page.mouse.click(*point_on(page, 9))
+        page.mouse.click(*point_on(page, 9))
+        assert f"{names[9]} removed, 1 bin chosen" in heard(page)
+        page.mouse.move(5, 5)
+        assert [name_at(page, place) for place in range(3)] == [names[20], names[0], names[1]]
+
+    def test_by_score_is_by_score_whatever_is_chosen(self, page, ranking):
+        names, _ = ranking
+        page.mouse.click(*point_on(page, 9))
+        page.mouse.move(5, 5)
+        page.click("#bin-order >> text=By score")
+        assert [name_at(page, place) for place in range(50)] == names
 
     def test_dragging_over_bars_adds_them_and_over_chosen_ones_removes_them(self, page, ranking):
         names, _ = ranking
@@ -241,6 +289,16 @@ class TestChoosing:
         page.click("#bin-clear")
         assert reading(page) == "0 of 50 bins chosen"
         assert page.locator("#bin-clear").is_disabled()
+
+    def test_the_number_stands_with_what_it_is_the_number_of(self, page):
+        row = page.locator(".bin-best")
+        assert row.locator("*:has(> #bin-number) > button").all_inner_texts() == [
+            "Add the best",
+            "Remove the weakest",
+        ]
+        number, finder = (page.locator(f"#{id_}").bounding_box() for id_ in ("bin-number", "bin-find"))
+        remove = page.locator("#bin-remove").bounding_box()
+        assert number["x"] < remove["x"] < finder["x"]
 
 
 class TestKeyboard:

@@ -551,3 +551,23 @@ class TestStates:
         page.locator("#tab-outliers").click()
         eventually(page, lambda: page.locator(".reasons:empty").count() == 0)
         assert all(request.startswith(("file://", "blob:")) for request in page.watch.requests)
+
+
+def test_what_is_shared_is_told_by_those_who_have_more_of_it(open_page):
+    """So no reader has to turn a "less" around."""
+    told = []
+    for one, other in ("ab", "ac", "bd", "ce"):
+        page = open_page("workbench", f"compare.html#a=class:kind+{one}&b=class:kind+{other}")
+        page.wait_for_selector("#answer h2")
+        told += page.locator("#shared-bins .says").all_inner_texts()
+    more = {True: 0, False: 0}
+    for sentence in told:
+        assert not sentence.startswith("Less ")
+        words, figures = sentence.replace("\u00a0", " ").rsplit(": ", 1)
+        shares = [float(share.lstrip("<")) for share in re.findall(r"(<?[\d.]+) %", figures)]
+        others_first = "of other shapes than of both" in words
+        more[others_first] += 1
+        assert figures.startswith("the others ") is others_first
+        own, others = (shares[1:], shares[0]) if others_first else (shares[:-1], shares[-1])
+        assert all(share < others for share in own) if others_first else all(share > others for share in own)
+    assert min(more.values()) > 0

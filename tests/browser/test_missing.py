@@ -43,7 +43,8 @@ ADDRESSES = {
     ),
     "shapes.html": (
         {"is.planet": "Mars", "sort": "nh:mds", "select": "ghost", "hide": "dragon"},
-        "This link names the column “planet”, the map “mds” and the shape “ghost”, which this site does not offer.",
+        "This link names the column “planet”, the map “mds”, the shape “ghost” and the class “dragon”, which this site "
+        "does not offer.",
     ),
     "shape.html": (
         {"id": "class000/0000", "beside": "ghost", "features": "dragons", "parts": "Gc[7]", "map": "pca"},
@@ -113,6 +114,25 @@ def test_the_line_goes_with_what_the_reader_does_and_comes_back_with_the_address
     assert "dragon" not in said(page)
     page.evaluate("location.hash = 'hide=kind a'")
     eventually(page, lambda: said(page) == "")
+
+
+@pytest.mark.parametrize(
+    ("link", "name"),
+    [
+        ("shapes.html#class=nope", "the class “nope”"),
+        ("compare.html#a=nope", "the group “nope”"),
+        ("index.html#view=bar", "the view “bar”"),
+        ("bins.html#size=many", "the setting “many”"),
+    ],
+)
+def test_what_a_page_passes_over_is_told(open_page, link, name) -> None:
+    page = open_page("bins", link)
+    eventually(page, lambda: said(page).startswith(f"This link names {name}, which "))
+
+
+def test_an_address_of_no_id_names_no_shape(open_page) -> None:
+    page = open_page("plain", "shape.html#id=")
+    assert "The address names no shape." in page.locator("main").inner_text()
 
 
 def test_values_of_columns_are_missed(open_page) -> None:

@@ -54,7 +54,7 @@ def test_features_and_map_are_held_against_each_other(told, reports, method):
     own, mapped = (of_their_class(report, place).mean() for place in (FEATURES, method))
     said = text().split(TITLE)[1].split("Does it show")[0]
     assert said.startswith(f" {whole(own)} by features {whole(mapped)} on this map")
-    assert "For so many shapes the nearest other one is of their class." in said
+    assert "For so many shapes the nearest one is of the same class." in said
     # The labels of the site are dealt at random: no feature knows them.
     assert "The features themselves cannot tell many of these classes apart" in said
 
@@ -66,12 +66,12 @@ def test_the_class_that_is_hardest_to_tell_is_named_with_what_it_is_mistaken_for
     labels = np.array(report.labels)
     counts = {label: int(hits[labels == label].sum()) for label in sorted(set(report.labels))}
     hardest = min(counts, key=counts.__getitem__)
-    some = "has" if counts[hardest] == 1 else "have"
+    right = counts[hardest] or "none"
     assert (
-        f"Hardest for the features is {hardest}: {counts[hardest]} of 10 shapes {some} another of it nearest"
+        f"Hardest to tell by features is {hardest}: the nearest shape is of this class for {right} of its 10 shapes"
         in text()
     )
-    mistaken = re.search(r"the others are nearest to (kind \w) most often", text()).group(1)
+    mistaken = re.search(r"for the others it is most often of (kind \w)", text()).group(1)
     others = labels[nearest[(labels == hardest) & ~hits]].tolist()
     assert others.count(mistaken) == max(others.count(other) for other in others)
 

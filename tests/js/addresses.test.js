@@ -311,16 +311,29 @@ test("a row says which values of the state it has", () => {
 const MISSED = {
   overview: {
     "map=mds&features=Gc Xy 50%2525": ["map mds", "feature Xy", "feature 50%"],
-    "hide=dragon&hide=ant&open=ant/9&select=ghost&select=lost&selected=old.AA": [
+    "view=bar&class=wyvern&hide=dragon&hide=ant&open=ant/9&select=ghost&select=lost&selected=old.AA": [
       "class dragon",
+      "class wyvern",
+      "view bar",
       "selection ",
       "shape ghost",
       "shape ant/9",
     ],
   },
-  features: { "features=Xy FPFH&rank=luck&open=ant/9": ["feature Xy", "measure luck", "shape ant/9"] },
-  bins: { "step=4&bin=bin 999&of=dragon&id=ant/9": ["step 4", "bin bin 999", "class dragon", "shape ant/9"] },
-  shape: { "id=nobody&map=mds&beside=ant/9": ["map mds", "shape ant/9"] },
+  features: {
+    "features=Xy FPFH&rank=luck&among=few&open=ant/9&separate=dragon": [
+      "feature Xy",
+      "measure luck",
+      "setting few",
+      "shape ant/9",
+      "class dragon",
+    ],
+  },
+  bins: {
+    "step=4&bin=bin 999&of=dragon&id=ant/9": ["step 4", "bin bin 999", "class dragon", "shape ant/9"],
+    "step=last&size=9&reading=x&class=wyvern": ["step last", "setting 9", "setting x", "class wyvern"],
+  },
+  shape: { "id=nobody&map=mds&beside=ant/9&from=dragon": ["map mds", "shape ant/9", "class dragon"] },
   shapes: {
     "is.kind=flying&is.kind=swimming&is.folders=a/x%2525&lacks.planet=&range.column:year=1..2&at=ant/9": [
       "column planet",
@@ -330,11 +343,13 @@ const MISSED = {
       "shape ant/9",
     ],
     "group=label:style&sort=nh:mds": ["column style", "map mds"],
+    "class=dragon&class=ant": ["class dragon"],
   },
   compare: {
     "a=class:dragon&b=class:bee&of=dragon&by=mds": ["class dragon", "map mds"],
     "a=cluster:one:two&b=cluster:nine&row=dragon&column=ant": ["cluster nine", "class dragon"],
     "a=shapes&a-select=ghost&a-select=ant/1&b=rest": ["shape ghost"],
+    "a=nope&view=bar&reading=x&hide=dragon": ["group nope", "view bar", "setting x", "class dragon"],
   },
   workbench: {
     "class=dragon&separate=ant&separate=wyvern&from=drake&together=": ["class dragon", "class wyvern", "class drake"],
@@ -367,9 +382,15 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
     const common =
       "map=pca&map=umap&features=50%2520%2525%2520of%2520it&hide=ant&class=bee&separate=&a=rest&scorer=rfe";
     assert.deepEqual(missedBy(address, common), []);
-    assert.deepEqual(missedBy(address, "map=umap&find=dragon&color=hit&view=dragon&select="), []);
+    assert.deepEqual(missedBy(address, "map=umap&find=dragon&color=hit&a=&view=&class=&select="), []);
   });
 }
+
+test("an id of no letters is none", () => {
+  const [address] = PAGES.shape;
+  assert.equal(address.read(new URLSearchParams("id=")).unknown, null);
+  assert.equal(address.read(new URLSearchParams("id=x")).unknown, "x");
+});
 
 test("clusters that stand in for classes are called so", () => {
   const clustered = { ...database, data: { ...database.data, standIn: true } };

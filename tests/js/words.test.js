@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { count, grouped, measured, percent, percents } from "../../site/scripts/base/words.js";
-import { ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
+import { Contrast, ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
 
 test("shares that differ read differently, with no more digits than that takes", () => {
   assert.deepEqual(percents(0.28, 0.019), ["28\u00a0%", "1.9\u00a0%"]);
@@ -38,4 +38,28 @@ test("what can be pictured goes first unless something else says much more", () 
   assert.ok(worth(1.6, 2) > worth(50, 1));
   assert.ok(worth(1.2, 2) < worth(-2.9, 1));
   assert.equal(worth(4, 2), worth(40, 2));
+});
+
+test("a share of pairs of places that hardly differs is told after what one sees, however sure it is", () => {
+  // Two shapes a group: of column 0 shares of 0.1 % and nothing, of column 1 of the surface 60 % and 40 %.
+  const shares = [
+    [0.001, 0.001, 0, 0],
+    [0.62, 0.58, 0.42, 0.38],
+    [5.1, 5, 2, 2.1],
+  ];
+  const bins = /** @type {any} */ ({
+    /** @type {(column: number, row: number) => number} */
+    share: (column, row) => shares[column][row],
+    /** @type {(column: number) => boolean} */
+    inPercent: (column) => column < 2,
+    ease: () => 1,
+  });
+  const contests = [{ first: Int32Array.of(0, 1), second: Int32Array.of(2, 3), shuffles: 0 }];
+  const apart = { effect: Float64Array.of(1, 0.9, 0.99), limit: 0.1, away: new Float64Array(4) };
+  const found = /** @type {any} */ ({ apart, both: undefined });
+  const contrast = new Contrast(bins, { a: [0, 1], b: [2, 3], rest: [] }, contests, found);
+  assert.deepEqual(contrast.told.at(-1), 0);
+  assert.ok(Math.abs(contrast.gap(0) - 0.001) < 1e-12);
+  // Any other value has no scale on which one could say that it is nothing.
+  assert.equal(contrast.gap(2), 1);
 });

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,10 +12,17 @@ from reports import make_report, with_clusters
 from scipy.sparse import csr_matrix
 from sklearn.metrics import adjusted_rand_score, silhouette_samples
 
-from shapeviz_report.clusters import STEADY, describe_clusters, find_communities, part, silhouettes
+from shapeviz_report.clusters import (
+    STEADY,
+    _word_shares,
+    describe_clusters,
+    find_communities,
+    part,
+    silhouettes,
+)
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.types import FeatureBlock, FeatureTable, ShapeEntry
-from shapeviz_report.wording import GLOBAL_WORDINGS
+from shapeviz_report.wording import GLOBAL_WORDINGS, Dimension
 
 PRESET = PRESETS["default"]
 
@@ -185,3 +193,55 @@ def test_clusters_stand_in_only_where_no_shape_has_a_label() -> None:
     assert plain.labels == tuple(plain.clusters.clusters[code].name for code in plain.clusters.of)
     few = make_report(classes=(None,), per_class=7)
     assert with_clusters(few) == replace(few)
+
+
+@pytest.mark.parametrize("name", ["Pa", "Na", "Agd", "Gc"])
+@pytest.mark.parametrize("step", range(9))
+@pytest.mark.parametrize("more", [True, False])
+def test_the_figure_is_of_what_the_sentence_begins_with(name, step, more) -> None:
+    """Of less of something the smaller share is told, of what there is less of; else the larger one."""
+    low, high = {"Pa": (0, 90), "Na": (0, 90), "Agd": (0, 2), "Gc": (-10, 10)}[name]
+    block = FeatureBlock(name, 1, 10)
+    dimension = Dimension(block, 0, np.linspace(low, high, 11))
+    # Shares above the edge.
+    here, there = (0.9, 0.8) if more else (0.2, 0.3)
+    sentence = _word_shares(dimension, step, here, there, PRESET).replace("\u00a0", " ")
+    own, others = (
+        float(share) for share in re.findall(r"(\d+) % of the surface .*other shapes (\d+) %", sentence)[0]
+    )
+    edge = float(dimension.edges[step + 1])
+    above = dimension.say(edge, None).clause in sentence
+    assert above is not (dimension.say(None, edge).clause in sentence)
+    assert (own, others) == ((100 * here, 100 * there) if above else (100 - 100 * here, 100 - 100 * there))
+    assert (own < others) is sentence.startswith(("Less ", "There are fewer "))
+
+
+def test_what_differs_by_hardly_anything_is_not_told() -> None:
+    values, truth = blobs(12, 10, 9)
+    block = FeatureBlock("Sfl", len(GLOBAL_WORDINGS["Sfl"].names), 1)
+    roots = np.full((31, block.width), 0.05)
+    # Shares of 0.1 % and of less: far apart in deviations, and nothing to see.
+    roots[truth == 0, 7] = 0.03
+    roots[truth != 0, 7] = 0.01
+    table = FeatureTable(tuple(f"{i:03}" for i in range(31)), (block,), roots)
+    found = describe_clusters(
+        part(values), entries(["x"] * 31), table, values, np.empty((0, 11)), PRESET, stand_in=False
+    )
+    assert [cluster.typical for cluster in found.clusters] == [()] * 3
+
+
+@pytest.mark.parametrize(("spread", "first"), [(0.1, "Bodies are thicker"), (0.6, "Share of pairs")])
+def test_values_of_whole_shapes_lead_only_where_they_say_much_more(spread, first) -> None:
+    values, truth = blobs(12, 10, 9)
+    random = np.random.default_rng(2)
+    thick = np.where(truth == 0, 0.6, 0.4) + random.normal(0, spread, 31) * 0.8
+    shares = np.zeros((31, 10))
+    shares[:, 9] = np.clip(thick, 0.05, 0.95)
+    shares[:, 0] = 1 - shares[:, 9]
+    roots = np.full((31, len(GLOBAL_WORDINGS["Sfl"].names)), 0.05)
+    roots[:, 7] = np.where(truth == 0, 0.5, 0.1) + random.normal(0, 0.02, 31)
+    blocks = (FeatureBlock("Sfl", roots.shape[1], 1), FeatureBlock("Nd", 1, 10))
+    table = FeatureTable(tuple(f"{i:03}" for i in range(31)), blocks, np.hstack([roots, shares]))
+    edges = np.linspace(0, 1, 11)[None]
+    found = describe_clusters(part(values), entries(["x"] * 31), table, values, edges, PRESET, stand_in=False)
+    assert found.clusters[0].typical[0].startswith(first)

@@ -119,6 +119,26 @@ def test_classes_of_eight_reach_seven_tenths_and_classes_of_one_nothing() -> Non
     assert eight.chance == pytest.approx(7 / 111)
     assert hit_range(["a", "b", "c"]).highest == 0
     assert hit_range(["a"] * 11 + ["b"] * 30).highest == 1
+
+
+@pytest.mark.parametrize(
+    ("labels", "k", "tells"),
+    [
+        ("aabb", 3, False),
+        ("aabb", 2, True),
+        ("aaaaaa", 3, False),
+        # Labels are dealt among shapes that have one.
+        (["a", "a", "a", None, None], 2, False),
+        ("abcdef", 3, False),
+        ([None, None, None], 2, False),
+        ("a", 1, False),
+    ],
+)
+def test_no_map_of_one_class_or_of_neighbours_that_are_all_others_can_tell(labels, k, tells):
+    assert hit_range(list(labels), k).tells is tells
+
+
+def test_a_class_of_few_shapes_cannot_fill_all_places():
     assert hit_range(["a"] * 10 + ["b"] * 30).highest_of_class == {"a": 0.9, "b": 1.0}
 
 

@@ -3,7 +3,7 @@
 import { Address, choice, named } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { shortNames } from "./bin-names.js";
-import { classNoun } from "./classes.js";
+import { classesElsewhere, classNoun } from "./classes.js";
 import { selected } from "./selected.js";
 
 /** @import { Kind, Ways } from "../base/address.js" */
@@ -39,12 +39,13 @@ const ENDS = ["most", "least"];
 export function binsAddress(database, bins, selection, first) {
   const last = Math.max(selection.path.length - 1, 0);
   return new Address([
-    { name: "size", key: "size", kind: choice(SIZES), standard: SIZES[0], place: true },
+    { name: "size", key: "size", kind: choice(SIZES, "setting"), standard: SIZES[0], place: true },
     { name: "step", key: "step", kind: step(last), standard: last, place: true, often: true, words: "the step" },
     { names: ["bin", "group"], ...binOfClass(database, bins), standard: first, place: true, words: "the bin" },
     { name: "shape", ...shapeOrEnd(database), standard: null },
-    { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
+    { name: "reading", key: "reading", kind: choice(READINGS, "setting"), standard: READINGS[0] },
     selected(database),
+    classesElsewhere(database),
   ]);
 }
 
@@ -66,9 +67,8 @@ function step(last) {
   /** @type {Kind["read"]} */
   const read = ([word], miss) => {
     const place = Number(word) - 1;
-    if (!Number.isInteger(place) || place < 0) return undefined;
-    if (place <= last) return place;
-    miss("step", word);
+    if (Number.isInteger(place) && place >= 0 && place <= last) return place;
+    if (word) miss("step", word);
     return undefined;
   };
   return { read, write: (place) => [String(place + 1)] };

@@ -2,6 +2,7 @@
 
 import { lookUp } from "../base/missing.js";
 
+/** @import { Ways } from "../base/address.js" */
 /** @import { Miss } from "../base/missing.js" */
 /** @import { Database } from "../database/database.js" */
 
@@ -23,4 +24,23 @@ export function classesNamed(names, database, miss) {
   const { classes } = database;
   const places = new Map(classes.map((name, place) => [name, place]));
   return lookUp(names, (name) => places.get(name), classNoun(database), miss);
+}
+
+/** Parameters that name classes, on whatever page. */
+const OF_CLASSES = ["class", "hide", "separate", "from"];
+
+/**
+ * Classes that an address names for other pages are nothing here; but who reads is told of those that no page has.
+ * @param {Pick<Database, "data" | "classes">} database
+ * @returns {Ways & { names: [] }}
+ */
+export function classesElsewhere(database) {
+  return {
+    names: [],
+    read(query, miss) {
+      for (const key of OF_CLASSES) classesNamed(query.getAll(key), database, miss);
+      return {};
+    },
+    write() {},
+  };
 }

@@ -3,7 +3,7 @@
 import { Address, choice, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { readSelection, writeSelection } from "../database/selection.js";
-import { classesNamed, classNoun } from "./classes.js";
+import { classesElsewhere, classesNamed, classNoun } from "./classes.js";
 import { selected } from "./selected.js";
 
 /** @import { Miss } from "../base/missing.js" */
@@ -50,10 +50,11 @@ export function comparePageAddress(database, data, neighbours, clusters) {
   const ofClass = named(database.classes, classNoun(database));
   return new Address([
     selected(database),
-    { name: "view", key: "view", kind: choice(VIEWS), standard: VIEWS[0], place: true, words: "the view" },
+    classesElsewhere(database),
+    { name: "view", key: "view", kind: choice(VIEWS, "view"), standard: VIEWS[0], place: true, words: "the view" },
     { names: ["a", "b"], ...twoGroups(database, neighbours, clusters), place: true, words: "the two groups" },
     { name: "bin", key: "bin", kind: text, standard: null, place: true, words: "the bin" },
-    { name: "reading", key: "reading", kind: choice(READINGS), standard: READINGS[0] },
+    { name: "reading", key: "reading", kind: choice(READINGS, "setting"), standard: READINGS[0] },
     { name: "of", key: "of", kind: ofClass, standard: null, place: true },
     { name: "row", key: "row", kind: ofClass, standard: null, place: true, often: true },
     { name: "column", key: "column", kind: ofClass, standard: null, place: true, often: true },
@@ -163,7 +164,9 @@ function readGroup(query, database, clusters, name, miss) {
     if (rest !== "") miss(kind, rest);
     return null;
   }
-  return kind === "search" && rest !== "" ? { kind, text: rest } : null;
+  if (kind === "search" && rest !== "") return { kind, text: rest };
+  if (kind !== "search" && word !== "") miss("group", word);
+  return null;
 }
 
 /**

@@ -2,6 +2,7 @@
 
 import { Address, choice, named } from "../base/address.js";
 import { CAMERA } from "./camera.js";
+import { classesElsewhere } from "./classes.js";
 import { coloredBy } from "./colors.js";
 import { LINES } from "./lines.js";
 import { joinNames, splitNames } from "./names.js";
@@ -72,13 +73,14 @@ export function featuresAddress(subsets, database) {
     {
       name: "among",
       key: "among",
-      kind: choice(subsets.data.paper ? ["all", "paper"] : ["all"]),
+      kind: choice(subsets.data.paper ? ["all", "paper"] : ["all"], "setting"),
       standard: "all",
       place: true,
       words: "which subsets are ranked",
     },
     coloredBy(database),
     selected(database),
+    classesElsewhere(database),
     {
       name: "opened",
       key: "open",

@@ -3,7 +3,7 @@
 import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { CAMERA } from "./camera.js";
-import { classesNamed } from "./classes.js";
+import { classesElsewhere, classesNamed } from "./classes.js";
 import { colors, OWN_COLORS } from "./colors.js";
 import { LINES } from "./lines.js";
 import { missMap } from "./maps.js";
@@ -46,6 +46,7 @@ export function overviewAddress(database) {
     { name: "exact", key: "exact", kind: flag, standard: false, place: true },
     { name: "hidden", ...hiddenClasses(database), place: true, words: "which classes are hidden" },
     selected(database),
+    classesElsewhere(database),
     {
       name: "opened",
       key: "open",
@@ -110,6 +111,7 @@ function viewAndColors(database) {
     read(query, miss) {
       const view = query.get("view") ?? "";
       const color = kind.read(query.getAll("color"), miss);
+      if (view !== "" && !views.includes(view)) miss("view", view);
       if (view !== "color" && views.includes(view)) return { view };
       if (color === undefined) return { view: views[0] };
       return OWN_COLORS.includes(color) ? { view: color } : { view: "color", by: color };

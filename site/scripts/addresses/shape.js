@@ -5,6 +5,7 @@ import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { binNames } from "../database/bins.js";
 import { readShortNames } from "./bin-names.js";
+import { classesElsewhere } from "./classes.js";
 import { missMap } from "./maps.js";
 import { splitNames } from "./names.js";
 import { selected } from "./selected.js";
@@ -49,6 +50,7 @@ export function shapePageAddress(database) {
     { name: "beside", key: "beside", kind: named(database.ids, "shape"), standard: null, words: "the shape beside it" },
     { name: "within", key: "within", kind: text, standard: "" },
     selected(database),
+    classesElsewhere(database),
   ]);
 }
 
@@ -121,7 +123,7 @@ function mapOf(database) {
 function shapeOrUnknown(database) {
   return {
     read(query) {
-      const id = query.get("id");
+      const id = query.get("id") || null;
       const shape = database.indexOfId.get(id ?? "") ?? null;
       return { shape, unknown: shape === null ? id : null };
     },

@@ -16,7 +16,7 @@ const LONGEST = 40;
 const MANY = new Map([["class", "classes"]]);
 
 /** What is no part of a database, or may be one that shapes cannot be told apart by. */
-const OF_SITE = new Set(["column", "map", "measure", "scorer", "step"]);
+const OF_SITE = new Set(["column", "map", "measure", "scorer", "setting", "step", "view"]);
 
 /** What stands for a selection that is of no names. */
 export const SELECTION = "selection";

@@ -32,6 +32,8 @@ import { binName } from "./bin-name.js";
 const WIDTH = 190;
 const ROW = 16;
 const MOST_ROWS = 20;
+/** At the pointer, where it covers what it is compared with. */
+const MOST_ROWS_AT_POINTER = 8;
 /** Above so many shapes in a class, dots would only be a smear. */
 const MOST_DOTS = 60;
 const GAP = 8;
@@ -83,7 +85,7 @@ export class BinCard {
    * @param {{ left: number, top: number, width: number, height: number, free: number }} box
    */
   show(column, box) {
-    this.node.replaceChildren(...this.#words(column), this.classes(column));
+    this.node.replaceChildren(...this.#words(column), this.classes(column, MOST_ROWS_AT_POINTER));
     this.node.hidden = false;
     this.#place(box);
   }
@@ -122,10 +124,11 @@ export class BinCard {
   /**
    * A row a class: its shapes as dots on one axis, the middle half of them as a band, the median as a line.
    * @param {number} column
+   * @param {number} [length] of the list
    */
-  classes(column) {
+  classes(column, length = MOST_ROWS) {
     const rows = this.rows(column);
-    const shown = rows.slice(0, MOST_ROWS);
+    const shown = rows.slice(0, length);
     const share = this.bins.inPercent(column);
     const lowest = Math.min(...shown.map(({ values }) => values[0]));
     const highest = Math.max(...shown.map(({ values }) => values.at(-1)));

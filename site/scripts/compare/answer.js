@@ -249,7 +249,8 @@ function tooFew({ sample }) {
  */
 export function kinship(a, b, neighbours) {
   const [there, back] = [neighbours.between(a.shapes, b.shapes), neighbours.between(b.shapes, a.shapes)];
-  if (there === null || back === null) return null;
+  // Where all others are neighbours, any two groups are.
+  if (there === null || back === null || neighbours.ofAll) return null;
   if (there === 0 && back === 0)
     return ["No shape of the one is among the ", count(neighbours.k, "shape"), " most like a shape of the other."];
   return [

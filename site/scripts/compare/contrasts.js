@@ -204,7 +204,8 @@ export class Contrast {
   }
 
   /**
-   * By how much of the surface the two groups differ in a bin, on average; of a feature that is no share, by all there is.
+   * By how much of the surface the two groups differ in a bin, on average; the same of a share of pairs of
+   * places; of any other value, by all there is.
    * @param {number} column
    */
   gap(column) {
@@ -241,7 +242,7 @@ export class Contrast {
    */
   #apart(column, rows, others) {
     const { bins } = this;
-    if (!bins.isShare(column)) return 1;
+    if (!bins.inPercent(column)) return 1;
     const [own, other] = [rows, others].map((shapes) => mean(shapes.map((row) => bins.share(column, row))));
     return Math.abs(own - other);
   }

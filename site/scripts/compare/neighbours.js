@@ -16,6 +16,11 @@ export class Neighbours {
     this.rows = new Uint32Array(bytes);
   }
 
+  /** Whether all other shapes are neighbours of each, so that who they are says nothing. */
+  get ofAll() {
+    return this.k >= this.database.count - 1;
+  }
+
   /**
    * Of one shape, nearest first.
    * @param {number} index

@@ -90,7 +90,7 @@ function against([most, least]) {
 }
 
 /**
- * What both groups have more of than the other shapes, or less.
+ * What both groups have more of than the other shapes, or those more than both.
  * @param {number} column
  * @param {number[]} means of the first group, of the second, and of the others
  * @param {{ a: Group, b: Group, bins: Bins, data: Chunk.Comparison }} compared
@@ -98,20 +98,35 @@ function against([most, least]) {
 export function inBoth(column, means, { a, b, bins, data }) {
   const [first, second, others] = bins.tell(column, means);
   const more = (means[0] + means[1]) / 2 > means[2];
-  const figures = [
-    ...(first === second
+  const own =
+    first === second
       ? ["both ", figureOf(first)]
-      : [called(a), " ", figureOf(first), ", ", called(b), " ", figureOf(second)]),
-    ", the others ",
-    figureOf(others),
-    ".",
-  ];
+      : [called(a), " ", figureOf(first), ", ", called(b), " ", figureOf(second)];
   if (!bins.isShare(column))
-    return [...valueName(column, bins), ` is ${more ? "higher" : "lower"} in both than in other shapes: `, ...figures];
-  return [
-    `${more ? "More" : "Less"} of ${data.whole} of both than of other shapes ${data.clauses[column]}: `,
-    ...figures,
-  ];
+    return [
+      ...valueName(column, bins),
+      ` is ${more ? "higher" : "lower"} in both than in other shapes: `,
+      ...own,
+      ", the others ",
+      figureOf(others),
+      ".",
+    ];
+  // Those who have more of it come first, so that nothing is told as less.
+  return more
+    ? [
+        `More of ${data.whole} of both than of other shapes ${data.clauses[column]}: `,
+        ...own,
+        ", the others ",
+        figureOf(others),
+        ".",
+      ]
+    : [
+        `More of ${data.whole} of other shapes than of both ${data.clauses[column]}: the others `,
+        figureOf(others),
+        ", ",
+        ...own,
+        ".",
+      ];
 }
 
 /**

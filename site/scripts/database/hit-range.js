@@ -2,7 +2,7 @@
 // a shape of a class of n at most min(k, n - 1) of its k neighbours are of its class.
 
 import { entry } from "../base/entry.js";
-import { figure } from "../base/words.js";
+import { figure, grouped } from "../base/words.js";
 
 /** @import { Database, ShapeMap } from "./database.js" */
 
@@ -46,6 +46,24 @@ export function rangeOf(database, map) {
     const groups = database.groups.filter((_, index) => !Number.isNaN(map.x[index]));
     return hitRange(groups, map.neighbours);
   });
+}
+
+/**
+ * Why no map can differ from chance in NH, as a sentence; null where one can, and without labels. In the words of
+ * `nothing_told` in `pages/base.py`.
+ * @param {Database} database
+ * @param {ShapeMap} map
+ */
+export function nothingTold(database, map) {
+  const groups = database.groups.filter((_, index) => !Number.isNaN(map.x[index]));
+  const { highest, highestOfClass, chanceOfClass } = rangeOf(database, map);
+  if (highest === null) return null;
+  if (highestOfClass.size === 1) return "All labelled shapes are of one class, which no map can mix with another.";
+  if ([...highestOfClass].some(([group, most]) => most - /** @type {number} */ (chanceOfClass.get(group)) > 1e-9))
+    return null;
+  return map.neighbours >= groups.length - 1
+    ? `With ${grouped(groups.length)} shapes, each has all others among its ${grouped(map.neighbours)} nearest on any map.`
+    : "Each shape is alone in its class, so none can have another of it near on any map.";
 }
 
 /**

@@ -35,7 +35,8 @@ export class Subsets {
       { name: "nh", values: this.labelled ? hit : null, chance, low: false },
       ...(faith
         ? /** @type {SubsetMeasure[]} */ ([
-            { name: "kept", values: faith.mean, chance: faith.chance, low: false },
+            // Of all others any map keeps all.
+            { name: "kept", values: faith.chance === 1 ? null : faith.mean, chance: faith.chance, low: false },
             { name: "trustworthiness", values: faith.trustworthiness, chance: faith.random, low: false },
             { name: "continuity", values: faith.continuity, chance: faith.random, low: false },
             { name: "stress", values: faith.stress, chance: null, low: true },

@@ -26,7 +26,8 @@ export const MEASURES = {
  * @returns {{ value: number | null, chance: number | null }}
  */
 export function measureOf(faith, name) {
-  if (name === "kept") return { value: faith.mean, chance: faith.chance };
+  // Of all others any map keeps all.
+  if (name === "kept") return { value: faith.chance === 1 ? null : faith.mean, chance: faith.chance };
   return { value: faith[name], chance: name === "stress" ? faith.randomStress : faith.random };
 }
 

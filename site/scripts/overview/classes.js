@@ -6,7 +6,7 @@ import { unstep } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
 import { count, figure, grouped, wholePercent } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
-import { isBelowOne, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
+import { isBelowOne, nothingTold, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
 import { drawShepard, tellFaith } from "./faith.js";
 import { tellSeparation } from "./separation.js";
 
@@ -218,6 +218,12 @@ export class ClassList {
         ...tellFaith(database, method, this.state),
       ];
     }
+    const nothing = nothingTold(database, method);
+    if (nothing !== null)
+      return [
+        element("p", {}, `${nothing} So the neighbourhood hit says nothing of this one.`),
+        ...tellFaith(database, method, this.state),
+      ];
     const headline = element(
       "p",
       { class: "headline" },
@@ -237,17 +243,6 @@ export class ClassList {
         ],
       ),
     );
-    if (database.classes.length === 1) {
-      return [
-        headline,
-        element(
-          "p",
-          {},
-          "All labelled shapes are of one class, so neighbours cannot disagree and the neighbourhood hit says nothing here.",
-        ),
-        ...tellFaith(database, method, this.state),
-      ];
-    }
     return [
       element("h3", {}, `Do ${database.data.standIn ? "clusters" : "classes"} keep together?`),
       headline,

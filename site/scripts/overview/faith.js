@@ -1,7 +1,7 @@
 // How far the map in view shows who is like whom, whatever labels say: in words, in a few figures, and in a diagram.
 
 import { element, svg } from "../base/dom.js";
-import { capitalised, count, grouped, listed, numberWord } from "../base/words.js";
+import { count, grouped, numberWord } from "../base/words.js";
 import { measuresOf } from "../map/measures.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
@@ -22,6 +22,17 @@ const TEXT = 15;
 export function tellFaith(database, method, state) {
   const { faith, neighbours } = method;
   if (!faith) return [];
+  // Of all others any map keeps all.
+  if (faith.chance === 1)
+    return [
+      element("h3", {}, "Does it show who is like whom?"),
+      element(
+        "p",
+        {},
+        `${count(database.count, "shape")} are too few to say by their neighbours: each has all others among its ${neighbours} nearest, on any map.`,
+      ),
+      measuresOf(faith),
+    ];
   /** @param {number} share */
   const many = (share) => (share * neighbours).toFixed(1);
   return [
@@ -56,19 +67,14 @@ function lost(database, { faith, neighbours, base }) {
   const lostOn = (of) => (of?.kept ?? []).filter((share) => share !== null && share <= FEW + 1e-9).length;
   const here = lostOn(faith);
   const others = database.data.methods.filter((other, index) => index !== base && other.faith);
-  const most = few === 1 ? "one" : numberWord(few);
-  const there = others.map((other) => `by ${numberOrNone(lostOn(other.faith))} on the ${other.title} map`);
+  const there = others.map((other) => `${numberOrNone(lostOn(other.faith))} on the ${other.title} map`);
   return [
     element(
       "p",
       {},
-      here === 0
-        ? [element("b", {}, `All ${count(database.count, "shape")}`), ` keep more than ${most} of them.`]
-        : [
-            element("b", {}, `${grouped(here)} of ${count(database.count, "shape")}`),
-            ` ${here === 1 ? "keeps" : "keep"} ${most} of them at most.`,
-          ],
-      there.length > 0 && ` ${capitalised(most)} at most ${few === 1 ? "is" : "are"} kept ${listed(there)}.`,
+      `In the wrong place are shapes that keep at most ${numberWord(few)} of them: `,
+      element("b", {}, `${numberOrNone(here)} of ${grouped(database.count)}`),
+      ` on this map${there.map((words, place) => (place === there.length - 1 ? " and " : ", ") + words).join("")}.`,
     ),
   ];
 }

@@ -34,7 +34,7 @@ export function tellSeparation({ data }, method) {
     element(
       "p",
       {},
-      `For so many shapes the nearest other one is of their class. `,
+      "For so many shapes the nearest one is of the same class. ",
       element("b", {}, map.verdict),
       map.lost && lostOf(map.lost),
       found.hardest && hardestOf(found.hardest),
@@ -56,24 +56,19 @@ function signed(value) {
 /** @param {Chunk.ClassCounts} counts */
 function lostOf({ name, shapes, features, map }) {
   return [
-    " It loses most of ",
+    " It does worst by ",
     element("bdi", {}, name),
-    `: by the features ${features} of ${count(shapes, "shape")} ${has(features)} another of it nearest, on this map ${map}.`,
+    `: the nearest shape is of this class for ${features} of its ${count(shapes, "shape")} by features, but for only ${map} on this map.`,
   ];
 }
 
 /** @param {Chunk.ClassCounts} counts */
 function hardestOf({ name, shapes, features, mistaken }) {
   return [
-    " Hardest for the features is ",
+    " Hardest to tell by features is ",
     element("bdi", {}, name),
-    `: ${features} of ${count(shapes, "shape")} ${has(features)} another of it nearest`,
-    mistaken !== null && ["; the others are nearest to ", element("bdi", {}, mistaken), " most often"],
+    `: the nearest shape is of this class for ${features || "none"} of its ${count(shapes, "shape")}`,
+    mistaken !== null && ["; for the others it is most often of ", element("bdi", {}, mistaken)],
     ".",
   ];
-}
-
-/** @param {number} number */
-function has(number) {
-  return number === 1 ? "has" : "have";
 }

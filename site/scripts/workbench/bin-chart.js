@@ -22,7 +22,7 @@ import { BinPlot } from "./bin-plot.js";
  * @property {(text: string) => void} announce
  *
  * @typedef {{ left: number, top: number, width: number, height: number }} Box
- * @typedef {"score" | "feature"} Order
+ * @typedef {"chosen" | "score" | "feature"} Order
  *
  * @typedef {object} Shown
  * @property {Float64Array} scores relative, a column; NaN for columns that are not in use
@@ -35,8 +35,9 @@ import { BinPlot } from "./bin-plot.js";
  */
 
 const ORDERS = {
-  score: ["By score", "The best bins first"],
-  feature: ["By feature", "The bins of each feature together, its best first"],
+  chosen: ["Chosen first", "The chosen bins, then the others, each by score"],
+  score: ["By score", "The best bins first, chosen or not"],
+  feature: ["By feature", "The bins of each feature together: its chosen ones, then the others, each by score"],
 };
 
 export class BinChart {
@@ -94,7 +95,7 @@ export class BinChart {
     /** @type {string | null} */
     this.outcome = null;
     /** @type {Order} */
-    this.order = "score";
+    this.order = "chosen";
     this.busy = false;
     this.ranking = new Int32Array();
     this.rankOf = new Int32Array(bins.count);
@@ -195,7 +196,7 @@ export class BinChart {
       min: 1,
       max: this.bins.count,
       value: 10,
-      "aria-label": "How many bins",
+      "aria-label": "How many bins to add or remove",
       oninput: () => this.#offer(),
     });
     this.add = action("bin-add", "Add the best", () => this.#add(this.#best()));
@@ -207,11 +208,9 @@ export class BinChart {
     return element(
       "div",
       { class: "bin-best", role: "group", "aria-label": "Choose bins by score" },
-      this.finder,
-      this.number,
-      this.add,
-      this.remove,
+      element("div", { class: "so-many" }, this.number, this.add, this.remove),
       this.clear,
+      this.finder,
     );
   }
 
@@ -220,8 +219,9 @@ export class BinChart {
    * @param {Shown} shown
    */
   draw({ scores, chosen, busy = false, matched = null, separation = null, outcome = null, canFind = false }) {
-    const arranged = scores !== this.scores || chosen !== this.chosen;
-    if (scores !== this.scores) {
+    const scored = scores !== this.scores;
+    const arranged = scored || chosen !== this.chosen;
+    if (scored) {
       this.ranking = ranked(scores);
       this.rankOf.fill(0);
       this.ranking.forEach((column, place) => (this.rankOf[column] = place + 1));
@@ -236,7 +236,7 @@ export class BinChart {
     this.plot.surface.setAttribute("aria-busy", String(busy));
     this.node.classList.toggle("busy", busy);
     this.#explain();
-    if (arranged) this.#arrange();
+    if (arranged) this.#arrange(this.#held && !scored);
     else {
       this.#match();
       this.#read();
@@ -254,18 +254,41 @@ export class BinChart {
     this.#offer();
   }
 
-  /** Put the bars into their order, the chosen first. */
-  #arrange() {
-    const { chosen, ranking } = this;
+  /** Whether a pointer is over the bars. */
+  #held = false;
+
+  /** Whether bars stand where they did before the last choice. */
+  #due = false;
+
+  /**
+   * Under a pointer a choice moves no bar: the next click would meet another one. They move when it has left.
+   * @param {boolean} held
+   */
+  hold(held) {
+    this.#held = held;
+    if (!held && this.#due) this.#arrange();
+  }
+
+  /** All columns in the order of their bars. */
+  #ordered() {
+    const { chosen, order, ranking } = this;
+    if (order === "score") return ranking;
     /** @type {number[][]} */
     const groups = Array.from({ length: 2 * this.bins.features.length }, () => []);
     for (const column of ranking)
-      groups[(this.order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(
-        column,
-      );
-    const places = Int32Array.from(groups.flat());
+      groups[(order === "feature" ? 2 * this.bins.featureOf(column) : 0) + (chosen.has(column) ? 0 : 1)].push(column);
+    return Int32Array.from(groups.flat());
+  }
+
+  /**
+   * Show the bars in their order, or, `still`, where they stand.
+   * @param {boolean} [still]
+   */
+  #arrange(still = false) {
+    const { scores, chosen } = this;
+    this.#due = still;
     this.mark(null);
-    this.plot.show({ scores: this.scores, chosen, places });
+    this.plot.show({ scores, chosen, places: still ? this.plot.places : this.#ordered() });
     if (this.pointed !== null && this.rankOf[this.pointed] === 0) this.point(null);
     this.#search();
     this.#offer();
@@ -275,7 +298,7 @@ export class BinChart {
   // Choosing
 
   /**
-   * Choose a bin or give it up. It moves away, but the arrow keys go on from where it was.
+   * Choose a bin or give it up. It may move away, but the arrow keys go on from where it was.
    * @param {number} column
    */
   toggle(column) {

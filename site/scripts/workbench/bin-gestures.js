@@ -24,7 +24,11 @@ export class BinGestures extends Brush {
     this.plot = plot;
     this.chart = chart;
     const { surface } = plot;
-    surface.addEventListener("pointerleave", (event) => event.pointerType === "mouse" && chart.point(null));
+    surface.addEventListener("pointerenter", (event) => chart.hold(event.pointerType === "mouse"));
+    surface.addEventListener("pointerleave", (event) => {
+      if (event.pointerType === "mouse") chart.point(null);
+      chart.hold(false);
+    });
     surface.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
     surface.addEventListener("keydown", (event) => this.#key(event));
     surface.addEventListener("blur", () => this.#letGo());
@@ -66,8 +70,11 @@ export class BinGestures extends Brush {
     const column = this.#columnAt(x);
     if (button === 1 || column === null) return;
     // A finger cannot point without touching, so its first touch points and the next one chooses.
-    if (pointerType === "mouse" || this.chart.pointed === column) this.chart.toggle(column);
-    else this.chart.point(column);
+    if (pointerType === "mouse" || this.chart.pointed === column) {
+      this.chart.toggle(column);
+      // What the choice does to the maps is to be seen.
+      this.chart.onPoint(null, null);
+    } else this.chart.point(column);
   }
 
   begin() {

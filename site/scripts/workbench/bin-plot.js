@@ -482,10 +482,12 @@ export class BinPlot {
   #paintNames(context, visible, { base }) {
     Object.assign(context, { fillStyle: this.ink, textAlign: "right", textBaseline: "middle" });
     const plain = `${11 * this.density}px ${this.family}`;
+    // What is too long for its room is drawn narrower, and no letter is lost.
+    const longest = this.canvas.height - base - this.#pixels(MARKS + 2);
     for (const column of visible) {
       context.font = this.chosen.has(column) || this.matched?.has(column) ? `600 ${plain}` : plain;
       context.setTransform(0, -1, 1, 0, (this.from[column] + this.to[column]) / 2, base + this.#pixels(MARKS));
-      context.fillText(this.bins.shortName(column, NAME), 0, 0);
+      context.fillText(this.bins.shortName(column, NAME), 0, 0, longest);
     }
     context.resetTransform();
   }

@@ -2,8 +2,8 @@
 
 import { element } from "../base/dom.js";
 import { difference, symbol } from "../base/figures.js";
-import { count, figure } from "../base/words.js";
-import { isBelowOne, rangeOf } from "../database/hit-range.js";
+import { count, figure, lowered } from "../base/words.js";
+import { isBelowOne, nothingTold, rangeOf } from "../database/hit-range.js";
 import { MEASURES, measureOf } from "../map/measures.js";
 import { emptyMap } from "./empty-map.js";
 import { StatusLine } from "./status-line.js";
@@ -94,60 +94,63 @@ class MapPanel {
     const status = this.state.get(`${this.which}Status`);
     const before = this.other && this.state.get(this.other);
     const most = map && rangeOf(this.database, map).highest;
+    const nothing = map && nothingTold(this.database, map);
     this.status.show(this.state.get(`${this.#asked}Status`));
     this.madeFrom.textContent =
       this.which === "original"
         ? featureWords(this.state.get("features"), this.bins.features)
         : chosenWords(this.state.get("bins"));
     this.#showEmpty(map);
-    this.faith.replaceChildren(...(map?.faith ? faithParts(map.faith, map.neighbours) : []));
+    this.faith.replaceChildren(...(map?.faith && map.faith.chance !== 1 ? faithParts(map.faith, map.neighbours) : []));
     this.figure.classList.toggle("stale", status.kind !== "answered" && map !== null);
     this.figure.classList.toggle("without", map === null);
     this.nh.replaceChildren(
       ...(map?.hitOfAll === null || map === null
         ? []
-        : [
-            symbol(),
-            element(
-              "output",
-              {
-                class: "value",
-                title: map.chance === null ? null : `Labels dealt at random reach ${figure(map.chance)} on average`,
-              },
-              figure(map.hitOfAll),
-            ),
-            ...(before && before.hitOfAll !== null
-              ? [
-                  element(
-                    "span",
-                    { class: `change ${map.hitOfAll < before.hitOfAll ? "worse" : "better"}` },
-                    difference(map.hitOfAll - before.hitOfAll),
-                  ),
-                ]
-              : []),
-            ...(map.chance !== null
-              ? [
-                  element(
-                    "span",
-                    { class: "chance", title: "What labels dealt at random reach on average" },
-                    `random ${figure(map.chance)}`,
-                  ),
-                ]
-              : []),
-            ...(isBelowOne(most)
-              ? [
-                  element(
-                    "span",
-                    {
-                      class: "chance",
-                      title:
-                        "A map whose classes never mix: some of the classes are too small to fill all places around a shape",
-                    },
-                    `at most ${figure(most)}`,
-                  ),
-                ]
-              : []),
-          ]),
+        : nothing !== null
+          ? [symbol(), ` says nothing here: ${lowered(nothing)}`]
+          : [
+              symbol(),
+              element(
+                "output",
+                {
+                  class: "value",
+                  title: map.chance === null ? null : `Labels dealt at random reach ${figure(map.chance)} on average`,
+                },
+                figure(map.hitOfAll),
+              ),
+              ...(before && before.hitOfAll !== null
+                ? [
+                    element(
+                      "span",
+                      { class: `change ${map.hitOfAll < before.hitOfAll ? "worse" : "better"}` },
+                      difference(map.hitOfAll - before.hitOfAll),
+                    ),
+                  ]
+                : []),
+              ...(map.chance !== null
+                ? [
+                    element(
+                      "span",
+                      { class: "chance", title: "What labels dealt at random reach on average" },
+                      `random ${figure(map.chance)}`,
+                    ),
+                  ]
+                : []),
+              ...(isBelowOne(most)
+                ? [
+                    element(
+                      "span",
+                      {
+                        class: "chance",
+                        title:
+                          "A map whose classes never mix: some of the classes are too small to fill all places around a shape",
+                      },
+                      `at most ${figure(most)}`,
+                    ),
+                  ]
+                : []),
+            ]),
     );
   }
 
