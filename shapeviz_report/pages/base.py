@@ -22,6 +22,9 @@ from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutBins, HeldOu
 #: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
 COORDINATE_STEPS = 32767
 
+#: Decimals of figures of quality as pages show them.
+FIGURE_DECIMALS = 3
+
 #: The projections by name.
 METHODS = {method.name: method for method in PROJECTIONS}
 
@@ -160,6 +163,14 @@ def grouped(number: int) -> str:
     Pages have it as the filter ``grouped``; scripts have the same in ``base/words.js``.
     """
     return f"{number:,}".replace(",", "\u202f")
+
+
+def change(before: float, after: float) -> float:
+    """The difference of two figures of quality as they are shown, so that it adds up for a reader.
+
+    Pages have it as the filter ``change``, from what stands before it; scripts have the same in ``base/figures.js``.
+    """
+    return round(round(after, FIGURE_DECIMALS) - round(before, FIGURE_DECIMALS), FIGURE_DECIMALS)
 
 
 def bins_note(projection: Projection) -> str:

@@ -16,6 +16,7 @@ from shapeviz_report.pages.base import (
     COORDINATE_STEPS,
     METHODS,
     PageContent,
+    change,
     class_names,
     coordinate_steps,
     distinct_means,
@@ -30,6 +31,7 @@ from shapeviz_report.pages.retrieval import retrieval_chunk, retrieval_context
 from shapeviz_report.pages.separation import separation_context
 from shapeviz_report.search.certainty import measure_gain
 from shapeviz_report.types import (
+    FeatureEffect,
     FeatureSearch,
     FloatArray,
     HeldOutFold,
@@ -143,7 +145,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
             {
                 "feature": search.features.index(effect.feature),
                 "alone": effect.alone,
-                "with": effect.mean_with,
+                "with": _joined(effect),
                 "without": effect.mean_without,
             }
             for effect in search.effects
@@ -304,24 +306,29 @@ def _effects(search: FeatureSearch) -> list[dict[str, object]]:
     rows = []
     for index in _by_effect(search):
         effect = next(effect for effect in search.effects if effect.feature == search.features[index])
-        if effect.added is None:
-            verdict = None
-        elif round(abs(effect.added), 3) < NEGLIGIBLE:
-            verdict = "hardly matters"
-        else:
-            verdict = "helps" if effect.added > 0 else "spoils"
+        joined, added, verdict = _joined(effect), None, None
+        if joined is not None and effect.mean_without is not None:
+            added = change(effect.mean_without, joined)
+            verdict = "hardly matters" if abs(added) < NEGLIGIBLE else "helps" if added > 0 else "spoils"
         rows.append(
             {
                 "feature": effect.feature,
                 "hue": charts.feature_color_indices(index + 1)[-1],
                 "verdict": verdict,
                 "alone": effect.alone,
-                "with": effect.mean_with,
+                "with": joined,
                 "without": effect.mean_without,
-                "added": effect.added,
+                "added": added,
             }
         )
     return rows
+
+
+def _joined(effect: FeatureEffect) -> float | None:
+    """What the maps without a feature reach once it has joined them, so that its map alone is not among them."""
+    if effect.added is None or effect.mean_without is None:
+        return effect.mean_with
+    return effect.mean_without + effect.added
 
 
 def _spread(spread: tuple[SeedSpread, ...], features: tuple[str, ...]) -> dict[str, object]:

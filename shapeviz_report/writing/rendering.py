@@ -9,7 +9,7 @@ import jinja2
 from markupsafe import Markup
 
 from shapeviz_report.pages import PAGES, Page, PageContent
-from shapeviz_report.pages.base import class_names, grouped
+from shapeviz_report.pages.base import change, class_names, grouped
 from shapeviz_report.types import Report
 from shapeviz_report.writing import preview
 from shapeviz_report.writing.data import json_text
@@ -64,6 +64,7 @@ def make_environment(*, single_file: bool = False, left_out: Sequence[str] = ())
     )
     environment.filters["markdown"] = render_markdown
     environment.filters["grouped"] = grouped
+    environment.filters["change"] = change
     environment.globals["single_file"] = single_file
     environment.globals["left_out"] = left_out
     return environment

@@ -103,7 +103,11 @@ class TestFirstLook:
         for feature, effect in search["effects"].items():
             row = next(row for row in rows if row.split("\t")[0].strip() == feature)
             assert f"{effect['alone']:.3f}" in row
-            assert f"{effect['with']:.3f}" in row
+            *_, alone, joined, without = row.split("\t")
+            assert (alone, without) == (f"{effect['alone']:.3f}", f"{effect['without']:.3f}")
+            assert float(joined) == pytest.approx(effect["without"] + effect["added"], abs=0.0006)
+            told = re.search(r"(gain|lose|change by|change by −) ?(0\.\d{3})", row)
+            assert float(told[2]) == pytest.approx(abs(float(joined) - float(without)), abs=1e-9)
 
 
 class TestPointing:

@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { changeWords, difference } from "../../site/scripts/base/figures.js";
 import { count, grouped, measured, percent, percents } from "../../site/scripts/base/words.js";
 import { Contrast, ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
 
@@ -62,4 +63,13 @@ test("a share of pairs of places that hardly differs is told after what one sees
   assert.ok(Math.abs(contrast.gap(0) - 0.001) < 1e-12);
   // Any other value has no scale on which one could say that it is nothing.
   assert.equal(contrast.gap(2), 1);
+});
+
+test("a difference is that of the figures as they are shown", () => {
+  // 0.9385 and 0.9924 differ by 0.0539, and show as 0.939 and 0.992.
+  assert.equal(difference(0.93851, 0.9924), "+0.053");
+  assert.equal(difference(0.9424, 0.93851), "−0.003");
+  assert.equal(difference(0.50049, 0.49951), "±0.000");
+  assert.equal(changeWords(0.50049, 0.50051), "up 0.001");
+  assert.equal(changeWords(0.4, 0.4), "unchanged");
 });

@@ -4,12 +4,23 @@ import { element, svg } from "./dom.js";
 import { figure } from "./words.js";
 
 /**
- * A difference with its sign, three decimals as all figures of quality.
- * @param {number} value
+ * How far two figures of quality differ as they are shown, so that it adds up for a reader; as `change` of
+ * `pages/base.py`.
+ * @param {number} before
+ * @param {number} after
  */
-export function difference(value) {
-  const shown = figure(Math.abs(value));
-  return shown === "0.000" ? "±0.000" : `${value < 0 ? "−" : "+"}${shown}`;
+export function change(before, after) {
+  return Number(figure(Number(figure(after)) - Number(figure(before))));
+}
+
+/**
+ * The same with its sign, three decimals as all figures of quality.
+ * @param {number} before
+ * @param {number} after
+ */
+export function difference(before, after) {
+  const value = change(before, after);
+  return value === 0 ? "±0.000" : `${value < 0 ? "−" : "+"}${figure(Math.abs(value))}`;
 }
 
 /** The symbol of the neighbourhood hit of a map. */
@@ -19,11 +30,12 @@ export function symbol() {
 
 /**
  * What a change is called where it is heard: "up 0.203".
- * @param {number} value
+ * @param {number} before
+ * @param {number} after
  */
-export function changeWords(value) {
-  const shown = figure(Math.abs(value));
-  return shown === "0.000" ? "unchanged" : `${value < 0 ? "down" : "up"} ${shown}`;
+export function changeWords(before, after) {
+  const value = change(before, after);
+  return value === 0 ? "unchanged" : `${value < 0 ? "down" : "up"} ${figure(Math.abs(value))}`;
 }
 
 /** How NH of a map and of a class stand in a caption, which is plain text until it is drawn or shown. */

@@ -200,7 +200,7 @@ export class PathPlayer {
     const before = this.steps[place - 1];
     this.plot.show(this.maps[place], { travel });
     document.getElementById("step-title").textContent = `Step ${place + 1} of ${this.steps.length}`;
-    const change = before ? difference(step.nh - before.nh) : null;
+    const change = before ? difference(before.nh, step.nh) : null;
     document.getElementById("step-nh").replaceChildren(
       symbol(),
       element("output", { class: "value" }, figure(step.nh)),

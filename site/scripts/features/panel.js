@@ -1,6 +1,7 @@
 // The chosen subset in figures, and chips that lead to each neighbouring subset.
 
 import { element, focused } from "../base/dom.js";
+import { difference } from "../base/figures.js";
 import { capitalised, figure } from "../base/words.js";
 import { MEASURES, measuresOf } from "../map/measures.js";
 
@@ -91,15 +92,13 @@ export class Panel {
     const [best] = subsets.ranked(undefined, among);
     const [whole, words] = this.#whole();
     /**
-     * @param {number} one
-     * @param {number} other
-     */
-    const apart = (one, other) => (hit[one] ?? 0) - (hit[other] ?? 0);
-    /**
      * @param {number} other
      * @param {string} words
      */
-    const against = (other, words) => [element("b", {}, difference(apart(place, other))), ` against ${words}`];
+    const against = (other, words) => [
+      element("b", {}, difference(hit[other] ?? 0, hit[place] ?? 0)),
+      ` against ${words}`,
+    ];
     return element(
       "p",
       { class: "headline" },
@@ -133,8 +132,7 @@ export class Panel {
     const mark = element("i", { class: "hued" });
     mark.style.background = this.marks().features[subsets.data.hues[feature]];
     const values = this.#measure?.values ?? null;
-    const change =
-      target === undefined || values === null ? "" : difference((values[target] ?? 0) - (values[place] ?? 0));
+    const change = target === undefined || values === null ? "" : difference(values[place] ?? 0, values[target] ?? 0);
     const reason =
       pressed && subsets.single(place) >= 0 ? "A map needs at least one feature" : "This subset was not evaluated";
     return element(
@@ -205,12 +203,4 @@ export class Panel {
       move("next", measure ? "Worse ›" : "Next ›", order[position + 1]),
     );
   }
-}
-
-/**
- * A difference with its sign.
- * @param {number} value
- */
-function difference(value) {
-  return `${value < 0 ? "−" : "+"}${figure(Math.abs(value))}`;
 }

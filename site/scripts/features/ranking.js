@@ -5,6 +5,7 @@ import { element, pause, svg } from "../base/dom.js";
 import { toldAs } from "../base/snapshot.js";
 import { count, figure, grouped, lowered } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
+import { change } from "../base/figures.js";
 import { MEASURES } from "../map/measures.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
@@ -418,11 +419,11 @@ export class Ranking {
       ),
     ]);
     const last = greedy.path.at(-1);
-    const behind = (hit[0] ?? 0) - (hit[last] ?? 0);
+    const behind = change(hit[last] ?? 0, hit[0] ?? 0);
     words.append(
       `Greedy search, s = ${s}: `,
       .../** @type {any[]} */ (steps).flat().filter(Boolean),
-      ` with ${count(greedy.runs, "map")} of ${grouped(this.subsets.count)}; ${behind > 0 ? `rank ${grouped(last + 1)}, ${figure(behind)} below the best.` : "the best of all."}`,
+      ` with ${count(greedy.runs, "map")} of ${grouped(this.subsets.count)}; ${(hit[0] ?? 0) > (hit[last] ?? 0) ? `rank ${grouped(last + 1)}, ${figure(behind)} below the best.` : "the best of all."}`,
     );
   }
 }

@@ -1,7 +1,7 @@
 // The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
 
 import { element, focused } from "../base/dom.js";
-import { difference } from "../base/figures.js";
+import { change, difference } from "../base/figures.js";
 import { figure, grouped } from "../base/words.js";
 import { classMark } from "../colors/legend.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
@@ -112,7 +112,7 @@ export class ClassTable {
         { class: "number", title: most === "" ? null : `NH ${figure(hit)}${most}, as many as the class has others` },
         group < 0 ? "" : figure(hit),
       ),
-      element("td", { class: "number change" }, hit !== null && refined !== null && change(refined - hit)),
+      element("td", { class: "number change" }, hit !== null && refined !== null && changeOf(hit, refined)),
     );
     return { node, use, only, ticks };
   }
@@ -183,10 +183,12 @@ const LARGE = 0.5;
 
 /**
  * A change as a bar from the middle and a number.
- * @param {number} value
+ * @param {number} before
+ * @param {number} after
  */
-function change(value) {
+function changeOf(before, after) {
+  const value = change(before, after);
   const bar = element("i", { class: value < 0 ? "worse" : "better" });
   bar.style.setProperty("--length", String(Math.min(Math.abs(value) / LARGE, 1)));
-  return [element("span", { class: "scale", "aria-hidden": "true" }, bar), difference(value)];
+  return [element("span", { class: "scale", "aria-hidden": "true" }, bar), difference(before, after)];
 }

@@ -358,7 +358,7 @@ export class Desk {
     }
     const before = this.state.get("originalMap")?.hitOfAll ?? null;
     const change =
-      which === "refined" && before !== null ? `, ${changeWords(map.hitOfAll - before)} against the original` : "";
+      which === "refined" && before !== null ? `, ${changeWords(before, map.hitOfAll)} against the original` : "";
     this.announce(`NH of the ${which} map ${figure(map.hitOfAll)}${change}`);
   }
 

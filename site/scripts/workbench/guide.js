@@ -2,7 +2,7 @@
 
 import { DEFAULT_SCORER, EVERY_CLASS } from "../addresses/workbench.js";
 import { element, swatch } from "../base/dom.js";
-import { difference } from "../base/figures.js";
+import { change, difference } from "../base/figures.js";
 import { readHash } from "../base/place.js";
 import { count, figure, wholePercent } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
@@ -15,9 +15,6 @@ import { inWords } from "../bins-kit/bin-name.js";
 /** @import { Desk, Question } from "./desk.js" */
 
 const KEY = "shapeviz-guide";
-
-/** A change of NH that shows in three decimals. */
-const LEAST = 0.0005;
 
 export class Guide {
   /** @type {number | null} */
@@ -233,9 +230,9 @@ export class Guide {
     if (result === null) return ["No few bins were found that keep ", ...pair, " apart better than all features do."];
     const { words, moved } = result;
     const verdict =
-      moved >= LEAST
+      moved > 0
         ? "these bins keep them apart better than all features do"
-        : moved > -LEAST
+        : moved === 0
           ? "these bins keep them apart as well as all features do"
           : "these bins alone keep them apart less well than all features do: try more of them, or another scorer";
     return ["On the refined map of ", ...pair, ...words, `: ${verdict}. But what does it do to the other classes?`];
@@ -260,8 +257,8 @@ export class Guide {
     );
     if (before === null || after === null) return null;
     return {
-      words: [" NH is ", element("b", {}, figure(after)), `, ${difference(after - before)} against the original`],
-      moved: after - before,
+      words: [" NH is ", element("b", {}, figure(after)), `, ${difference(before, after)} against the original`],
+      moved: change(before, after),
     };
   }
 

@@ -124,7 +124,7 @@ class MapPanel {
                     element(
                       "span",
                       { class: `change ${map.hitOfAll < before.hitOfAll ? "worse" : "better"}` },
-                      difference(map.hitOfAll - before.hitOfAll),
+                      difference(before.hitOfAll, map.hitOfAll),
                     ),
                   ]
                 : []),

@@ -28,7 +28,7 @@ export function workTables(database, bins, state) {
    * @param {number | null} before
    * @param {number | null} after
    */
-  const change = (before, after) => (before === null || after === null ? "–" : difference(after - before));
+  const change = (before, after) => (before === null || after === null ? "–" : difference(before, after));
   /**
    * @param {string} name
    * @param {number | null} before
