@@ -46,7 +46,7 @@ class AboutPage:
                 "copies": report.copies,
                 "clusters": _clusters(report),
                 "stages": _stages(report),
-                "parameters": [(name, _plain(value)) for name, value in report.parameters.items()],
+                "parameters": _parameters(report),
                 "versions": list(report.versions.items()),
                 "meshes": _meshes(report),
                 "mesh_count": len(report.shapes),
@@ -138,6 +138,20 @@ def _stages(report: Report) -> dict[str, object]:
         "seconds": sum(report.seconds.values()),
         "cpu_seconds": sum(report.cpu_seconds.values()),
     }
+
+
+def _parameters(report: Report) -> list[tuple[str, str]]:
+    """The options of the build; of those that nobody set, what was used in their place."""
+    labeling = "none" if report.labeling is None else f"not set: {report.labeling}"
+    used = {
+        "layout": f"guessed: {report.database.layout}",
+        "labeling": labeling,
+        "up": "guessed, where a file does not say",
+    }
+    return [
+        (name, used[name] if value is None and name in used else _plain(value))
+        for name, value in report.parameters.items()
+    ]
 
 
 def _plain(value: object) -> str:

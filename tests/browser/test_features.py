@@ -634,7 +634,8 @@ class TestPhone:
         for part in page.locator("details.folds").all():
             assert part.get_attribute("open") is None
         page.click(".effects > summary")
-        assert page.locator("#effect-dots svg").is_visible()
+        # A chart is drawn when its part is opened.
+        page.locator("#effect-dots svg").wait_for()
         names = page.locator(".effects tbody th bdi")
         assert len(set(names.evaluate_all("nodes => nodes.map(node => node.getClientRects().length)"))) == 1
         # Each name stands beside its mark.

@@ -71,6 +71,21 @@ def test_it_shows_seeds_parameters_versions_and_hashes(text):
         assert expected in text
 
 
+def test_what_was_not_set_is_told_by_what_was_used():
+    report = make_report(["ant"], 4)
+    unset = {"layout": None, "labeling": None, "up": None, "bins": None, "external": []}
+    told = dict(
+        AboutPage().content(replace(report, parameters=report.parameters | unset)).context["parameters"]
+    )
+    assert told["layout"] == "guessed: class folders"
+    assert told["labeling"] == "not set: folder"
+    assert told["up"] == "guessed, where a file does not say"
+    assert (told["bins"], told["external"]) == ("none", "none")
+    chosen = report.parameters | {"layout": "flat", "labeling": "kind", "up": "y"}
+    told = dict(AboutPage().content(replace(report, parameters=chosen)).context["parameters"])
+    assert (told["layout"], told["labeling"], told["up"]) == ("flat", "kind", "y")
+
+
 def test_times_add_up():
     stages = AboutPage().content(make_report()).context["stages"]
     assert stages["seconds"] == pytest.approx(15.85)
