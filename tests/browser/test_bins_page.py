@@ -126,6 +126,18 @@ def test_the_way_plays_and_stops(bins):
     page.locator(".path-step").nth(1).click()
     assert play.inner_text() == "Play"
     assert title.inner_text() == f"Step 2 of {last}"
+    # Escape stops it too, wherever the reader is, and drops no selection by the same press.
+    page.evaluate("location.hash = 'select=class000/0001'")
+    tray = page.locator("#tray .shape")
+    eventually(page, lambda: tray.count() == 1)
+    page.locator(".path-step").nth(0).click()
+    play.click()
+    page.focus("#content")
+    page.keyboard.press("Escape")
+    assert play.inner_text() == "Play"
+    assert tray.count() == 1
+    page.keyboard.press("Escape")
+    eventually(page, lambda: tray.count() == 0)
 
 
 def test_a_step_opens_in_the_workbench(bins):

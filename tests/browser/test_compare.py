@@ -272,6 +272,16 @@ class TestTwoGroups:
         assert chosen == report.shapes[3].name
         assert page.locator("#head-b b").inner_text() == "79 shapes"
 
+    def test_the_rest_chosen_on_the_other_side_swaps_the_sides(self, compare):
+        page = compare(a="rest", b="class:kind b")
+        page.select_option("#group-b", label="all other shapes")
+        eventually(page, lambda: "a=class:kind b&b=rest" in address(page))
+        assert page.locator("#group-a option:checked").inner_text() == "kind b (16)"
+        assert page.locator("#group-b option:checked").inner_text() == "all other shapes"
+        page.select_option("#group-a", label="all other shapes")
+        eventually(page, lambda: "a=rest&b=class:kind b" in address(page))
+        assert page.locator("#common").inner_text() == ""
+
     def test_nothing_found_and_nothing_left_are_said(self, compare):
         page = compare(a="search:no such words", b="class:kind a")
         assert "No shape is found by “no such words”" in page.locator("#status").inner_text()

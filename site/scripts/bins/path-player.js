@@ -48,6 +48,16 @@ export class PathPlayer {
       document.getElementById(id).addEventListener("click", () => this.go(state.get("step") + by));
     }
     document.querySelector(".player").addEventListener("keydown", (event) => this.#key(event));
+    // Escape stops what moves, before it drops anything else.
+    document.addEventListener(
+      "keydown",
+      (event) => {
+        if (event.key !== "Escape" || !this.timer || document.querySelector("dialog[open]")) return;
+        this.pause();
+        event.preventDefault();
+      },
+      { capture: true },
+    );
     // Nothing plays where nobody looks.
     document.addEventListener("visibilitychange", () => document.hidden && this.pause());
     this.#makeMap(pointing, choose);

@@ -78,10 +78,10 @@ export class Chooser {
     const other = side === "a" ? "b" : "a";
     /** @type {Partial<Record<Side, GroupSpec | null>>} */
     const patch = { [side]: spec };
-    // Two rests are no question; the other side has then to be chosen anew.
     if (spec !== null && isSame(spec, this.state.get(other))) {
-      patch[other] = spec.kind === "rest" ? null : { kind: "rest" };
-      this.#moved = patch[other];
+      // Two rests are no question: the sides change places then.
+      patch[other] = spec.kind === "rest" ? this.state.get(side) : { kind: "rest" };
+      this.#moved = spec.kind === "rest" ? null : patch[other];
     }
     this.state.set(patch);
   }
