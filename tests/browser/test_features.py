@@ -379,7 +379,8 @@ class TestOfThePaper:
             return page.locator("#panel .headline").inner_text()
 
         def against(row, words):
-            return f"{alone['nh_s'] - row['nh_s']:+.3f} against {words}".replace("-", "−")
+            gap = round(alone["nh_s"], 3) - round(row["nh_s"], 3)
+            return f"{gap:+.3f} against {words}".replace("-", "−")
 
         lead = page.locator(".lead")
         assert "one subset of the 4 features" in lead.inner_text()
@@ -390,8 +391,12 @@ class TestOfThePaper:
         assert page.locator("[data-rule=best]").is_visible()
         page.click("#among label:has([value=paper])")
         eventually(page, lambda: "one subset of the paper’s 3 features" in lead.inner_text())
-        assert against(own[0], "the best") in told()
+        assert against(own[0], "the best of these") in told()
         assert against(whole, "all of the paper’s") in told()
+        # What has other features stands nowhere among them.
+        assert "not one of these: it has other features" in told()
+        for key in ("previous", "next"):
+            assert page.locator(f"#panel [data-key={key}]").is_disabled()
         # A rank is one among those in view.
         assert "own" in reading(page)
         assert "rank" not in reading(page)
@@ -407,6 +412,7 @@ class TestOfThePaper:
         assert page.locator("#ranking .path circle").count() == 0
         page.click("#panel [data-key=all]")
         eventually(page, lambda: " ".join(whole["features"]) in reading(page))
+        assert "not one of these" not in told()
         # A feature beside them is offered only where it is one of the chosen subset.
         assert page.locator(".chip").count() == 3
         page.click("#among label:has([value=all])")
@@ -418,7 +424,9 @@ class TestOfThePaper:
         page = open_page("searched with others", "features.html#among=paper")
         assert page.locator("#among [value=paper]").is_checked()
         page.click("#open-tables")
-        assert page.locator("#tables table").nth(2).locator("tbody tr").count() == 7
+        # The greedy search went among all subsets, and has no table here.
+        assert "Greedy search" not in page.locator("#tables").inner_text()
+        assert page.locator("#tables table").nth(1).locator("tbody tr").count() == 7
 
     def test_where_there_are_no_others_there_is_no_choice(self, open_page):
         assert open_page("searched", "features.html").locator("#among").count() == 0

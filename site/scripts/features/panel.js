@@ -113,9 +113,10 @@ export class Panel {
               among === "all" &&
                 chanceBest !== null && ["; ", element("b", {}, figure(chanceBest)), " with random ones"],
             ]
-          : against(best, "the best"),
+          : against(best, among === "all" ? "the best" : "the best of these"),
         element("br"),
         place === whole ? words : against(whole, words),
+        !subsets.isAmong(place, among) && [element("br"), "not one of these: it has other features"],
       ),
     );
   }
@@ -199,8 +200,9 @@ export class Panel {
       { class: "moves" },
       measure && move("best", "Best", order[0]),
       move("all", capitalised(words), whole),
+      // What is not among these has none before or after it.
       move("previous", measure ? "‹ Better" : "‹ Previous", order[position - 1]),
-      move("next", measure ? "Worse ›" : "Next ›", order[position + 1]),
+      move("next", measure ? "Worse ›" : "Next ›", position < 0 ? undefined : order[position + 1]),
     );
   }
 }

@@ -25,7 +25,8 @@ export function subsetTables(database, subsets, state, retrieval) {
   const names = (place) => subsets.names(place).join(", ");
   const ranked = subsets.ranked(undefined, state.get("among"));
   const places = ranked.slice(0, MOST_ROWS);
-  const greedy = data.greedy.find(({ s }) => s === state.get("s"));
+  // It went among all subsets.
+  const greedy = state.get("among") === "all" && data.greedy.find(({ s }) => s === state.get("s"));
   const classes = subsets
     .boxes(state.get("among"))
     .map((box, column) => [
