@@ -142,6 +142,17 @@ class TestFirstLook:
         )
         eventually(page, lambda: page.eval_on_selector_all(f"{LARGE} .pictured", colours) == 12)
 
+    def test_it_is_told_how_many_shapes_have_no_picture(self, open_page):
+        page = open_page("plain")
+        page.check("#exact")
+        reading = page.locator(f"{LARGE.split()[0]} .reading .shown")
+
+        def told():
+            rest = 120 - page.locator(f"{LARGE} .pictured").count()
+            return f"pictures of the {rest} dots" in reading.inner_text()
+
+        eventually(page, told)
+
     def test_exact_places_are_a_toggle_away(self, open_page):
         page = open_page("plain")
         spread = pictured(page)

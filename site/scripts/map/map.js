@@ -56,14 +56,17 @@ export class MapView {
   /**
    * @param {Scene} scene
    * @param {Found} figure
-   * @param {{ charted?: boolean }} [how] whether a chart draws the marks at rest; a map that is seen first waits for none
+   * @param {object} [how]
+   * @param {boolean} [how.charted] whether a chart draws the marks at rest; a map that is seen first waits for none
+   * @param {() => void} [how.settled] called as often as pictures were chosen
    */
-  constructor(scene, figure, { charted = true } = {}) {
+  constructor(scene, figure, { charted = true, settled = () => {} } = {}) {
     this.scene = scene;
     this.database = scene.database;
     this.state = scene.state;
     this.figure = figure;
     this.charted = charted;
+    this.settled = settled;
     this.name = /** @type {MapName} */ (figure.dataset.view);
     /** @type {Coloring | null} what its reader colours the map by, if not by classes */
     this.chosenColoring = null;
@@ -372,6 +375,15 @@ export class MapView {
     this.drawRings();
     if (this.width >= NAMED_WIDTH) this.#name();
     else this.labels.clear();
+    this.settled();
+  }
+
+  /** How many shapes in view have no picture; none before pictures were chosen. */
+  get dotted() {
+    if (!this.started) return 0;
+    return this.inside((x, y) => x >= 0 && y >= 0 && x <= this.width && y <= this.height).filter(
+      (index) => !this.pictured[index],
+    ).length;
   }
 
   async #run() {

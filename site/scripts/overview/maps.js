@@ -39,7 +39,7 @@ export class OverviewMaps {
     this.figures = new Map(figures.map((figure) => [figure.dataset.view ?? "", figure]));
     this.figure = document.querySelector("figure[data-slot=large]");
     this.figure.dataset.view = this.#name;
-    this.main = new MapView(this.scene, this.figure, { charted: false });
+    this.main = new MapView(this.scene, this.figure, { charted: false, settled: () => this.#tellReadings() });
     /** @type {Map<MapView, Gestures>} */
     this.gestures = new Map();
     this.#watch(this.main);
@@ -123,7 +123,9 @@ export class OverviewMaps {
   #view(name) {
     const known = this.#linked.get(name);
     if (known) return known;
-    const view = new MapView(this.scene, /** @type {Found} */ (this.figures.get(name)));
+    const view = new MapView(this.scene, /** @type {Found} */ (this.figures.get(name)), {
+      settled: () => this.#tellReadings(),
+    });
     this.#linked.set(name, view);
     this.#watch(view);
     return view;
@@ -143,7 +145,6 @@ export class OverviewMaps {
   }
 
   #tellReadings() {
-    for (const figure of [this.figure, ...this.figures.values()])
-      if (!figure.hidden) tellReading(figure, this.database, this.state);
+    for (const view of this.scene.views) tellReading(view, this.database, this.state);
   }
 }
