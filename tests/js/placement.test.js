@@ -198,6 +198,28 @@ test("a name stands at the cluster of its class and not at a stray, and its line
   assertTrue(placeNames(marks, names, map.frame, RADIUS, [stray]), map);
 });
 
+test("a line ends on a picture of the class rather than on a dot beside it", () => {
+  const marks = [{ index: 0, group: 0, x: 200, y: 200, radius: 18 }];
+  for (const [x, y] of [
+    [185, 165],
+    [200, 162],
+    [215, 165],
+  ])
+    marks.push({ index: marks.length, group: 0, x, y, radius: 4 });
+  for (let angle = 0; angle < 6.2; angle += 0.35)
+    marks.push({
+      index: marks.length,
+      group: 1,
+      x: 200 + 55 * Math.cos(angle),
+      y: 190 + 55 * Math.sin(angle),
+      radius: 12,
+    });
+  const names = new Map([[0, { width: 80, height: 18 }]]);
+  const [place] = placeNames(marks, names, { width: 400, height: 400 }, 18);
+  assert.ok(place.leader);
+  assert.equal(place.anchor, 0);
+});
+
 test("a class whose every mark others cover has no name", () => {
   const marks = [
     { index: 0, group: 0, x: 100, y: 100 },

@@ -203,11 +203,12 @@ function beside(heart, group, size, field, taken) {
  */
 function led(heart, cluster, group, size, field, taken) {
   const seen = cluster.filter((mark) => field.seen(mark));
-  const ends = [heart, ...seen.filter((_, place) => place % Math.ceil(seen.length / ENDS) === 0)].filter((mark) =>
-    field.seen(mark),
-  );
+  // Pictures rather than dots among them.
+  const largest = Math.max(...seen.map((mark) => mark.radius ?? field.radius));
+  const large = seen.filter((mark) => (mark.radius ?? field.radius) === largest);
+  const ends = large.filter((mark, place) => mark === heart || place % Math.ceil(large.length / ENDS) === 0);
   let [best, least] = [/** @type {Candidate | null} */ (null), LED];
-  if (ends.length === 0) return best;
+  if (ends.length === 0) return null;
   for (const { candidate } of placesAbout(heart, size, taken, () => LED)) {
     if (field.gap(candidate.box, FREE, () => true) <= FREE) continue;
     const x = heart.x + candidate.dx;
