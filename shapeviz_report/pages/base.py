@@ -17,7 +17,15 @@ from shapeviz_report.pages.chunks import Chunks, Clusters, FeatureMarks, ThemeNa
 from shapeviz_report.projections import PROJECTIONS
 from shapeviz_report.quality import hit_range
 from shapeviz_report.search.certainty import measure_distinct_gain
-from shapeviz_report.types import FeatureSearch, FloatArray, HeldOutBins, HeldOutFold, Projection, Report
+from shapeviz_report.types import (
+    BinSearch,
+    FeatureSearch,
+    FloatArray,
+    HeldOutBins,
+    HeldOutFold,
+    Projection,
+    Report,
+)
 
 #: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
 COORDINATE_STEPS = 32767
@@ -119,6 +127,12 @@ def search_of(report: Report) -> FeatureSearch | None:
         null_best=np.empty(0),
         effects=(),
     )
+
+
+def bins_of(report: Report) -> BinSearch | None:
+    """The search for a few bins; None where labels cannot rank maps."""
+    found = report.bins
+    return None if found is None or nothing_told(report, found.automatic.k) is not None else found
 
 
 def nothing_told(report: Report, k: int) -> str | None:

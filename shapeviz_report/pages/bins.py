@@ -13,9 +13,11 @@ from shapeviz_report.features import BINS
 from shapeviz_report.pages.base import (
     COORDINATE_STEPS,
     PageContent,
+    bins_of,
     class_names,
     coordinate_steps,
     distinct_means,
+    nothing_told,
     rounded,
 )
 from shapeviz_report.pages.chunks import BinSet, Dimension, Fold, FoundBins, PathStep, Selection
@@ -39,11 +41,13 @@ class BinsPage:
     within = None
 
     def content(self, report: Report) -> PageContent:
+        found = bins_of(report)
         return PageContent(
             context={
                 "classes": len(class_names(report)),
+                "nothing": None if report.bins is None else nothing_told(report, report.bins.automatic.k),
                 "searched": report.parameters.get("search") != "none",
-                "selection": None if report.bins is None else _headline(report, report.bins),
+                "selection": None if found is None else _headline(report, found),
                 "models": report.models is not None,
             },
             chunks={"selection": _selection(report)},
@@ -64,9 +68,8 @@ def _selection(report: Report) -> Selection:
     """What the search for bins found, as far as there is one, and what the views of shapes need. No times: they differ
     from build to build."""
     place = {column: index for index, column in enumerate(report.features.columns)}
-    found: FoundBins = (
-        {"minimal": [], "path": []} if report.bins is None else _found(report, report.bins, place)
-    )
+    searched = bins_of(report)
+    found: FoundBins = {"minimal": [], "path": []} if searched is None else _found(report, searched, place)
     return {
         **found,
         "coordinateSteps": COORDINATE_STEPS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from shapeviz_report import charts, quality
-from shapeviz_report.pages.base import MEASURED, PageContent, class_names, feature_marks
+from shapeviz_report.pages.base import MEASURED, PageContent, bins_of, class_names, feature_marks
 from shapeviz_report.pages.bins import SCORE_DECIMALS, all_features, mean_over_folds
 from shapeviz_report.pages.chunks import (
     Chunks,
@@ -73,7 +73,7 @@ def _workbench(report: Report, preset: Preset, compared: FloatArray, classes: tu
         # The columns that the maps of the site are made from; null for all of them.
         "bins": None if projection.bins is None else _columns(report, projection.bins),
         "example": _example(report, classes),
-        "found": None if report.bins is None else _found(report, report.bins),
+        "found": None if (found := bins_of(report)) is None else _found(report, found),
         "marks": feature_marks(),
     }
 

@@ -70,6 +70,7 @@ SITES = {
     "few": lambda: with_scores(
         with_search(make_report([f"kind {letter}" for letter in "abcd"], 2, features=FEATURES[:2]))
     ),
+    "few bins": lambda: with_bin_search(make_report([f"kind {letter}" for letter in "abcd"], 2)),
     "six": lambda: make_report(["ant", "bird", "cup"], 2),
     "one class searched": lambda: with_search(make_report(["ant"], 24, features=FEATURES[:2])),
     "no labels": lambda: make_report([None, None], 12),

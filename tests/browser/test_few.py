@@ -68,3 +68,13 @@ def test_no_classes_are_said_to_be_alike(open_page):
     page = open_page("few", "compare.html#a=class:kind+a&b=class:kind+b")
     page.wait_for_selector("#answer h2")
     assert "most like a shape of" not in text_of(page, "#answer")
+
+
+def test_no_bins_are_said_to_keep_classes_apart(open_page):
+    page = open_page("few bins", "bins.html")
+    assert f"{ALL} So no bins can be said to keep classes apart." in text_of(page, ".notice")
+    for part in ("#path", "#class-cards"):
+        assert page.locator(part).count() == 0
+    # The Workbench does not offer them either.
+    page = open_page("few bins", "workbench.html")
+    assert "the build found" not in text_of(page, "main")
