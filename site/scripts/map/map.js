@@ -630,12 +630,15 @@ export class MapView {
     const naming = this.#naming;
     const map = [scene.target, database.revision, width, height].join(" ");
     if (this.#known?.coloring !== coloring || this.#known.map !== map) {
-      const scale = Math.min(width / scene.bounds.width, height / scene.bounds.height);
+      // Of the map that is gone to, not of one on the way there.
+      const { x, y } = database.methods[scene.target];
+      const bounds = database.bounds[scene.target];
+      const scale = Math.min(width / bounds.width, height / bounds.height);
       const marks = database.ids.map((_, index) => ({
         index,
         group: naming.groupOf(index),
-        x: scene.x[index] * scale,
-        y: scene.y[index] * scale,
+        x: x[index] * scale,
+        y: y[index] * scale,
       }));
       const groups = Map.groupBy(
         marks.filter(({ group }) => group >= 0),
