@@ -42,5 +42,6 @@ function reading(view, database, state) {
  * @param {number} dots
  */
 function zoomIn(dots) {
-  return dots > 0 && element("span", { class: "on-screen" }, ` Zoom in to see pictures of the ${count(dots, "dot")}.`);
+  const what = dots === 1 ? "a picture of the dot" : `pictures of the ${count(dots, "dot")}`;
+  return dots > 0 && element("span", { class: "on-screen" }, ` Zoom in to see ${what}.`);
 }
