@@ -9,7 +9,8 @@ from shapeviz_report.pages.base import MEASURED, METHODS, PageContent, class_nam
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import has_licence, licence_warning
 from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
-from shapeviz_report.types import FeatureSearch, Report
+from shapeviz_report.search.certainty import choosing_pays
+from shapeviz_report.types import BinSearch, FeatureSearch, Report
 
 #: Failures, and copies, that the page lists; a page of a hundred thousand rows opens slowly, and nobody reads them.
 MOST_LISTED = 500
@@ -230,12 +231,13 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
             if report.copies
             else ()
         ),
-        *(
-            (("selected-bins.txt", "a few bins that separate all classes, for build --bins"),)
-            if report.bins is not None
-            else ()
-        ),
+        *((("selected-bins.txt", _worth_of_bins(report.bins)),) if report.bins is not None else ()),
     ]
+
+
+def _worth_of_bins(found: BinSearch) -> str:
+    words = "a few bins that separate all classes, for build --bins"
+    return words if choosing_pays(found.held_out) else f"{words}; unseen shapes are no better off with them"
 
 
 def _search_downloads(search: FeatureSearch) -> list[tuple[str, str]]:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from reports import make_report, with_bin_search, with_bins, with_models, with_paintings
 
+from shapeviz_report.pages.about import AboutPage
 from shapeviz_report.pages.bins import BinsPage, mean_over_folds
 from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.writing import write_site
@@ -109,6 +110,8 @@ def test_where_choosing_does_not_pay_the_page_says_so(report, bins, everything, 
     changed = replace(report, bins=replace(report.bins, held_out=folds))
     assert BinsPage().content(changed).context["selection"]["pays"] is pays
     assert WorkbenchPage().content(changed).chunks["workbench"]["found"]["pays"] is pays
+    offered = dict(AboutPage().content(changed).context["downloads"])["selected-bins.txt"]
+    assert ("no better off" in offered) is not pays
 
 
 @pytest.mark.slow
