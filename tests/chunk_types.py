@@ -17,6 +17,8 @@ from typing import (
     is_typeddict,
 )
 
+import numpy as np
+
 from shapeviz_report.pages import chunks
 
 DECLARATIONS = Path(__file__).parents[1] / "site" / "scripts" / "chunks.d.ts"
@@ -35,6 +37,18 @@ _PLAIN = {
     NoneType: "null",
     bytes: "ArrayBuffer",
     Any: "any",
+}
+
+
+_ARRAYS = {
+    np.uint8: "Uint8Array",
+    np.uint16: "Uint16Array",
+    np.uint32: "Uint32Array",
+    np.int8: "Int8Array",
+    np.int16: "Int16Array",
+    np.int32: "Int32Array",
+    np.float32: "Float32Array",
+    np.float64: "Float64Array",
 }
 
 
@@ -63,6 +77,8 @@ def _type(hint: Any) -> str:
         return hint.__name__
     if origin in (NotRequired, Required):
         return _type(parts[0])
+    if origin is np.ndarray:
+        return _ARRAYS[_item_of(hint)]
     if origin is Literal:
         return " | ".join(f'"{value}"' for value in parts)
     if origin in (Union, UnionType):
@@ -77,8 +93,13 @@ def _type(hint: Any) -> str:
     raise TypeError(f"{hint} is no type of a chunk")
 
 
+def _item_of(hint: Any) -> Any:
+    """Of what an array is."""
+    return get_args(get_args(hint)[1])[0]
+
+
 def misfits(value: object, hint: Any, place: str = "") -> Iterator[str]:
-    """Where a value, as JSON holds it, is not of its type."""
+    """Where a value, as JSON and arrays hold it, is not of its type."""
     origin, parts = get_origin(hint), get_args(hint)
     if is_typeddict(hint):
         if not isinstance(value, dict):
@@ -95,6 +116,9 @@ def misfits(value: object, hint: Any, place: str = "") -> Iterator[str]:
         found = [list(misfits(value, part, place)) for part in parts]
         if all(found):
             yield from max(found, key=len) if value is not None else [f"{place} is None"]
+    elif origin is np.ndarray:
+        if not isinstance(value, np.ndarray) or value.dtype != _item_of(hint):
+            yield f"{place} is no array of {_item_of(hint).__name__}"
     elif origin is list:
         if not isinstance(value, list):
             yield f"{place} is no list"

@@ -1,11 +1,15 @@
 """The data that pages load, as JSON holds it: both ends keep to these types.
 
 mypy holds the writers to them, and ``site/scripts/chunks.d.ts``, which ``make chunks`` makes of this module, the
-browser's scripts. Kinds are those that JSON has; a tuple is a list of so many values.
+browser's scripts. Kinds are those that JSON has, a tuple a list of so many values, and arrays of numbers, which the
+browser has as arrays of the same type: what is as long as the database belongs into one.
 """
 
 # Annotations are evaluated: what a TypedDict knows of keys that may be left out, it reads from them.
 from typing import Any, Literal, NotRequired, TypedDict
+
+import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.charts import ThemeName
 
@@ -18,7 +22,7 @@ class ShapeList(TypedDict):
 
     ids: list[str]
     names: list[str]
-    groups: list[int]
+    groups: npt.NDArray[np.int32]
     pictures: list[str]
 
 

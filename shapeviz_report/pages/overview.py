@@ -117,7 +117,7 @@ def _shapes(report: Report, classes: tuple[str, ...]) -> ShapeList:
     return {
         "ids": [shape.id for shape in report.shapes],
         "names": [shape.name for shape in report.shapes],
-        "groups": [-1 if label is None else number[label] for label in report.labels],
+        "groups": np.array([-1 if label is None else number[label] for label in report.labels], np.int32),
         "pictures": [thumbnail_name(thumbnail) for thumbnail in report.thumbnails],
     }
 

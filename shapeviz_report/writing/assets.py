@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import gzip
-import json
 from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
@@ -12,8 +9,8 @@ from types import MappingProxyType
 
 from shapeviz_report.pages import PAGES, Page, PageContent
 from shapeviz_report.types import Accent, Report
-from shapeviz_report.writing.data import json_text
 from shapeviz_report.writing.joiner import join, join_pages
+from shapeviz_report.writing.packing import pack
 from shapeviz_report.writing.resources import site_folder
 
 #: The layers of the style sheet, each over those before it: a sheet of that name in ``site/styles``, or a folder.
@@ -73,24 +70,12 @@ def collect_assets(report: Report) -> dict[str, bytes]:
 
 
 def pack_chunks(contents: Sequence[tuple[Page, PageContent]]) -> dict[str, tuple[str, bytes]]:
-    """The data of all pages by name: its kind, ``json`` or ``bytes``, and gzipped content."""
-    chunks: dict[str, object] = {}
+    """The data of all pages by name: its kind, and gzipped content."""
+    chunks: dict[str, tuple[str, bytes]] = {}
     for page, content in contents:
         for name, value in content.chunks.items():
-            if name in chunks and chunks[name] != value:
+            packed = pack(value)
+            if chunks.setdefault(name, packed) != packed:
                 raise ValueError(f"page {page.name!r} disagrees with an earlier page on chunk {name!r}")
-            chunks[name] = value
-    chunks["engine"] = join(site_folder() / "scripts" / "engine" / "worker.js")
-    return {name: pack(value) for name, value in chunks.items()}
-
-
-def pack(value: object) -> tuple[str, bytes]:
-    """The kind of a chunk, ``json`` or ``bytes``, and its gzipped content."""
-    kind, content = ("bytes", value) if isinstance(value, bytes) else ("json", json_text(value).encode())
-    return kind, gzip.compress(content, compresslevel=9, mtime=0)
-
-
-def chunk_script(name: str, kind: str, packed: bytes) -> bytes:
-    """A script that hands gzipped data to the page: the one way to load any from ``file://``."""
-    text = base64.b64encode(packed).decode()
-    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {json.dumps(text)});\n".encode()
+    chunks["engine"] = pack(join(site_folder() / "scripts" / "engine" / "worker.js"))
+    return chunks

@@ -18,18 +18,12 @@ from shapeviz_report.places import explain
 from shapeviz_report.staging import write_atomically
 from shapeviz_report.types import Report
 from shapeviz_report.writing import preview
-from shapeviz_report.writing.assets import (
-    chunk_script,
-    collect_assets,
-    join_scripts,
-    join_styles,
-    pack,
-    pack_chunks,
-)
+from shapeviz_report.writing.assets import collect_assets, join_scripts, join_styles, pack_chunks
 from shapeviz_report.writing.data import data_files
 from shapeviz_report.writing.destination import check_destination
 from shapeviz_report.writing.joiner import join
 from shapeviz_report.writing.linked_data import catalogue, describe
+from shapeviz_report.writing.packing import chunk_script, pack
 from shapeviz_report.writing.record import RECORD, find_own, record_text, sealed
 from shapeviz_report.writing.rendering import (
     CONTENT_SECURITY_POLICY,

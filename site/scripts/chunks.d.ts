@@ -5,7 +5,7 @@ declare namespace Chunk {
   interface ShapeList {
     ids: string[];
     names: string[];
-    groups: number[];
+    groups: Int32Array;
     pictures: string[];
   }
   /** What a map reaches where copies of shapes are left out. */

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import base64
-import gzip
-import json
-import re
 from functools import cache
 from typing import get_type_hints
 
 import pytest
 from chunk_types import DECLARATIONS, misfits, typescript
+from packed_chunks import read_script, unpack
 from reports import (
     make_report,
     with_best,
@@ -28,13 +25,11 @@ from reports import (
 from shapeviz_report.pages import PAGES
 from shapeviz_report.pages.chunks import Chunks
 from shapeviz_report.writing import write_site
-from shapeviz_report.writing.data import json_text
+from shapeviz_report.writing.packing import pack
 
 TYPES = get_type_hints(Chunks)
 
 MEND = "give it its type in pages/chunks.py, and run `make chunks`"
-
-_HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(json|bytes)", "([^"]*)"\);\n')
 
 
 @cache
@@ -57,11 +52,7 @@ def test_the_browser_s_types_are_made_of_these():
 @pytest.mark.slow
 def test_a_site_holds_every_chunk_and_each_is_of_its_type(tmp_path):
     write_site(everything(), tmp_path)
-    held = {}
-    for path in (tmp_path / "assets").glob("chunk-*.js"):
-        name, kind, text = _HANDED_OVER.fullmatch(path.read_text(encoding="utf-8")).groups()
-        content = gzip.decompress(base64.b64decode(text))
-        held[name] = json.loads(content) if kind == "json" else content
+    held = dict(read_script(path) for path in (tmp_path / "assets").glob("chunk-*.js"))
     assert held.keys() == TYPES.keys(), "name every chunk in Chunks of pages/chunks.py, and run `make chunks`"
     wrong = [where for name, value in held.items() for where in misfits(value, TYPES[name], name)]
     assert wrong == [], MEND
@@ -71,8 +62,7 @@ def test_a_site_holds_every_chunk_and_each_is_of_its_type(tmp_path):
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_what_is_missing_from_a_report_is_missing_by_type(page, classes):
     for name, chunk in page.content(plain(*classes)).chunks.items():
-        held = chunk if isinstance(chunk, bytes) else json.loads(json_text(chunk))
-        assert list(misfits(held, TYPES[name], name)) == [], MEND
+        assert list(misfits(unpack(*pack(chunk)), TYPES[name], name)) == [], MEND
 
 
 @pytest.mark.parametrize(
@@ -80,12 +70,13 @@ def test_what_is_missing_from_a_report_is_missing_by_type(page, classes):
     [
         (lambda held: held["shapes"].pop("ids"), "overview.shapes.ids is missing"),
         (lambda held: held.update(title="Ants"), "overview.title is not declared"),
-        (lambda held: held["shapes"]["groups"].append(None), "is None, no int"),
+        (lambda held: held["shapes"].update(groups=[0]), "overview.shapes.groups is no array of int32"),
+        (lambda held: held["shapes"]["ids"].append(None), "is None, no str"),
         (lambda held: held["marks"]["themes"].update(blue=None), "overview.marks.themes 'blue' is 'blue'"),
         (lambda held: held["methods"][0].update(hitOfAll="0.5"), "overview.methods[0].hitOfAll is '0.5'"),
     ],
 )
 def test_what_does_not_fit_is_found(change, found):
-    held = json.loads(json_text(PAGES[0].content(plain("ant", "bird")).chunks["overview"]))
+    held = unpack(*pack(PAGES[0].content(plain("ant", "bird")).chunks["overview"]))
     change(held)
     assert any(found in where for where in misfits(held, TYPES["overview"], "overview"))

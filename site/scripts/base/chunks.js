@@ -1,10 +1,11 @@
-// Data of a page: gzipped JSON or bytes in scripts that hand it over, because pages from file:// may not fetch.
+// Data of a page: gzipped JSON, columns or bytes in scripts that hand it over, because pages from file:// may not fetch.
 
 import { entry } from "./entry.js";
 
 /**
- * A chunk as it comes: gzipped, in base64.
- * @typedef {{ kind: "json" | "bytes", text: string }} Packed
+ * A chunk as it comes: gzipped, in base64. Columns are JSON with arrays of numbers in it.
+ * @typedef {"json" | "columns" | "bytes"} Kind
+ * @typedef {{ kind: Kind, text: string }} Packed
  */
 
 /** Called in the head: chunks may arrive before the scripts that want them. */
@@ -60,7 +61,40 @@ async function load(name, address) {
   const { kind, text } = standing(name) ?? (await received(name, address));
   const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
   const response = new Response(stream);
-  return kind === "bytes" ? response.arrayBuffer() : response.json();
+  if (kind === "json") return response.json();
+  const buffer = await response.arrayBuffer();
+  return kind === "columns" ? columnsOf(buffer) : buffer;
+}
+
+const ARRAYS = {
+  u1: Uint8Array,
+  u2: Uint16Array,
+  u4: Uint32Array,
+  i1: Int8Array,
+  i2: Int16Array,
+  i4: Int32Array,
+  f4: Float32Array,
+  f8: Float64Array,
+};
+
+/** Arrays begin at multiples of so many bytes. */
+const ALIGNMENT = 8;
+
+/**
+ * JSON with its arrays, which lie behind it, as `pack` of `writing/packing.py` lays them: views of the buffer.
+ * @param {ArrayBuffer} buffer
+ */
+function columnsOf(buffer) {
+  const [length] = new Uint32Array(buffer, 0, 1);
+  const text = new TextDecoder().decode(new Uint8Array(buffer, ALIGNMENT, length));
+  /** @type {{ value: any, arrays: { way: (string | number)[], type: keyof typeof ARRAYS, length: number, start: number }[] }} */
+  const { value, arrays } = JSON.parse(text);
+  const first = ALIGNMENT * (1 + Math.ceil(length / ALIGNMENT));
+  for (const { way, type, length, start } of arrays) {
+    const holder = way.slice(0, -1).reduce((node, key) => node[key], value);
+    holder[/** @type {string} */ (way.at(-1))] = new ARRAYS[type](buffer, first + start, length);
+  }
+  return value;
 }
 
 /**
@@ -81,7 +115,7 @@ function bytesOf(text) {
  */
 function standing(name) {
   const block = document.getElementById(`chunk-${name}`);
-  return block && { kind: block.dataset.kind === "bytes" ? "bytes" : "json", text: block.textContent };
+  return block && { kind: /** @type {Kind} */ (block.dataset.kind), text: block.textContent };
 }
 
 /**

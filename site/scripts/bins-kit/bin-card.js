@@ -214,17 +214,7 @@ export class BinCard {
         )
         .sort(byHeight);
     const rows = [...of(this.separated, true), ...of(this.others, false)];
-    return rows.length > 0
-      ? rows
-      : [
-          row(
-            database.groups.map((_, index) => index),
-            false,
-            "all shapes",
-            null,
-            database.color(-1),
-          ),
-        ];
+    return rows.length > 0 ? rows : [row([...database.groups.keys()], false, "all shapes", null, database.color(-1))];
   }
 
   /** @param {{ left: number, top: number, width: number, height: number, free: number }} box */

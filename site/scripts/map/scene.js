@@ -202,7 +202,7 @@ export class Scene {
     const pointedShapes = line && new Set(line);
     const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
     this.present = this.x.reduce((number, value) => number + Number(!Number.isNaN(value)), 0);
-    this.emphasis = this.database.groups.map((group, index) => {
+    this.emphasis = Array.from(this.database.groups, (group, index) => {
       if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
       if (pointedShapes) return pointedShapes.has(index) ? CHOSEN : FAINT;
       if (pointed !== null) return group === pointed ? CHOSEN : FAINT;

@@ -1,13 +1,12 @@
 """A site in one file: everything is in it, and its policy admits nothing that is not."""
 
 import base64
-import gzip
-import json
 import re
 from dataclasses import replace
 from hashlib import sha256
 
 import pytest
+from packed_chunks import unpack
 from page_markup import Markup
 from reports import NASTY_LABELS, make_report, picture, with_models
 
@@ -88,6 +87,13 @@ def test_scripts_that_pages_name_are_there(markup):
             assert attributes["src"] in handed or name in chunks
 
 
+def held_chunk(markup, name):
+    kind, text = next(
+        (a["data-kind"], t) for a, t in markup.texts("script") if a.get("id") == f"chunk-{name}"
+    )
+    return unpack(kind, base64.b64decode(text))
+
+
 def test_data_and_pictures_are_those_of_the_folder(report, markup, tmp_path):
     write_site(report, tmp_path)
     held = {a["id"]: t for a, t in markup.texts("script") if a.get("type") == "text/plain"}
@@ -95,14 +101,14 @@ def test_data_and_pictures_are_those_of_the_folder(report, markup, tmp_path):
     folder.pop("data/files.json")  # the record of a folder's files, which one file does not need
     for path in (p for p in folder if p.startswith(("thumbnails/", "paintings/", "data/"))):
         assert base64.b64decode(held[path]) == folder[path] or path == "data/summary.json"
-    chunk = json.loads(gzip.decompress(base64.b64decode(held["chunk-overview"])))
+    chunk = held_chunk(markup, "overview")
     assert chunk["shapes"]["ids"] == [shape.id for shape in report.shapes]
 
 
 def test_it_holds_no_models_and_says_so(markup):
     held = {a["id"]: t for a, t in markup.texts("script") if "id" in a}
     assert not any(name.startswith("models/") for name in held)
-    assert json.loads(gzip.decompress(base64.b64decode(held["chunk-selection"])))["models"] is None
+    assert held_chunk(markup, "selection")["models"] is None
 
 
 def test_text_from_the_database_is_never_markup(tmp_path):

@@ -3,12 +3,12 @@
 import base64
 import dataclasses
 import gzip
-import json
 import re
 from functools import cache
 
 import numpy as np
 import pytest
+from packed_chunks import read_script
 from packed_models import unpack
 from page_markup import Markup
 from reports import NASTY_LABELS, make_report, with_bin_search, with_models, with_paintings, with_scores
@@ -24,11 +24,9 @@ def contents(folder) -> dict[str, bytes]:
 
 
 def chunk(folder, name):
-    text = (folder / "assets" / f"chunk-{name}.js").read_text()
-    match = re.fullmatch(r'shapeviz\.receive\("([a-z]+)", "(json|bytes)", "([A-Za-z0-9+/=]+)"\);\n', text)
-    assert match[1] == name
-    content = gzip.decompress(base64.b64decode(match[3]))
-    return content if match[2] == "bytes" else json.loads(content)
+    found, content = read_script(folder / "assets" / f"chunk-{name}.js")
+    assert found == name
+    return content
 
 
 @cache
@@ -61,7 +59,7 @@ def test_a_chunk_holds_the_maps(tmp_path):
     write_site(report, tmp_path)
     data = chunk(tmp_path, "overview")
     assert data["classes"] == ["ant", "bird"]
-    assert data["shapes"]["groups"] == [0] * 5 + [-1] * 5 + [1] * 5
+    assert data["shapes"]["groups"].tolist() == [0] * 5 + [-1] * 5 + [1] * 5
     assert data["shapes"]["ids"] == [shape.id for shape in report.shapes]
     assert [method["key"] for method in data["methods"]] == ["tsne", "umap", "pca"]
     projection, quality = report.projections["tsne"]

@@ -1,0 +1,77 @@
+"""Chunks: data as scripts that hand it over, the one way to load any from ``file://``."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from shapeviz_report.writing.data import json_text
+
+#: Arrays begin at multiples of so many bytes, as browsers want them.
+ALIGNMENT = 8
+
+
+def pack(value: object) -> tuple[str, bytes]:
+    """The kind of a chunk and its gzipped content.
+
+    Parameters
+    ----------
+    value : object
+        Bytes, or what JSON holds, in which arrays of numbers may stand anywhere but at the top.
+
+    Returns
+    -------
+    kind : {"bytes", "json", "columns"}
+    content : bytes
+        Of ``columns``, JSON whose arrays follow it in little-endian bytes, which take less room and time than text: the
+        length of the JSON as uint32; at 8 the JSON, a ``value`` with nothing where its ``arrays`` belong, each with the
+        way to its place, its type, its length, and where it starts; from the next multiple of 8 on the arrays.
+    """
+    if isinstance(value, bytes):
+        kind, content = "bytes", value
+    elif arrays := list(_arrays(value, ())):
+        kind, content = "columns", _with_arrays(value, arrays)
+    else:
+        kind, content = "json", json_text(value).encode()
+    return kind, gzip.compress(content, compresslevel=9, mtime=0)
+
+
+def chunk_script(name: str, kind: str, packed: bytes) -> bytes:
+    """A script that hands packed data to the page."""
+    text = base64.b64encode(packed).decode()
+    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {json.dumps(text)});\n".encode()
+
+
+Way = tuple[str | int, ...]
+
+
+def _arrays(value: Any, way: Way) -> Iterator[tuple[Way, np.ndarray]]:
+    """The arrays within a value, and the keys that lead to them."""
+    if isinstance(value, np.ndarray):
+        yield way, value
+    elif isinstance(value, dict | list | tuple):
+        for key, item in value.items() if isinstance(value, dict) else enumerate(value):
+            # Most are the texts and numbers of long lists.
+            if not isinstance(item, str | int | float | None):
+                yield from _arrays(item, (*way, key))
+
+
+def _with_arrays(value: object, arrays: list[tuple[Way, np.ndarray]]) -> bytes:
+    places, parts, start = [], [], 0
+    for way, array in arrays:
+        if array.dtype.kind == "f" and np.isinf(array).any():
+            raise ValueError(f"an infinity in the array at {way}")
+        content = array.astype(array.dtype.newbyteorder("<"), copy=False).tobytes()
+        places.append({"way": way, "type": array.dtype.str[1:], "length": array.size, "start": start})
+        parts.append(content + bytes(-len(content) % ALIGNMENT))
+        start += len(parts[-1])
+    head = json.dumps(
+        {"value": value, "arrays": places}, allow_nan=False, separators=(",", ":"), default=lambda array: None
+    ).encode()
+    length = len(head).to_bytes(ALIGNMENT, "little")
+    return b"".join([length, head, bytes(-len(head) % ALIGNMENT), *parts])

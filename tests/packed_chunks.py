@@ -1,0 +1,38 @@
+"""Chunks as the page reads them."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+_HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(\w+)", "([A-Za-z0-9+/=]*)"\);\n')
+
+
+def read_script(script: Path) -> tuple[str, Any]:
+    """The name and the content of a chunk."""
+    name, kind, text = _HANDED_OVER.fullmatch(script.read_text(encoding="utf-8")).groups()
+    return name, unpack(kind, base64.b64decode(text))
+
+
+def unpack(kind: str, packed: bytes) -> Any:
+    """What :func:`shapeviz_report.writing.packing.pack` packed."""
+    content = gzip.decompress(packed)
+    if kind == "bytes":
+        return content
+    if kind == "json":
+        return json.loads(content)
+    length = int.from_bytes(content[:8], "little")
+    head = json.loads(content[8 : 8 + length])
+    arrays = content[8 + length + -length % 8 :]
+    for place in head["arrays"]:
+        holder = head["value"]
+        for key in place["way"][:-1]:
+            holder = holder[key]
+        holder[place["way"][-1]] = np.frombuffer(arrays, "<" + place["type"], place["length"], place["start"])
+    return head["value"]
