@@ -9,6 +9,33 @@
 const LINK = 20;
 const NEIGHBOURHOOD = 40;
 
+/** Of many marks that a class has in one place, one: others would tell nothing that it does not, and take their time. */
+export class Thinning {
+  /**
+   * @param {number} width of the drawing
+   * @param {number} height
+   * @param {number} side of a place
+   */
+  constructor(width, height, side) {
+    this.side = side;
+    this.columns = Math.ceil(width / side) + 1;
+    this.last = new Int32Array(this.columns * (Math.ceil(height / side) + 1)).fill(-2);
+  }
+
+  /**
+   * Whether a mark is the first of its class there; as shapes come class by class, the last one tells.
+   * @param {number} x
+   * @param {number} y
+   * @param {number} group
+   */
+  takes(x, y, group) {
+    const place = Math.floor(y / this.side) * this.columns + Math.floor(x / this.side);
+    if (this.last[place] === group) return false;
+    this.last[place] = group;
+    return true;
+  }
+}
+
 /**
  * The largest cluster of a class: marks each of which is linked to another of them.
  *

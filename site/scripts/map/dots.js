@@ -3,50 +3,144 @@
 
 import { element } from "../base/dom.js";
 import { entry } from "../base/entry.js";
-import { FADED, FULL, Marks } from "./marks.js";
+import { FADED, FULL, Marks, rgbaOf } from "./marks.js";
 import { Pictures } from "./pictures.js";
-import { CHOSEN, FAINT, NORMAL } from "./scene.js";
+import { Points } from "./points.js";
+import { CHOSEN, crowded, FAINT, HIDDEN, NORMAL } from "./scene.js";
 
+/** @import { Coloring, Look } from "./coloring.js" */
 /** @import { MapView } from "./map.js" */
-/** @import { Emphasis } from "./scene.js" */
+/** @import { Layer, Paint } from "./points.js" */
 
 /** From faint to chosen, so that nothing lies on what the reader looks for. */
-/** @type {Emphasis[]} */
 const LEVELS = [FAINT, NORMAL, CHOSEN];
 
-/** The size of a dot among pictures, of that of others. */
+/** The size of a dot among pictures, of that of others; and of one that is chosen. */
 const AMONG_PICTURES = Math.sqrt(0.6);
+const STANDING_OUT = Math.sqrt(1.5);
+
+const CLASS = "dots";
 
 export class Dots {
-  #marks = new Marks({ class: "dots" });
+  /** @type {Marks | Points} */
+  #marks;
 
   /** @param {MapView} view */
   constructor(view) {
     this.view = view;
     this.pictures = new Pictures(view);
     this.node = element("div", { class: "drawn", hidden: true, "aria-hidden": "true" });
+    const { database } = view;
+    // To start WebGL takes longer than to draw few marks without it.
+    const points = crowded(database)
+      ? Points.made(database.count, { class: CLASS }, () => this.#draw(new Marks({ class: CLASS })))
+      : null;
+    this.#marks = points ?? new Marks({ class: CLASS });
     this.node.append(this.#marks.node, this.pictures.node);
     view.node.after(this.node);
   }
 
+  /** @param {Marks} marks in place of those that are lost */
+  #draw(marks) {
+    this.#marks.node.replaceWith(marks.node);
+    this.#marks = marks;
+    this.draw();
+  }
+
   draw() {
     const { view } = this;
-    const among = view.name === "thumbnail";
-    this.#marks.begin(view.width, view.height);
-    const radius = view.markRadius * (among ? AMONG_PICTURES : 1);
-    for (const level of LEVELS) {
-      const stampOf = this.#stamps(radius * (level === CHOSEN ? Math.sqrt(1.5) : 1));
-      let laid = false;
-      for (const [index, place] of this.#placesAt(level, radius)) {
-        if (view.pictured[index]) continue;
-        this.#marks.lay(stampOf(index), place, level === FAINT ? 1 : FULL);
-        laid = true;
-      }
-      if (level === FAINT && laid) this.#marks.fade(FADED);
-    }
-    this.#marks.show();
+    const radius = view.markRadius * (view.name === "thumbnail" ? AMONG_PICTURES : 1);
+    const levels = view.scene.emphasis.map((level, index) => (view.pictured[index] ? HIDDEN : level));
+    const layers = LEVELS.filter((level) => levels.includes(level)).map((level) => ({
+      level,
+      radius: radius * (level === CHOSEN ? STANDING_OUT : 1),
+      faint: level === FAINT,
+    }));
+    if (this.#marks instanceof Points) this.#drawPoints(this.#marks, levels, layers);
+    else this.#drawMarks(this.#marks, levels, layers);
     this.pictures.draw();
     this.#show(true);
+  }
+
+  /**
+   * @param {Points} points
+   * @param {Uint8Array} levels
+   * @param {Layer[]} layers
+   */
+  #drawPoints(points, levels, layers) {
+    const { view } = this;
+    const lay = { ...view.lay(), width: view.width, height: view.height };
+    points.draw(view.scene, levels, layers, this.#paint(), view.database.marks.outline, lay);
+  }
+
+  /**
+   * @param {Marks} marks
+   * @param {Uint8Array} levels
+   * @param {Layer[]} layers
+   */
+  #drawMarks(marks, levels, layers) {
+    const { coloring, database, width, height } = this.view;
+    marks.begin(width, height);
+    for (const { level, radius, faint } of layers) {
+      /** @type {Map<number | null, ImageData>} each kind is looked up once, for all shapes that are of it */
+      const stamps = new Map();
+      this.view.each((index, x, y) => {
+        if (levels[index] !== level || x < -radius || y < -radius || x > width + radius || y > height + radius) return;
+        const kind = coloring.kindOf(index);
+        const stamp = entry(stamps, kind, () => {
+          const { symbol, color } = coloring.look(kind);
+          return marks.stamp(symbol, color, radius, database.marks.outline);
+        });
+        marks.lay(stamp, x, y, faint ? 1 : FULL);
+      });
+      if (faint) marks.fade(FADED);
+    }
+    marks.show();
+  }
+
+  /** @type {{ key: string, coloring: Coloring | null, paint: Paint } | null} */
+  #known = null;
+
+  /**
+   * How the marks look, as WebGL takes it.
+   * @returns {Paint}
+   */
+  #paint() {
+    const { name, scene, database, theme, chosenColoring } = this.view;
+    const key = [name, scene.target, database.revision, theme].join(" ");
+    if (this.#known?.key !== key || this.#known.coloring !== chosenColoring)
+      this.#known = { key, coloring: chosenColoring, paint: this.#mix(this.view.coloring) };
+    return this.#known.paint;
+  }
+
+  /**
+   * @param {Coloring} coloring
+   * @returns {Paint}
+   */
+  #mix({ kindOf, look }) {
+    const { count } = this.view.database;
+    /** @type {Map<string, number>} */
+    const symbols = new Map();
+    /** @param {Look} look */
+    const mixed = ({ symbol, color }) => {
+      const [red, green, blue] = rgbaOf(color);
+      return new Uint32Array(
+        Uint8Array.of(
+          red,
+          green,
+          blue,
+          entry(symbols, symbol, () => symbols.size),
+        ).buffer,
+      )[0];
+    };
+    /** @type {Map<number | null, number>} */
+    const kinds = new Map();
+    const paint = new Uint32Array(count);
+    for (let index = 0; index < count; index += 1) {
+      const kind = kindOf(index);
+      paint[index] = entry(kinds, kind, () => mixed(look(kind)));
+    }
+    return { paint: new Uint8Array(paint.buffer), symbols: [...symbols.keys()] };
   }
 
   /** The chart shows the same again. */
@@ -58,41 +152,5 @@ export class Dots {
   #show(drawn) {
     this.node.hidden = !drawn;
     this.view.node.style.visibility = drawn ? "hidden" : "";
-  }
-
-  /**
-   * The shapes of a level of emphasis that are in view, each with its place.
-   * @returns {Generator<[number, number[]]>}
-   * @param {Emphasis} level
-   * @param {number} reach
-   */
-  *#placesAt(level, reach) {
-    const { scene, width, height } = this.view;
-    const placeOf = this.view.placing();
-    for (let index = 0; index < scene.x.length; index += 1) {
-      if (scene.emphasis[index] !== level) continue;
-      const place = placeOf(index);
-      const [x, y] = place;
-      if (x < -reach || y < -reach || x > width + reach || y > height + reach) continue;
-      yield [index, place];
-    }
-  }
-
-  /**
-   * The stamp of a shape: each kind is looked up once, for all shapes that are of it.
-   * @param {number} radius
-   * @returns {(index: number) => ImageData}
-   */
-  #stamps(radius) {
-    const { coloring, database } = this.view;
-    /** @type {Map<number | null, ImageData>} */
-    const found = new Map();
-    return (index) => {
-      const kind = coloring.kindOf(index);
-      return entry(found, kind, () => {
-        const { symbol, color } = coloring.look(kind);
-        return this.#marks.stamp(symbol, color, radius, database.marks.outline);
-      });
-    };
   }
 }

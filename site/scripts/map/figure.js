@@ -54,7 +54,7 @@ export function mapWords({ scene, database, chosenColoring, name }) {
   const { subsets, standIn, methods } = database.data;
   const kind = standIn ? "cluster" : "class";
   const by = subsets?.bins && scene.target < methods.length ? [count(subsets.bins, "bin")] : features;
-  /** @param {(level: Emphasis) => boolean} is */
+  /** @param {(level: number) => boolean} is */
   const shapes = (is) => scene.emphasis.filter(is).length;
   const [shown, chosen] = [shapes((level) => level >= FAINT), shapes((level) => level === CHOSEN)];
   const colored =

@@ -36,6 +36,11 @@ export class Labels {
     overlay.append(this.#layer);
   }
 
+  /** The shapes that names stand at. */
+  get anchors() {
+    return new Set(this.#labels.map(({ anchor }) => anchor));
+  }
+
   clear() {
     this.#labels = [];
     this.#layer.replaceChildren();

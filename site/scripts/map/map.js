@@ -5,17 +5,18 @@ import { element, svg } from "../base/dom.js";
 import { drawnAs, toldAs } from "../base/snapshot.js";
 import { entry } from "../base/entry.js";
 import { currentTheme } from "../base/theme.js";
-import { heartOf, largestCluster } from "./clusters.js";
+import { heartOf, largestCluster, Thinning } from "./clusters.js";
 import { classColoring, classNaming, hitColoring, placedGroups } from "./coloring.js";
 import { Dots } from "./dots.js";
 import { mapFigure, mapWords } from "./figure.js";
 import { Labels } from "./labels.js";
 import { partedNeighbours } from "./lines.js";
-import { animate, CHOSEN, crowded } from "./scene.js";
+import { animate, CHOSEN, crowded, HIDDEN } from "./scene.js";
 import { spread, thinned } from "./spread.js";
 
 /** @import { Theme } from "../base/theme.js" */
 /** @import { Bounds } from "../database/database.js" */
+/** @import { Mark } from "./clusters.js" */
 /** @import { Coloring, Naming } from "./coloring.js" */
 /** @import { Parted } from "./lines.js" */
 /** @import { Camera, Scene } from "./scene.js" */
@@ -46,6 +47,8 @@ const CLOSEST = 200;
 const EXACT_APART = 0.5;
 /** So far from its edges a map shows what was out of view. */
 const INWARD = 0.2;
+/** So many pixels of a map hold a mark of each class at the most for what is found out about many. */
+const THINNED = 3;
 /** On a smaller map there is no room for names. */
 const NAMED_WIDTH = 280;
 
@@ -211,6 +214,20 @@ export class MapView {
     ];
   }
 
+  /**
+   * Tell of every visible shape where it is drawn on the screen.
+   * @param {(index: number, x: number, y: number) => void} tell
+   */
+  each(tell) {
+    const { scale, left, top } = this.lay();
+    const { x, y, emphasis } = this.scene;
+    const { shift } = this;
+    const size = this.name === "thumbnail" ? this.pictureSize : 0;
+    for (let index = 0; index < x.length; index += 1)
+      if (emphasis[index] > HIDDEN)
+        tell(index, left + x[index] * scale + shift.x[index] * size, top - y[index] * scale + shift.y[index] * size);
+  }
+
   /** @param {number} index */
   screen(index) {
     return this.placing()(index);
@@ -238,8 +255,12 @@ export class MapView {
   }
 
   get markSize() {
-    const many = Math.min(Math.max(42000 / this.scene.present, 26), 150);
-    return many * Math.min(Math.max(this.width / 800, 0.5), 1) * Math.min(this.scene.camera().zoom, 4) ** 0.5;
+    const { present } = this.scene;
+    // Of ten thousand marks one still tells the symbols; more are as small as their number asks for, until one zooms in.
+    const many = Math.min(Math.max(42000 / present, Math.min(26, 2600 / Math.sqrt(present))), 150);
+    const largest = Math.max(2 * many, 52);
+    const zoomed = Math.min(many * Math.sqrt(this.scene.camera().zoom), largest);
+    return zoomed * Math.min(Math.max(this.width / 800, 0.5), 1);
   }
 
   get markRadius() {
@@ -318,18 +339,17 @@ export class MapView {
    * @param {number} reach
    */
   at(x, y, reach) {
-    const placeOf = this.placing();
-    const [pictureReach, markReach] = [this.pictureSize / 2, this.markRadius + reach];
-    /** @type {[number | null, number]} */
-    let [best, least] = [null, Infinity];
-    for (let index = 0; index < this.database.count; index += 1) {
-      if (!this.scene.visible(index)) continue;
-      const [left, top] = placeOf(index);
-      const distance = Math.hypot(left - x, top - y);
-      if (distance <= (this.pictured[index] ? pictureReach : markReach) && distance < least)
-        [best, least] = [index, distance];
-    }
-    return best;
+    const [pictureReach, markReach] = [this.pictureSize / 2, this.markRadius + reach].map((far) => far ** 2);
+    const { pictured } = this;
+    let best = -1;
+    let least = Infinity;
+    this.each((index, left, top) => {
+      const distance = (left - x) ** 2 + (top - y) ** 2;
+      if (distance > (pictured[index] ? pictureReach : markReach) || distance >= least) return;
+      best = index;
+      least = distance;
+    });
+    return best < 0 ? null : best;
   }
 
   /**
@@ -337,14 +357,11 @@ export class MapView {
    * @param {(x: number, y: number) => boolean} holds
    */
   inside(holds) {
-    const placeOf = this.placing();
     /** @type {number[]} */
     const found = [];
-    for (let index = 0; index < this.database.count; index += 1) {
-      if (!this.scene.visible(index)) continue;
-      const [x, y] = placeOf(index);
+    this.each((index, x, y) => {
       if (holds(x, y)) found.push(index);
-    }
+    });
     return found;
   }
 
@@ -381,9 +398,12 @@ export class MapView {
   /** How many shapes in view have no picture; none before pictures were chosen. */
   get dotted() {
     if (!this.started) return 0;
-    return this.inside((x, y) => x >= 0 && y >= 0 && x <= this.width && y <= this.height).filter(
-      (index) => !this.pictured[index],
-    ).length;
+    const { width, height, pictured } = this;
+    let dots = 0;
+    this.each((index, x, y) => {
+      if (x >= 0 && y >= 0 && x <= width && y <= height && !pictured[index]) dots += 1;
+    });
+    return dots;
   }
 
   async #run() {
@@ -537,19 +557,17 @@ export class MapView {
   #keepInView() {
     const { scene } = this;
     if (scene.views[0] !== this || this.state.get(scene.cameraName) === null) return;
-    const placeOf = this.placing();
-    /** @type {[number | null, number]} */
-    let [nearest, least] = [null, Infinity];
-    for (let index = 0; index < this.database.count; index += 1) {
-      if (!scene.visible(index)) continue;
-      const [x, y] = placeOf(index);
+    let nearest = -1;
+    let least = Infinity;
+    this.each((index, x, y) => {
       const outside = Math.hypot(beyond(x, this.width, 0), beyond(y, this.height, 0));
-      if (outside === 0) return;
-      if (outside < least) [nearest, least] = [index, outside];
-    }
-    if (nearest === null) return;
+      if (outside >= least) return;
+      nearest = index;
+      least = outside;
+    });
+    if (nearest < 0 || least === 0) return;
     const camera = scene.camera();
-    const [x, y] = placeOf(nearest);
+    const [x, y] = this.screen(nearest);
     scene.look({
       ...camera,
       x: camera.x + beyond(x, this.width, INWARD) / this.scale,
@@ -587,7 +605,7 @@ export class MapView {
   #glide(goal) {
     this.#gliding?.abort();
     const from = this.shift;
-    const still = goal.x.every((value, index) => value === from.x[index] && goal.y[index] === from.y[index]);
+    const still = isEqual(goal.x, from.x) && isEqual(goal.y, from.y);
     if (still) return;
     if (this.dots === null || this.#onChart) {
       this.shift = goal;
@@ -634,16 +652,16 @@ export class MapView {
       const { x, y } = database.methods[scene.target];
       const bounds = database.bounds[scene.target];
       const scale = Math.min(width / bounds.width, height / bounds.height);
-      const marks = database.ids.map((_, index) => ({
-        index,
-        group: naming.groupOf(index),
-        x: x[index] * scale,
-        y: y[index] * scale,
-      }));
-      const groups = Map.groupBy(
-        marks.filter(({ group }) => group >= 0),
-        ({ group }) => group,
-      );
+      const thinning = new Thinning(width, height, THINNED);
+      const [left, top] = [bounds.x - width / scale / 2, bounds.y - height / scale / 2];
+      /** @type {Mark[]} */
+      const marks = [];
+      for (let index = 0; index < database.count; index += 1) {
+        const group = naming.groupOf(index);
+        const mark = { index, group, x: (x[index] - left) * scale, y: (y[index] - top) * scale };
+        if (group >= 0 && (!crowded(database) || thinning.takes(mark.x, mark.y, group))) marks.push(mark);
+      }
+      const groups = Map.groupBy(marks, ({ group }) => group);
       const middles = [...groups.values()].map((members) => heartOf(largestCluster(members, DOT), DOT).index);
       this.#known = { coloring, map, middles: new Set(middles.sort((a, b) => a - b)) };
     }
@@ -667,24 +685,36 @@ export class MapView {
   }
 
   #name() {
-    const placeOf = this.placing();
-    const { coloring } = this;
+    const { coloring, width, height, pictured, markRadius } = this;
     const naming = this.#naming;
     this.labels.naming = naming;
     const named = coloring.naming && !coloring.ofClasses ? this.#placed(coloring) : null;
+    const pictureRadius = this.pictureSize / 2;
+    const thinning = crowded(this.database) ? new Thinning(width, height, THINNED) : null;
+    const standing = this.labels.anchors;
+    /** @type {(Mark & { radius: number })[]} */
     const points = [];
-    for (let index = 0; index < this.database.count; index += 1) {
-      if (!this.scene.visible(index)) continue;
-      const [x, y] = placeOf(index);
-      if (x < 0 || y < 0 || x > this.width || y > this.height) continue;
-      const group = naming.groupOf(index);
-      const radius = this.pictured[index] ? this.pictureSize / 2 : this.markRadius;
-      points.push({ index, group: named === null || named.has(group) ? group : -1, x, y, radius });
-    }
-    const largest = Math.max(...points.map(({ radius }) => radius), 0);
-    this.labels.place(points, this.width, this.height, largest);
-    this.labels.follow(placeOf);
+    this.each((index, x, y) => {
+      if (x < 0 || y < 0 || x > width || y > height) return;
+      const own = naming.groupOf(index);
+      const group = named === null || named.has(own) ? own : -1;
+      const radius = pictured[index] ? pictureRadius : markRadius;
+      // Where a name stands, it stays.
+      if (thinning?.takes(x, y, group) === false && !pictured[index] && !standing.has(index)) return;
+      points.push({ index, group, x, y, radius });
+    });
+    const largest = points.reduce((most, { radius }) => Math.max(most, radius), 0);
+    this.labels.place(points, width, height, largest);
+    this.labels.follow(this.placing());
   }
+}
+
+/**
+ * @param {Float64Array} one
+ * @param {Float64Array} other
+ */
+function isEqual(one, other) {
+  return one.every((value, place) => value === other[place]);
 }
 
 /** @param {string} kind */

@@ -2,14 +2,15 @@
 // them, so that nobody sees the one take over from the other.
 
 import { element, penOf } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 
 /** Opacity of marks, and of those that others stand out from. */
 export const FULL = 0.92;
 export const FADED = 0.14;
 
 /** On smaller marks there would be more outline than colour. */
-const SMALLEST_OUTLINED = 2.5;
-const OUTLINE = 0.6;
+export const SMALLEST_OUTLINED = 2.5;
+export const OUTLINE = 0.6;
 
 /** Beyond so many pixels stamps are forgotten: a reader who zooms for long would fill the memory. */
 const MOST_PIXELS_KEPT = 2_000_000;
@@ -55,10 +56,11 @@ export class Marks {
   /**
    * Lay a mark with its centre at a place; above those laid before.
    * @param {ImageData} stamp
-   * @param {number[]} place
+   * @param {number} x
+   * @param {number} y
    * @param {number} opacity
    */
-  lay(stamp, [x, y], opacity) {
+  lay(stamp, x, y, opacity) {
     press(
       /** @type {ImageData} */ (this.sheet),
       stamp,
@@ -115,6 +117,23 @@ export class Marks {
     }
     pen.stroke();
   }
+}
+
+/** @type {Map<string, Uint8ClampedArray>} */
+const parts = new Map();
+
+/**
+ * Red, green, blue and opacity of a colour as styles write it, each from 0 to 255.
+ * @param {string} color
+ */
+export function rgbaOf(color) {
+  return entry(parts, color, () => {
+    pad ??= penOf(element("canvas"), { willReadFrequently: true });
+    Object.assign(pad.canvas, { width: 1, height: 1 });
+    pad.fillStyle = color;
+    pad.fillRect(0, 0, 1, 1);
+    return pad.getImageData(0, 0, 1, 1).data;
+  });
 }
 
 // A drawing is begun and shown at once, so all share the memory of one.

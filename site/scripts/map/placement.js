@@ -5,7 +5,7 @@
 // than that of any other class; where there is none, a name stands in free space with a line to a mark that others leave
 // to be seen; and where there is no such space either, it is left out.
 
-import { heartOf, keyOf, largestCluster } from "./clusters.js";
+import { heartOf, largestCluster } from "./clusters.js";
 
 /** @import { Mark } from "./clusters.js" */
 /** @typedef {{ left: number, right: number, top: number, bottom: number }} Box */
@@ -61,7 +61,7 @@ export function placeNames(marks, names, frame, radius, kept = []) {
     })
     .sort((a, b) => b.members.length - a.members.length || a.group - b.group);
   const clustered = new Set(groups.flatMap(({ cluster }) => cluster));
-  const field = new Field(marks, clustered, radius);
+  const field = new Field(marks, clustered, radius, frame);
   const taken = new Taken(frame);
   /** @type {Map<number, Place>} */
   const places = new Map();
@@ -140,7 +140,7 @@ export function leaderOf(box, anchor) {
 function holds(candidate, group, field) {
   const others = field.gap(candidate.box, SIGHT, (dot) => dot.group !== group);
   if (others <= 1) return false;
-  if (candidate.line !== null) return field.seen(candidate.anchor) && costOf(candidate.line, group, field) < LED;
+  if (candidate.line !== null) return field.seen(candidate.anchor) && costOf(candidate.line, group, field, LED) < LED;
   return field.gap(candidate.box, SIGHT, (dot) => dot.group === group && dot.main) + 1 < others;
 }
 
@@ -179,9 +179,9 @@ function beside(heart, group, size, field, taken) {
     /** @param {Dot} dot */
     const foreign = (dot) => dot.group !== group;
     // What is close is told quickest.
-    if (field.gap(candidate.box, CLEARLY, foreign) <= CLEARLY) continue;
+    if (field.reaches(candidate.box, CLEARLY, foreign)) continue;
     const own = field.gap(candidate.box, SIGHT, (dot) => dot.group === group && dot.main);
-    if (own >= SIGHT || field.gap(candidate.box, own + CLEARLY, foreign) <= own + CLEARLY) continue;
+    if (own >= SIGHT || field.reaches(candidate.box, own + CLEARLY, foreign)) continue;
     // Better a little farther than over marks of its own, and much farther than over its pictures.
     const over = field.covered(candidate.box) + Math.max(field.radius - LARGE, 0);
     const cost = way + (own > 0 ? 0 : 12 + 4 * over);
@@ -202,22 +202,20 @@ function beside(heart, group, size, field, taken) {
  * @returns {Candidate | null}
  */
 function led(heart, cluster, group, size, field, taken) {
-  const seen = cluster.filter((mark) => field.seen(mark));
-  // Pictures rather than dots among them.
-  const largest = Math.max(...seen.map((mark) => mark.radius ?? field.radius));
-  const large = seen.filter((mark) => (mark.radius ?? field.radius) === largest);
-  const ends = large.filter((mark, place) => mark === heart || place % Math.ceil(large.length / ENDS) === 0);
   let [best, least] = [/** @type {Candidate | null} */ (null), LED];
-  if (ends.length === 0) return null;
+  /** @type {Mark[] | null} */
+  let ends = null;
   for (const { candidate } of placesAbout(heart, size, taken, () => LED)) {
-    if (field.gap(candidate.box, FREE, () => true) <= FREE) continue;
+    if (field.reaches(candidate.box, FREE, () => true)) continue;
     const x = heart.x + candidate.dx;
     const y = heart.y + candidate.dy;
+    // Many names have no free space at all.
+    ends ??= endsIn(cluster, heart, field);
     for (const end of ends) {
       const lined = new Candidate(end, x - end.x, y - end.y, size, true);
       const line = /** @type {Line} */ (lined.line);
       if (lengthOf(line) >= least) continue;
-      const cost = costOf(line, group, field);
+      const cost = costOf(line, group, field, least);
       if (cost < least && taken.hasRoom(lined)) [best, least] = [lined, cost];
     }
   }
@@ -225,14 +223,30 @@ function led(heart, cluster, group, size, field, taken) {
 }
 
 /**
- * The length of a line, and once more the width of the marks of others that it crosses.
+ * The marks of a cluster at which a line may end: those that are seen, pictures rather than dots among them.
+ *
+ * @param {Mark[]} cluster
+ * @param {Mark} heart of it
+ * @param {Field} field
+ */
+function endsIn(cluster, heart, field) {
+  const seen = cluster.filter((mark) => field.seen(mark));
+  const largest = seen.reduce((most, { radius = field.radius }) => Math.max(most, radius), 0);
+  const large = seen.filter((mark) => (mark.radius ?? field.radius) === largest);
+  return large.filter((mark, place) => mark === heart || place % Math.ceil(large.length / ENDS) === 0);
+}
+
+/**
+ * The length of a line, and once more the width of the marks of others that it crosses; `most` where it is no less.
  *
  * @param {Line} line
  * @param {number} group
  * @param {Field} field
+ * @param {number} most
  */
-function costOf(line, group, field) {
-  return lengthOf(line) + field.crossed(line, group);
+function costOf(line, group, field, most) {
+  const length = lengthOf(line);
+  return length + field.crossed(line, group, most - length);
 }
 
 /** @param {Line} line */
@@ -242,28 +256,31 @@ function lengthOf({ x1, y1, x2, y2 }) {
 
 /** Marks in cells, to find those near a box. */
 class Field {
-  /** @type {Map<number, Dot[]>} */
-  #cells = new Map();
+  /** @type {(Dot[] | undefined)[]} */
+  #cells = [];
 
   /**
    * @param {readonly Mark[]} marks
    * @param {ReadonlySet<Mark>} clustered those in the largest cluster of their class
    * @param {number} radius the largest
+   * @param {{ width: number, height: number }} frame about all of them
    */
-  constructor(marks, clustered, radius) {
+  constructor(marks, clustered, radius, { width, height }) {
     this.radius = radius;
+    this.columns = Math.floor(width / CELL) + 1;
+    this.rows = Math.floor(height / CELL) + 1;
     // Marks on one pixel of one class are one.
     const known = new Set();
     for (const mark of marks) {
       const { group, radius: own = radius } = mark;
       const [column, row] = [Math.round(mark.x), Math.round(mark.y)];
       const main = clustered.has(mark);
-      const dot = `${column},${row},${group},${own},${main}`;
+      const dot = ((group * 2 + Number(main)) * 2 + Number(own < radius)) * 1e8 + row * 1e4 + column;
       if (known.has(dot)) continue;
       known.add(dot);
-      const key = keyOf(Math.floor(column / CELL), Math.floor(row / CELL));
-      const cell = this.#cells.get(key) ?? [];
-      if (cell.push({ x: column, y: row, group, radius: own, main }) === 1) this.#cells.set(key, cell);
+      const [across, down] = [within(column, this.columns), within(row, this.rows)];
+      const cell = (this.#cells[down * this.columns + across] ??= []);
+      cell.push({ x: column, y: row, group, radius: own, main });
     }
   }
 
@@ -287,29 +304,46 @@ class Field {
   }
 
   /**
+   * Whether the edge of a mark is no farther from a box than `distance`, or the box covers one.
+   *
+   * @param {Box} box
+   * @param {number} distance
+   * @param {(dot: Dot) => boolean} counts which marks count
+   */
+  reaches(box, distance, counts) {
+    return this.#any(box, distance + this.radius, (dot) => {
+      const dx = Math.max(box.left - dot.x, 0, dot.x - box.right);
+      const dy = Math.max(box.top - dot.y, 0, dot.y - box.bottom);
+      return dx * dx + dy * dy <= (distance + dot.radius) ** 2 && counts(dot);
+    });
+  }
+
+  /**
    * Whether the middle of a mark is covered by none of another class.
    *
    * @param {Mark} mark
    */
   seen({ x, y, group }) {
-    return this.gap({ left: x, right: x, top: y, bottom: y }, 0, (dot) => dot.group !== group) > 0;
+    return !this.reaches({ left: x, right: x, top: y, bottom: y }, 0, (dot) => dot.group !== group);
   }
 
   /**
-   * The widths of all marks of other classes that a line crosses, together.
+   * The widths of all marks of other classes that a line crosses, together; summed up to `most`.
    *
    * @param {Line} line
    * @param {number} group
+   * @param {number} most
    */
-  crossed({ x1, y1, x2, y2 }, group) {
+  crossed({ x1, y1, x2, y2 }, group, most) {
     const box = { left: Math.min(x1, x2), right: Math.max(x1, x2), top: Math.min(y1, y2), bottom: Math.max(y1, y2) };
     const [dx, dy] = [x2 - x1, y2 - y1];
     const squared = Math.max(dx * dx + dy * dy, 1e-9);
     let sum = 0;
-    this.#each(box, this.radius, (dot) => {
-      if (dot.group === group) return;
+    this.#any(box, this.radius, (dot) => {
+      if (dot.group === group) return false;
       const along = Math.min(Math.max(((dot.x - x1) * dx + (dot.y - y1) * dy) / squared, 0), 1);
       if (Math.hypot(x1 + along * dx - dot.x, y1 + along * dy - dot.y) < dot.radius) sum += 2 * dot.radius;
+      return sum >= most;
     });
     return sum;
   }
@@ -328,18 +362,49 @@ class Field {
   }
 
   /**
+   * Visit the marks about a box.
+   *
    * @param {Box} box
    * @param {number} margin
    * @param {(dot: Dot) => void} visit
    */
   #each(box, margin, visit) {
-    const [first, last] = [Math.floor((box.left - margin) / CELL), Math.floor((box.right + margin) / CELL)];
-    const bottom = Math.floor((box.bottom + margin) / CELL);
-    for (let row = Math.floor((box.top - margin) / CELL); row <= bottom; row += 1)
-      for (let column = first; column <= last; column += 1) this.#cells.get(keyOf(column, row))?.forEach(visit);
+    this.#any(box, margin, (dot) => {
+      visit(dot);
+      return false;
+    });
+  }
+
+  /**
+   * Whether any mark about a box is one that is looked for: the first ends the search.
+   *
+   * @param {Box} box
+   * @param {number} margin
+   * @param {(dot: Dot) => boolean} is
+   */
+  #any(box, margin, is) {
+    const { columns } = this;
+    const [first, last] = [within(box.left - margin, columns), within(box.right + margin, columns)];
+    const bottom = within(box.bottom + margin, this.rows);
+    for (let row = within(box.top - margin, this.rows); row <= bottom; row += 1) {
+      for (let column = first; column <= last; column += 1) {
+        const cell = this.#cells[row * columns + column];
+        if (cell?.some(is)) return true;
+      }
+    }
+    return false;
   }
 }
 
+/**
+ * The cell of a place along a side; those outside are in the outermost.
+ *
+ * @param {number} place
+ * @param {number} cells
+ */
+function within(place, cells) {
+  return Math.min(Math.max(Math.floor(place / CELL), 0), cells - 1);
+}
 const CELL = 12;
 
 /** The names that have their places already, with their lines. */

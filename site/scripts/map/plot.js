@@ -183,7 +183,8 @@ export class Plot {
       if (fading && !faded) marks.fade(FADED);
       fading = faded;
       const { path, color, radius, alpha } = this.mark(index);
-      marks.lay(marks.stamp(path, color, radius, outline), this.screen(index), faded ? 1 : alpha);
+      const [x, y] = this.screen(index);
+      marks.lay(marks.stamp(path, color, radius, outline), x, y, faded ? 1 : alpha);
     }
     if (fading) marks.fade(FADED);
     marks.show();
@@ -210,11 +211,8 @@ export function pictureOfMap(database, map, size, hidden = NOBODY) {
   for (let index = 0; index < database.count; index += 1) {
     const group = database.groups[index];
     if (Number.isNaN(map.x[index]) || hidden.has(group)) continue;
-    const place = /** @type {[number, number]} */ ([
-      size / 2 + (map.x[index] - x) * scale,
-      size / 2 - (map.y[index] - y) * scale,
-    ]);
-    marks.lay(marks.stamp(database.data.marks.plain, database.color(group), radius), place, 1);
+    const stamp = marks.stamp(database.data.marks.plain, database.color(group), radius);
+    marks.lay(stamp, size / 2 + (map.x[index] - x) * scale, size / 2 - (map.y[index] - y) * scale, 1);
   }
   marks.show();
   return marks.node;

@@ -93,8 +93,8 @@ export class Scene {
     this.y = Float64Array.from(database.methods[this.target].y);
     /** @type {Bounds} */
     this.bounds = database.bounds[this.target];
-    /** @type {Emphasis[]} */
-    this.emphasis = [];
+    /** @type {Uint8Array} an Emphasis a shape */
+    this.emphasis = new Uint8Array(database.count);
     this.present = 0;
     this.moving = false;
     /** @type {MapView[]} */
@@ -201,15 +201,22 @@ export class Scene {
     const line = this.state.get("pointedShapes");
     const pointedShapes = line && new Set(line);
     const pointed = hidden.has(this.state.get("pointedGroup")) ? null : this.state.get("pointedGroup");
-    this.present = this.x.reduce((number, value) => number + Number(!Number.isNaN(value)), 0);
-    this.emphasis = Array.from(this.database.groups, (group, index) => {
-      if (hidden.has(group) || Number.isNaN(this.x[index])) return HIDDEN;
-      if (pointedShapes) return pointedShapes.has(index) ? CHOSEN : FAINT;
-      if (pointed !== null) return group === pointed ? CHOSEN : FAINT;
-      if (selection.size > 0) return selection.has(index) ? CHOSEN : FAINT;
-      if (matches) return matches.has(index) ? CHOSEN : FAINT;
-      return NORMAL;
-    });
+    const { groups, count } = this.database;
+    const emphasis = new Uint8Array(count);
+    const chosen = pointedShapes ?? (pointed === null && selection.size > 0 ? selection : matches);
+    if (pointedShapes === null && pointed !== null)
+      for (let index = 0; index < count; index += 1) emphasis[index] = groups[index] === pointed ? CHOSEN : FAINT;
+    else {
+      emphasis.fill(chosen ? FAINT : NORMAL);
+      for (const index of chosen ?? []) emphasis[index] = CHOSEN;
+    }
+    this.present = 0;
+    for (let index = 0; index < count; index += 1) {
+      const placed = !Number.isNaN(this.x[index]);
+      if (placed) this.present += 1;
+      if (!placed || (hidden.size > 0 && hidden.has(groups[index]))) emphasis[index] = HIDDEN;
+    }
+    this.emphasis = emphasis;
   }
 
   /** @returns {Camera} */
