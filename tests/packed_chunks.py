@@ -6,12 +6,20 @@ import base64
 import gzip
 import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from shapeviz_report.writing.packing import pack
+
 _HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(\w+)", "([A-Za-z0-9+/=]*)"\);\n')
+
+
+def packed(chunks: Mapping[str, object]) -> dict[str, tuple[str, bytes]]:
+    """Chunks as the site holds them, which can be compared."""
+    return {name: pack(value) for name, value in chunks.items()}
 
 
 def read_script(script: Path) -> tuple[str, Any]:

@@ -30,6 +30,12 @@ from shapeviz_report.types import (
 #: Steps of a coordinate from the middle of a map to its edge: 16 bits, so that nearest neighbours stay the nearest.
 COORDINATE_STEPS = 32767
 
+#: Steps of a share: nearly all small numbers of neighbours divide it, ten among them, so that shares of them are exact.
+SHARE_STEPS = 65520
+
+#: What stands for a share that there is not.
+NO_SHARE = 65535
+
 #: Decimals of figures of quality as pages show them.
 FIGURE_DECIMALS = 3
 
@@ -200,9 +206,16 @@ def feature_marks() -> dict[ThemeName, FeatureMarks]:
     return {theme.name: {"features": list(theme.features), "bar": theme.bar} for theme in charts.THEMES}
 
 
-def coordinate_steps(xy: npt.NDArray[np.floating]) -> npt.NDArray[np.int_]:
+def coordinate_steps(xy: npt.NDArray[np.floating]) -> npt.NDArray[np.int16]:
     """Coordinates in [-1, 1] for a chunk, as whole numbers of ``COORDINATE_STEPS``."""
-    return np.round(xy * COORDINATE_STEPS).astype(int)
+    return np.round(xy * COORDINATE_STEPS).astype(np.int16)
+
+
+def share_steps(shares: npt.NDArray[np.floating]) -> npt.NDArray[np.uint16]:
+    """Shares from 0 to 1 for a chunk, as whole numbers of ``SHARE_STEPS``; NaN as ``NO_SHARE``."""
+    return np.where(np.isnan(shares), NO_SHARE, np.round(np.nan_to_num(shares) * SHARE_STEPS)).astype(
+        np.uint16
+    )
 
 
 def rounded(values: FloatArray, decimals: int) -> list[float | None]:

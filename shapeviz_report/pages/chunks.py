@@ -42,13 +42,16 @@ class Shepard(TypedDict):
     height: float
 
 
+#: A share of each shape, in ``SHARE_STEPS`` steps from 0 to 1; ``NO_SHARE`` where it has none.
+Shares = npt.NDArray[np.uint16]
+
+
 class Faith(TypedDict):
     """How far a map shows who is like whom, and what that is at random.
 
     Attributes
     ----------
-    kept, false, missing : list of float or None, or None
-        Of each shape; the last two None where there are too few shapes.
+    kept : Shares
     mean : float
         Of ``kept``; at random ``chance``.
     trustworthiness, continuity : float or None
@@ -57,9 +60,7 @@ class Faith(TypedDict):
         At random ``randomStress``.
     """
 
-    kept: list[float | None]
-    false: list[float | None] | None
-    missing: list[float | None] | None
+    kept: Shares
     mean: float
     chance: float
     trustworthiness: float | None
@@ -70,16 +71,23 @@ class Faith(TypedDict):
     shepard: Shepard | None
 
 
+class Trust(TypedDict):
+    """How false the neighbours of each shape are on a map, and how far missing ones; None where shapes are too few."""
+
+    false: Shares | None
+    missing: Shares | None
+
+
 class Method(TypedDict):
-    """A map of all shapes, with its quality; a class or a shape without a score has None."""
+    """A map of all shapes, with its quality; a class without a score has None."""
 
     key: str
     title: str
     note: str
     features: list[str]
-    x: list[float]
-    y: list[float]
-    hit: list[float | None]
+    x: npt.NDArray[np.float32]
+    y: npt.NDArray[np.float32]
+    hit: Shares
     neighbours: int
     hitOfClass: list[float | None]
     hitOfAll: float | None
@@ -87,6 +95,12 @@ class Method(TypedDict):
     chance: float | None
     chanceSpread: float | None
     faith: Faith | None
+
+
+class BestMap(Method):
+    """The map of the best subset; its key names the features."""
+
+    trust: Trust
 
 
 class ClassCounts(TypedDict):
@@ -526,22 +540,20 @@ class Search(TypedDict):
 
 
 class SubsetMaps(TypedDict):
-    """A map a subset: ``steps`` from the middle to the edge, ``hitSteps`` from 0 to 1, -1 without a hit."""
+    """A map a subset: ``steps`` from the middle to the edge."""
 
     steps: int
-    hitSteps: int
-    x: list[list[int]]
-    y: list[list[int]]
-    hit: list[list[int]]
+    x: list[npt.NDArray[np.int16]]
+    y: list[npt.NDArray[np.int16]]
+    hit: list[Shares]
 
 
 class SubsetNeighbours(TypedDict):
-    """What the map of each subset makes of the neighbours of each shape, in ``steps`` from 0 to 1."""
+    """What the map of each subset makes of the neighbours of each shape."""
 
-    steps: int
-    kept: list[list[int]]
-    false: list[list[int]] | None
-    missing: list[list[int]] | None
+    kept: list[Shares]
+    false: list[Shares] | None
+    missing: list[Shares] | None
 
 
 class FeatureWords(TypedDict):
@@ -752,8 +764,10 @@ class Chunks(TypedDict, total=False):
 
     Attributes
     ----------
-    best : Method
-        The map of the best subset, where the search laid out a sample; its key names the features.
+    trust : dict of str to Trust
+        Of each map of the chunk "overview", by its key.
+    best : BestMap
+        Where the search laid out a sample.
     related : list of list of int, or None
         The shapes most similar to each by neighbourhood, the most similar first; None where there are too many.
     neighbours : bytes
@@ -769,7 +783,8 @@ class Chunks(TypedDict, total=False):
     """
 
     overview: Overview
-    best: Method
+    trust: dict[str, Trust]
+    best: BestMap
     details: Details
     clusters: Clusters | None
     fields: Fields

@@ -24,6 +24,7 @@ from shapeviz_report.pages.base import (
     nothing_told,
     rounded,
     search_of,
+    share_steps,
 )
 from shapeviz_report.pages.chunks import Box, Chunks, Search, SubsetFaith, SubsetMaps, SubsetNeighbours
 from shapeviz_report.pages.fields import color_choices
@@ -40,9 +41,6 @@ from shapeviz_report.types import (
     SeedSpread,
     SubsetFaithfulness,
 )
-
-#: NH is stored in thousandths, as it is shown; with ten neighbours, all but ties are exact.
-HIT_STEPS = 1000
 
 #: Decimals of NH_s and NH_c.
 SCORE_DECIMALS = 6
@@ -175,13 +173,11 @@ def _maps(search: FeatureSearch, ranking: Ranking) -> SubsetMaps:
     """The maps and the hits on them in whole numbers: the largest part of the site, loaded when one is wanted."""
     rows = list(ranking.order)
     steps = coordinate_steps(search.subsets.xy[rows])
-    hits = np.round(np.nan_to_num(search.subsets.nh[rows] * HIT_STEPS, nan=-1)).astype(int)
     return {
         "steps": COORDINATE_STEPS,
-        "hitSteps": HIT_STEPS,
-        "x": steps[:, :, 0].tolist(),
-        "y": steps[:, :, 1].tolist(),
-        "hit": hits.tolist(),
+        "x": list(steps[:, :, 0]),
+        "y": list(steps[:, :, 1]),
+        "hit": list(share_steps(search.subsets.nh[rows])),
     }
 
 
@@ -207,11 +203,10 @@ def _neighbours(found: SubsetFaithfulness, ranking: Ranking) -> SubsetNeighbours
     """Of every shape on every map, in whole numbers; loaded when a map is coloured by it."""
     rows = list(ranking.order)
 
-    def steps(values: npt.NDArray[np.float32]) -> list[list[int]]:
-        return np.round(values[rows] * HIT_STEPS).astype(int).tolist()
+    def steps(values: npt.NDArray[np.float32]) -> list[npt.NDArray[np.uint16]]:
+        return list(share_steps(values[rows]))
 
     return {
-        "steps": HIT_STEPS,
         "kept": steps(found.kept),
         "false": None if found.false is None else steps(found.false),
         "missing": None if found.missing is None else steps(found.missing),

@@ -15,8 +15,18 @@ from shapeviz_report.pages.base import (
     clusters_chunk,
     rounded,
     search_of,
+    share_steps,
 )
-from shapeviz_report.pages.chunks import Chunks, Details, Faith, Marks, Method, ShapeList, SubsetChoice
+from shapeviz_report.pages.chunks import (
+    Chunks,
+    Details,
+    Faith,
+    Marks,
+    Method,
+    ShapeList,
+    SubsetChoice,
+    Trust,
+)
 from shapeviz_report.pages.chunks import Shepard as ShepardChunk
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.pages.separation import separation_chunk
@@ -34,7 +44,7 @@ from shapeviz_report.types import (
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
 
-#: Decimals of what is shown as a share of neighbours, or drawn on a small diagram.
+#: Decimals of what is drawn on a small diagram.
 SHARE_DECIMALS = 4
 
 #: Values of a column that colours tell apart on a map; shapes of any other share one.
@@ -84,13 +94,18 @@ class OverviewPage:
                 },
                 "marks": _marks(len(classes)),
             },
+            "trust": {key: _trust(report.faithfulness.get(key)) for key in report.projections},
             "details": _details(report),
             "clusters": clusters_chunk(report),
         }
         if report.best is not None:
             projection, quality, faithfulness = report.best
             key = f"{projection.method}:{'+'.join(projection.features)}"
-            chunks["best"] = {**_method(projection, quality, classes, None, faithfulness), "key": key}
+            chunks["best"] = {
+                **_method(projection, quality, classes, None, faithfulness),
+                "key": key,
+                "trust": _trust(faithfulness),
+            }
         return PageContent(
             context={
                 "methods": [{"key": method["key"], "title": method["title"]} for method in methods],
@@ -131,7 +146,7 @@ def _method(
 ) -> Method:
     """One projection with its quality; missing values are None."""
     # Adding zero turns -0.0 into 0.0, which would otherwise differ between equal builds.
-    x, y = (np.round(projection.xy, COORDINATE_DECIMALS) + 0.0).T.tolist()
+    x, y = (np.round(projection.xy, COORDINATE_DECIMALS) + 0.0).T.astype(np.float32)
     return {
         "key": projection.method,
         "title": METHODS[projection.method].title,
@@ -139,7 +154,7 @@ def _method(
         "features": list(projection.features),
         "x": x,
         "y": y,
-        "hit": rounded(quality.nh, COORDINATE_DECIMALS),
+        "hit": share_steps(quality.nh),
         "neighbours": quality.k,
         "hitOfClass": rounded(
             np.array([quality.nh_c.get(name, np.nan) for name in classes], dtype=float), COORDINATE_DECIMALS
@@ -160,9 +175,7 @@ def _method(
 
 def _faith(found: Faithfulness) -> Faith:
     return {
-        "kept": rounded(found.kept, SHARE_DECIMALS),
-        "false": None if found.false is None else rounded(found.false, SHARE_DECIMALS),
-        "missing": None if found.missing is None else rounded(found.missing, SHARE_DECIMALS),
+        "kept": share_steps(found.kept),
         "mean": float(found.kept.mean()),
         "chance": found.chance,
         "trustworthiness": found.trustworthiness,
@@ -172,6 +185,12 @@ def _faith(found: Faithfulness) -> Faith:
         "randomStress": found.random_stress,
         "shepard": None if found.shepard is None else _shepard(found.shepard),
     }
+
+
+def _trust(found: Faithfulness | None) -> Trust:
+    if found is None or found.false is None or found.missing is None:
+        return {"false": None, "missing": None}
+    return {"false": share_steps(found.false), "missing": share_steps(found.missing)}
 
 
 def _shepard(found: Shepard) -> ShepardChunk:

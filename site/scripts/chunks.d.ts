@@ -22,9 +22,7 @@ declare namespace Chunk {
   }
   /** How far a map shows who is like whom, and what that is at random. */
   interface Faith {
-    kept: (number | null)[];
-    false: (number | null)[] | null;
-    missing: (number | null)[] | null;
+    kept: Uint16Array;
     mean: number;
     chance: number;
     trustworthiness: number | null;
@@ -34,15 +32,20 @@ declare namespace Chunk {
     randomStress: number | null;
     shepard: Shepard | null;
   }
-  /** A map of all shapes, with its quality; a class or a shape without a score has None. */
+  /** How false the neighbours of each shape are on a map, and how far missing ones; None where shapes are too few. */
+  interface Trust {
+    false: Uint16Array | null;
+    missing: Uint16Array | null;
+  }
+  /** A map of all shapes, with its quality; a class without a score has None. */
   interface Method {
     key: string;
     title: string;
     note: string;
     features: string[];
-    x: number[];
-    y: number[];
-    hit: (number | null)[];
+    x: Float32Array;
+    y: Float32Array;
+    hit: Uint16Array;
     neighbours: number;
     hitOfClass: (number | null)[];
     hitOfAll: number | null;
@@ -50,6 +53,24 @@ declare namespace Chunk {
     chance: number | null;
     chanceSpread: number | null;
     faith: Faith | null;
+  }
+  /** The map of the best subset; its key names the features. */
+  interface BestMap {
+    key: string;
+    title: string;
+    note: string;
+    features: string[];
+    x: Float32Array;
+    y: Float32Array;
+    hit: Uint16Array;
+    neighbours: number;
+    hitOfClass: (number | null)[];
+    hitOfAll: number | null;
+    withoutCopies: WithoutCopies | null;
+    chance: number | null;
+    chanceSpread: number | null;
+    faith: Faith | null;
+    trust: Trust;
   }
   /** How many shapes of a class have one of it nearest: by the features, and on a map; what others are taken for. */
   interface ClassCounts {
@@ -332,20 +353,18 @@ declare namespace Chunk {
     charts: SubsetCharts;
     marks: Record<"light" | "dark", FeatureMarks>;
   }
-  /** A map a subset: `steps` from the middle to the edge, `hitSteps` from 0 to 1, -1 without a hit. */
+  /** A map a subset: `steps` from the middle to the edge. */
   interface SubsetMaps {
     steps: number;
-    hitSteps: number;
-    x: number[][];
-    y: number[][];
-    hit: number[][];
+    x: Int16Array[];
+    y: Int16Array[];
+    hit: Uint16Array[];
   }
-  /** What the map of each subset makes of the neighbours of each shape, in `steps` from 0 to 1. */
+  /** What the map of each subset makes of the neighbours of each shape. */
   interface SubsetNeighbours {
-    steps: number;
-    kept: number[][];
-    false: number[][] | null;
-    missing: number[][] | null;
+    kept: Uint16Array[];
+    false: Uint16Array[] | null;
+    missing: Uint16Array[] | null;
   }
   /** What a feature is; `sought` are other words for small and for large values of each dimension. */
   interface FeatureWords {
@@ -507,7 +526,8 @@ declare namespace Chunk {
   /** Every chunk by its name; one is left out where there is nothing to say. Bytes become an `ArrayBuffer`. */
   interface Chunks {
     overview: Overview;
-    best: Method;
+    trust: Record<string, Trust>;
+    best: BestMap;
     details: Details;
     clusters: Clusters | null;
     fields: Fields;

@@ -168,7 +168,7 @@ test("a ramp is mixed between its colours", () => {
 test("what a map makes of neighbours is told of the map that is drawn, on one scale for all", () => {
   const map = (shares) => ({ neighbours: 10, faith: { kept: shares, false: shares, missing: shares } });
   const maps = [map([0, 0.1, 0.2, 0.2, 0, 0]), map([0, 0.4, 0.2, null, 0, 0])];
-  const two = { ...database, ids: [0, 1, 2, 3, 4, 5], data: { ...database.data, methods: maps } };
+  const two = { ...database, ids: [0, 1, 2, 3, 4, 5], projections: maps };
   let shown = maps[0];
   const coloring = trustColoring(two, "false", () => shown);
   assert.equal(coloring.textOf(1), "10\u00a0%");

@@ -1,7 +1,9 @@
 // The shapes, classes and projections of the database, as the views ask for them.
 
+import { chunk } from "../base/chunks.js";
 import { resource } from "../base/place.js";
 import { reachOf } from "./hit-range.js";
+import { sharesOf } from "./shares.js";
 
 /** @import { Theme } from "../base/theme.js" */
 /** @import { Choice } from "./similarity.js" */
@@ -28,7 +30,7 @@ import { reachOf } from "./hit-range.js";
  * @property {() => Promise<void>} [know] fetches what it shows of the neighbours of each shape
  *
  * Without what is known of each shape as long as nobody asked for it; a diagram have the maps of projections.
- * @typedef {Omit<Chunk.Faith, "kept" | "false" | "missing" | "shepard"> & { kept?: Shares, false?: Shares, missing?: Shares, shepard?: Chunk.Shepard | null }} Faith
+ * @typedef {Omit<Chunk.Faith, "kept" | "shepard"> & { kept?: Shares, false?: Shares, missing?: Shares, shepard?: Chunk.Shepard | null }} Faith
  * @typedef {(number | null)[] | null} Shares of each shape
  *
  * @typedef {ShapeMap & { base: number }} Method one that belongs to a projection of all features: itself, or the one it is set beside
@@ -48,8 +50,10 @@ export class Database {
     this.names = data.shapes.names;
     this.groups = data.shapes.groups;
     this.classes = data.classes;
-    /** @type {Method[]} */
-    this.methods = data.methods.map((method, base) => ({ ...method, base }));
+    /** @type {ShapeMap[]} of all features, or of the bins that the site was made for */
+    this.projections = data.methods.map((method) => ({ ...mapOf(method), know: () => this.#know() }));
+    /** @type {Method[]} those, and others that are added to them */
+    this.methods = this.projections.map((map, base) => ({ ...map, base }));
     this.indexOfId = new Map(this.ids.map((id, index) => [id, index]));
     /** @type {Map<number, number>} */
     this.sizes = new Map();
@@ -80,6 +84,12 @@ export class Database {
     this.methods = [{ ...map, base: 0 }];
     this.bounds = [bounds(map)];
     this.revision += 1;
+  }
+
+  /** Fetch what the projections show of the neighbours of each shape. */
+  async #know() {
+    const trust = await chunk("trust");
+    for (const { key, faith } of this.projections) if (faith && !faith.false) tell(faith, trust[key]);
   }
 
   /** Colours and chart configuration of the theme in use. */
@@ -174,6 +184,25 @@ export class Database {
       picture: this.picture(index),
     }));
   }
+}
+
+/**
+ * A map as chunks hold it.
+ * @param {Chunk.Method} method
+ * @returns {ShapeMap}
+ */
+export function mapOf({ hit, faith, ...method }) {
+  return { ...method, hit: sharesOf(hit), faith: faith && { ...faith, kept: sharesOf(faith.kept) } };
+}
+
+/**
+ * Take what is known of the neighbours of each shape to the rest that is known of a map.
+ * @param {Faith} faith
+ * @param {Chunk.Trust} trust
+ */
+export function tell(faith, trust) {
+  faith.false = trust.false && sharesOf(trust.false);
+  faith.missing = trust.missing && sharesOf(trust.missing);
 }
 
 /**

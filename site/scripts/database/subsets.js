@@ -1,6 +1,7 @@
 // Subsets of the features, from best to worst: what each of them reaches, and its map.
 
 import { chunk } from "../base/chunks.js";
+import { sharesOf } from "./shares.js";
 
 /** @import { Faith, ShapeMap } from "./database.js" */
 
@@ -172,9 +173,9 @@ export class Subsets {
       title: data.methodTitle,
       note: data.note,
       features,
-      x: maps.x[place].map((step) => step / maps.steps),
-      y: maps.y[place].map((step) => step / maps.steps),
-      hit: maps.hit[place].map((step) => (step < 0 ? null : step / maps.hitSteps)),
+      x: Float64Array.from(maps.x[place], (step) => step / maps.steps),
+      y: Float64Array.from(maps.y[place], (step) => step / maps.steps),
+      hit: sharesOf(maps.hit[place]),
       neighbours: data.neighbours,
       hitOfClass,
       hitOfAll: data.hit[place],
@@ -183,9 +184,11 @@ export class Subsets {
       faith,
       async know() {
         if (!faith || faith.kept) return;
-        const { steps, ...shares } = await chunk("faith");
-        for (const kind of /** @type {const} */ (["kept", "false", "missing"]))
-          faith[kind] = shares[kind]?.[place].map((step) => step / steps) ?? null;
+        const shares = await chunk("faith");
+        for (const kind of /** @type {const} */ (["kept", "false", "missing"])) {
+          const steps = shares[kind];
+          faith[kind] = steps && sharesOf(steps[place]);
+        }
       },
     };
   }

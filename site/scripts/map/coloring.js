@@ -113,7 +113,7 @@ const LEAST_END = 0.05;
  */
 export function trustColoring(database, kind, current) {
   const { title, note } = TRUST[kind];
-  const known = database.data.methods.flatMap(({ faith }) => [...(faith?.false ?? []), ...(faith?.missing ?? [])]);
+  const known = database.projections.flatMap(({ faith }) => [...(faith?.false ?? []), ...(faith?.missing ?? [])]);
   const end =
     kind === "kept" ? 1 : known.reduce((most, share) => Math.max(/** @type {number} */ (most), share ?? 0), LEAST_END);
   /** @param {number} share */

@@ -208,6 +208,30 @@ function cut(path, color, radius, outline, line) {
 }
 
 /**
+ * Symbols beside each other, each in the middle of a square: two bytes a pixel, how far the symbol covers it, and how far
+ * its outline.
+ * @param {string[]} symbols
+ * @param {number} radius
+ * @param {number} side
+ * @param {number} line
+ */
+export function coverage(symbols, radius, side, line) {
+  const width = side * symbols.length;
+  const found = new Uint8Array(2 * width * side);
+  for (const [part, how] of /** @type {const} */ (["fill", "stroke"]).entries()) {
+    const pen = penOf(element("canvas", { width, height: side }), { willReadFrequently: true });
+    for (const [place, symbol] of symbols.entries()) {
+      pen.setTransform(radius, 0, 0, radius, (place + 0.5) * side, side / 2);
+      pen.lineWidth = line / radius;
+      pen[how](new Path2D(symbol));
+    }
+    const { data } = pen.getImageData(0, 0, width, side);
+    for (let pixel = 0; pixel < width * side; pixel += 1) found[2 * pixel + part] = data[4 * pixel + 3];
+  }
+  return found;
+}
+
+/**
  * How many pixels about a stamp are empty on all sides.
  * @param {ImageData} stamp
  */

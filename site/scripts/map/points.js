@@ -1,7 +1,7 @@
 // Very many marks of shapes on a canvas, by WebGL: one call draws all that are as present. They look as marks.js draws them.
 
-import { element, penOf } from "../base/dom.js";
-import { FADED, FULL, OUTLINE, rgbaOf, SMALLEST_OUTLINED } from "./marks.js";
+import { element } from "../base/dom.js";
+import { coverage, FADED, FULL, OUTLINE, rgbaOf, SMALLEST_OUTLINED } from "./marks.js";
 
 /**
  * How marks look: for every shape red, green and blue, from 0 to 255, and the number of its symbol.
@@ -207,20 +207,7 @@ export class Points {
     }
     const side = 2 * Math.ceil(REACH * size + 1);
     const width = side * symbols.length;
-    const [fills, lines] = /** @type {const} */ (["fill", "stroke"]).map((how) => {
-      const pen = penOf(element("canvas", { width, height: side }), { willReadFrequently: true });
-      for (const [place, symbol] of symbols.entries()) {
-        pen.setTransform(size, 0, 0, size, (place + 0.5) * side, side / 2);
-        pen.lineWidth = (OUTLINE * density) / size;
-        pen[how](new Path2D(symbol));
-      }
-      return pen.getImageData(0, 0, width, side).data;
-    });
-    const stamps = new Uint8Array(2 * width * side);
-    for (let place = 0; place < width * side; place += 1) {
-      stamps[2 * place] = fills[4 * place + 3];
-      stamps[2 * place + 1] = lines[4 * place + 3];
-    }
+    const stamps = coverage(symbols, size, side, OUTLINE * density);
     const texture = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);

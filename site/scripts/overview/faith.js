@@ -66,7 +66,7 @@ function lost(database, { faith, neighbours, base }) {
   /** @param {Pick<Faith, "kept"> | null | undefined} of */
   const lostOn = (of) => (of?.kept ?? []).filter((share) => share !== null && share <= FEW + 1e-9).length;
   const here = lostOn(faith);
-  const others = database.data.methods.filter((other, index) => index !== base && other.faith);
+  const others = database.projections.filter((other, index) => index !== base && other.faith);
   const there = others.map((other) => `${numberOrNone(lostOn(other.faith))} on the ${other.title} map`);
   return [
     element(

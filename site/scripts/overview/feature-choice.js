@@ -2,10 +2,11 @@
 // features; or one chosen on the Features page.
 
 import { chunk } from "../base/chunks.js";
+import { mapOf, tell } from "../database/database.js";
 import { Subsets } from "../database/subsets.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
-/** @import { Database } from "../database/database.js" */
+/** @import { Database, ShapeMap } from "../database/database.js" */
 
 const ALL = "all";
 const BEST = "best";
@@ -77,10 +78,18 @@ async function subsetMethod(database, names) {
   const { method, features, bins, best, sample } = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
   const base = database.methods.findIndex(({ key }) => key === method);
   if (bins === null && names.length === features.length) return base;
-  if (sample !== null) return same(names, best) ? database.add(await chunk("best"), base) : null;
+  if (sample !== null) return same(names, best) ? database.add(await bestMap(), base) : null;
   const subsets = new Subsets(await chunk("search"));
   const place = subsets.find(names);
   return place === undefined ? null : database.add(await subsets.map(place, database.classes.length), base);
+}
+
+/** @returns {Promise<ShapeMap>} */
+async function bestMap() {
+  const { trust, ...method } = await chunk("best");
+  const map = mapOf(method);
+  if (map.faith) tell(map.faith, trust);
+  return map;
 }
 
 /**

@@ -10,12 +10,12 @@ import { highestOf } from "../database/hit-range.js";
  * @param {number[]} chosen
  */
 export function saveCsv(database, chosen) {
-  const header = ["id", "name", "class", ...database.data.methods.flatMap(({ key }) => [`nh:${key}`, `nh_max:${key}`])];
+  const header = ["id", "name", "class", ...database.projections.flatMap(({ key }) => [`nh:${key}`, `nh_max:${key}`])];
   const rows = chosen.map((index) => [
     database.ids[index],
     database.names[index],
     database.groups[index] < 0 ? "" : database.className(database.groups[index]),
-    ...database.data.methods.flatMap((method) => [method.hit[index] ?? "", highestOf(database, method, index) ?? ""]),
+    ...database.projections.flatMap((method) => [method.hit[index] ?? "", highestOf(database, method, index) ?? ""]),
   ]);
   saveFile("selection.csv", new Blob([csvText([header, ...rows])], { type: "text/csv" }));
 }
@@ -29,8 +29,8 @@ export function saveJson(database, chosen) {
     id: database.ids[index],
     name: database.names[index],
     class: database.groups[index] < 0 ? null : database.className(database.groups[index]),
-    nh: Object.fromEntries(database.data.methods.map(({ key, hit }) => [key, hit[index]])),
-    nh_max: Object.fromEntries(database.data.methods.map((method) => [method.key, highestOf(database, method, index)])),
+    nh: Object.fromEntries(database.projections.map(({ key, hit }) => [key, hit[index]])),
+    nh_max: Object.fromEntries(database.projections.map((method) => [method.key, highestOf(database, method, index)])),
   }));
   saveFile("selection.json", new Blob([`${JSON.stringify({ shapes }, null, 1)}\n`], { type: "application/json" }));
 }

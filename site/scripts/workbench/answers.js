@@ -359,7 +359,7 @@ export class Answers {
    * @param {string} projection
    */
   #siteMap(projection) {
-    return this.database.data.methods.find(({ key }) => key === projection) ?? null;
+    return this.database.projections.find(({ key }) => key === projection) ?? null;
   }
 
   /**
@@ -411,7 +411,7 @@ export class Answers {
     const { database, data } = this;
     // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
     // and yet the same address gives the same map on any way there.
-    const base = this.#siteMap(method) ?? database.data.methods[0];
+    const base = this.#siteMap(method) ?? database.projections[0];
     const start = Float32Array.from(
       { length: 2 * rows.length },
       (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]],

@@ -14,6 +14,7 @@ from page_markup import Markup
 from reports import NASTY_LABELS, make_report, with_bin_search, with_models, with_paintings, with_scores
 
 from shapeviz_report.errors import SiteError
+from shapeviz_report.pages.base import NO_SHARE, SHARE_STEPS
 from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.types import Failure, Projection
 from shapeviz_report.writing import check_destination, write_site
@@ -64,7 +65,9 @@ def test_a_chunk_holds_the_maps(tmp_path):
     assert [method["key"] for method in data["methods"]] == ["tsne", "umap", "pca"]
     projection, quality = report.projections["tsne"]
     np.testing.assert_allclose(data["methods"][0]["x"], projection.xy[:, 0], atol=1e-6)
-    assert data["methods"][0]["hit"][5] is None
+    hits = data["methods"][0]["hit"]
+    assert (hits[5:10] == NO_SHARE).all()
+    np.testing.assert_allclose(hits[:5] / SHARE_STEPS, quality.nh[:5], atol=1e-9)
     assert data["methods"][0]["hitOfAll"] == quality.nh_s
     for picture in data["shapes"]["pictures"]:
         assert (tmp_path / "thumbnails" / picture).is_file()
