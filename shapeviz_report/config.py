@@ -133,7 +133,7 @@ class Config:
     seed: int = _option(0, "seed of everything random", "N")
     time_limit: float = _machine_option(
         300.0,
-        "seconds that one mesh may take in one stage; a question of the whole database may take twenty times as long",
+        "seconds that one mesh may take; a question of the whole database may take twenty times as long",
         "SECONDS",
     )
     memory_limit: float | None = _machine_option(

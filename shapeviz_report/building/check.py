@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from shapeviz_report.bins import read_bins
+from shapeviz_report.building.chains import Chain
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import find_copies
 from shapeviz_report.building.reading import load_all_external, plan_examining, read_published
 from shapeviz_report.building.runner import Runner
-from shapeviz_report.building.stages import EXAMINE
+from shapeviz_report.building.stages import EXAMINE, Stage
 from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
+from shapeviz_report.copies import Outline
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import read_publication
 from shapeviz_report.types import Copy, Database, Failure
@@ -59,9 +62,15 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
         paths = {s.id: s.path.absolute() for s in database.shapes}
         within = None if config.outside else database.root
 
-        checking = replace(EXAMINE, name="check", doing="Checking meshes")
-        examined = run.each(checking, paths, plan_examining(paths, within))
-        copies = find_copies(run, paths, within, examined)
+        repairs: dict[str, dict[str, int]] = {}
+        outlines: dict[str, Outline] = {}
+        checking = replace(EXAMINE, name="check")
+
+        def take(shape: str, _: Chain, values: dict[Stage[Any], Any]) -> None:
+            repairs[shape], outlines[shape] = values[checking]
+
+        run.each("Checking meshes", paths, [checking], plan_examining(paths, within), take)
+        order = [shape for shape in paths if shape in outlines]
+        copies = find_copies(run, paths, within, {shape: outlines[shape] for shape in order})
     cache.tell()
-    repairs = {shape: result.value[0] for shape, result in examined.items()}
-    return CheckResult(database, repairs, tuple(failures), copies)
+    return CheckResult(database, {shape: repairs[shape] for shape in order}, tuple(failures), copies)

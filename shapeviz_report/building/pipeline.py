@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
 from shapeviz_report.agreement import weigh
 from shapeviz_report.bins import read_bins, scale_bins
 from shapeviz_report.building import stages
+from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.building.guard import check_meshes, check_places
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import (
@@ -28,11 +29,12 @@ from shapeviz_report.building.questions import (
     search_all_bins,
     search_subsets,
 )
-from shapeviz_report.building.reading import load_all_external, plan_examining, read_published
-from shapeviz_report.building.runner import Runner, Task
+from shapeviz_report.building.reading import load_all_external, read_published
+from shapeviz_report.building.runner import Runner
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
+from shapeviz_report.copies import Outline
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.exemplars import choose_exemplars
@@ -46,7 +48,17 @@ from shapeviz_report.quality import score
 from shapeviz_report.render import check_renderer
 from shapeviz_report.search import make_space
 from shapeviz_report.separation import rate_separation
-from shapeviz_report.types import Failure, FeatureTable, Painting, Projection, Quality, Report, group_copies
+from shapeviz_report.types import (
+    Failure,
+    FeatureTable,
+    FloatArray,
+    Painting,
+    Projection,
+    Quality,
+    Report,
+    ShapeFacts,
+    group_copies,
+)
 from shapeviz_report.writing import write_site
 
 SAMPLED_VERTICES = 400_000
@@ -111,56 +123,66 @@ def build_report(
         paths = {s.id: s.path.absolute() for s in database.shapes}
         within = None if config.outside else database.root
 
-        def plan_preparing(shape: str) -> Task:
+        def plan(shape: str) -> Plan:
             files = collect_files(paths[shape], within)
-            key = stages.PREPARE.key(stages.identify(paths[shape], files), config.edge_length)
-            return Task(key, lambda: (files, config.edge_length))
+            chain = Chain(stages.identify(paths[shape], files))
+            chain.add(stages.PREPARE, (), config.edge_length)
+            chain.add(stages.FACTS, [stages.PREPARE])
+            chain.add(stages.EXAMINE)
+            chain.add(stages.VIEW, [stages.PREPARE], config.up)
+            chain.add(stages.RENDER, [stages.PREPARE, stages.VIEW], config.thumbnail_size)
+            if edges is None:
+                chain.add(stages.SAMPLE, [stages.PREPARE], share)
+            else:
+                chain.add(stages.DESCRIBE, [stages.PREPARE, stages.VIEW], edges, preset.by_area)
+            if preset.whole:
+                chain.add(stages.DESCRIBE_WHOLE, [stages.PREPARE])
+            return chain, files
 
-        prepared = run.each(stages.PREPARE, paths, plan_preparing)
+        described: list[stages.Stage[Any]] = [
+            stages.DESCRIBE,
+            *([stages.DESCRIBE_WHOLE] if preset.whole else []),
+        ]
+        width = sum(block.width for block in preset.blocks)
+        values = np.empty((len(paths), width))
+        row = {shape: number for number, shape in enumerate(paths)}
+        facts: dict[str, ShapeFacts] = {}
+        outlines: dict[str, Outline] = {}
+        pictures: dict[str, bytes] = {}
+        models: dict[str, str] = {}
+        samples: dict[str, FloatArray] = {}
 
-        def plan(stage: stages.Stage[Any], shape: str, *options: Any) -> Task:
-            """A task that starts from the prepared mesh."""
-            source = prepared[shape].key
-            key = stage.key(source, *(o.tobytes() if isinstance(o, np.ndarray) else o for o in options))
-            return Task(
-                key, lambda: (run.recall(stages.PREPARE, source, lambda: plan_preparing(shape)), *options)
-            )
+        def take(shape: str, chain: Chain, found: dict[stages.Stage[Any], Any]) -> None:
+            if stages.FACTS in found:
+                facts[shape] = found[stages.FACTS]
+                outlines[shape] = found[stages.EXAMINE][1]
+                pictures[shape] = found[stages.RENDER]
+            if stages.SAMPLE in found:
+                samples[shape] = found[stages.SAMPLE]
+            if stages.DESCRIBE in found:
+                values[row[shape]] = np.concatenate([found[stage] for stage in described])
+                models[shape] = chain.key(stages.DESCRIBE)
 
-        if preset.fixed_ranges:
-            edges = fixed_edges()
+        looks: list[stages.Stage[Any]] = [stages.FACTS, stages.EXAMINE, stages.RENDER]
+        share = int(np.clip(SAMPLED_VERTICES // max(1, len(paths)), *SAMPLED_OF_A_SHAPE))
+        edges = fixed_edges() if preset.fixed_ranges else None
+        if edges is not None:
+            run.each("Measuring shapes", paths, [*looks, *described], plan, take)
         else:
-            share = int(np.clip(SAMPLED_VERTICES // max(1, len(prepared)), *SAMPLED_OF_A_SHAPE))
-            samples = run.each(stages.SAMPLE, prepared, lambda s: plan(stages.SAMPLE, s, share))
-            edges = quantile_edges([s.value for s in samples.values()]) if samples else fixed_edges()
-        pictures = run.each(
-            stages.RENDER, prepared, lambda s: plan(stages.RENDER, s, config.thumbnail_size, config.up)
-        )
-        views = {shape: result.value[1] for shape, result in pictures.items()}
-
-        def plan_describing(shape: str) -> Task:
-            return plan(stages.DESCRIBE, shape, views[shape], edges, preset.by_area)
-
-        described = run.each(stages.DESCRIBE, pictures, plan_describing)
-        measured = {shape: [result.value] for shape, result in described.items()}
-        if preset.whole:
-            whole = run.each(stages.DESCRIBE_WHOLE, described, lambda s: plan(stages.DESCRIBE_WHOLE, s))
-            measured = {shape: [*measured[shape], result.value] for shape, result in whole.items()}
-        shapes = tuple(s for s in database.shapes if s.id in measured)
+            run.each("Preparing shapes", paths, [*looks, stages.SAMPLE], plan, take)
+            kept = [shape for shape in paths if shape in samples]
+            edges = quantile_edges([samples[shape] for shape in kept]) if kept else fixed_edges()
+            run.each("Measuring shapes", kept, described, plan, take)
+        shapes = tuple(s for s in database.shapes if s.id in models)
         if not shapes:
             raise DatabaseError(*_nothing_usable(database_path, failures))
-        examined = run.each(stages.EXAMINE, measured, plan_examining(paths, within))
-        copies = find_copies(run, paths, within, examined)
+        copies = find_copies(run, paths, within, {s.id: outlines[s.id] for s in shapes})
         groups = group_copies(copies, [s.id for s in shapes])
-        rows = [i for i, s in enumerate(database.shapes) if s.id in measured]
+        rows = [row[s.id] for s in shapes]
         features = FeatureTable(
             tuple(s.id for s in shapes),
             blocks,
-            np.column_stack(
-                [
-                    [np.concatenate(measured[s.id]) for s in shapes],
-                    *(values[rows] for _, values in external),
-                ]
-            ),
+            np.column_stack([values[rows], *(own[rows] for _, own in external)]),
         )
         features = weigh(features, preset)
         scaled = scale(features, preset)
@@ -191,19 +213,12 @@ def build_report(
                 found, features, labels, scaled, next(iter(projections.values())).xy, config.neighbours
             )
 
-            def plan_painting(shape: int, bins: tuple[tuple[int, int], ...]) -> Task:
-                name = shapes[shape].id
-                return plan(stages.PAINT, name, views[name], edges, bins, PAINTING_SIZE)
+            def plan_painting(shape: str, bins: tuple[tuple[int, int], ...]) -> Plan:
+                chain, files = plan(shape)
+                chain.add(stages.PAINT, [stages.PREPARE, stages.VIEW], edges, bins, PAINTING_SIZE)
+                return chain, files
 
             paintings = paint_all(run, features, exemplars, plan_painting)
-    models = None
-    if config.meshes:
-        models = tuple(
-            stages.read_model(
-                run.recall(stages.DESCRIBE, described[s.id].key, partial(plan_describing, s.id))
-            )
-            for s in shapes
-        )
     cache.tell()
     with clock.stage("score", "Scoring maps"):
         maps: dict[str, tuple[Projection, Quality]] = {
@@ -235,8 +250,8 @@ def build_report(
     report = Report(
         database=database,
         shapes=shapes,
-        facts=tuple(prepared[s.id].value for s in shapes),
-        thumbnails=tuple(pictures[s.id].value[0] for s in shapes),
+        facts=tuple(facts[s.id] for s in shapes),
+        thumbnails=tuple(pictures[s.id] for s in shapes),
         labeling=labeling,
         labels=labels,
         features=features,
@@ -253,7 +268,7 @@ def build_report(
         bins=found,
         retrieval=retrieval,
         paintings=paintings,
-        models=models,
+        models=Models(run, [(models[s.id], partial(plan, s.id)) for s in shapes]) if config.meshes else None,
         clusters=clusters,
         publication=publication,
         copies=copies,
@@ -274,3 +289,24 @@ def _nothing_usable(path: Path, failures: Sequence[Failure]) -> Iterator[str]:
     yield from (f"  {failure.path}: {failure.reason}" for failure in failures[:5])
     if len(failures) > 5:
         yield f"  and {len(failures) - 5} more"
+
+
+class Models(Sequence[bytes]):
+    """The 3D model of each shape, read when asked for: those of 100,000 are several gigabytes."""
+
+    def __init__(self, run: Runner, described: Sequence[tuple[str, Callable[[], Plan]]]) -> None:
+        self._run = run
+        self._described = described
+
+    def __len__(self) -> int:
+        return len(self._described)
+
+    @overload
+    def __getitem__(self, place: int) -> bytes: ...
+    @overload
+    def __getitem__(self, place: slice) -> Sequence[bytes]: ...
+    def __getitem__(self, place: int | slice) -> bytes | Sequence[bytes]:
+        if isinstance(place, slice):
+            return Models(self._run, self._described[place])
+        key, plan = self._described[place]
+        return stages.read_model(self._run.recall(stages.DESCRIBE, key, plan))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -104,3 +104,28 @@ class Clock:
         self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - wall
         spent = time.process_time() - cpu + workers
         self.cpu_seconds[name] = self.cpu_seconds.get(name, 0.0) + spent
+
+    @contextmanager
+    def stages(
+        self, names: Sequence[str], doing: str, total: int
+    ) -> Iterator[Callable[[Mapping[str, float]], None]]:
+        """Time several stages that are done together; the function it gives takes a worker's CPU seconds by stage.
+
+        The time on the wall is shared out as the CPU seconds are.
+        """
+        wall, cpu = time.perf_counter(), time.process_time()
+        workers = dict.fromkeys(names, 0.0)
+        with self.progress.stage(doing, total) as advance:
+
+            def step(worker_cpu: Mapping[str, float]) -> None:
+                for name, seconds in worker_cpu.items():
+                    workers[name] = workers.get(name, 0.0) + seconds
+                advance()
+
+            yield step
+        wall, cpu = time.perf_counter() - wall, time.process_time() - cpu
+        together = sum(workers.values())
+        for name, seconds in workers.items():
+            share = seconds / together if together else 1 / len(workers)
+            self.seconds[name] = self.seconds.get(name, 0.0) + wall * share
+            self.cpu_seconds[name] = self.cpu_seconds.get(name, 0.0) + seconds + cpu * share

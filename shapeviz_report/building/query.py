@@ -217,7 +217,7 @@ def _measure(
         with progress.stage(stages.PREPARE.doing, 0):
             source = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
             prepared = _compute(executor, cache, stages.PREPARE, source, lambda: (files, edge_length))
-        facts = stages.PREPARE.read(prepared)
+        facts = stages.read_facts(stages.tell_facts(prepared))
         with progress.stage(stages.MEASURE.doing, 0):
             by_area = site.preset.by_area
             key = stages.MEASURE.key(source, site.edges.tobytes(), by_area)

@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.bins import features_of
-from shapeviz_report.building.runner import Result, Runner, Task
+from shapeviz_report.building.chains import Chain, Plan
+from shapeviz_report.building.runner import Runner, Task
 from shapeviz_report.building.stages import (
     CLUSTER,
     COMPARE,
@@ -24,6 +25,7 @@ from shapeviz_report.building.stages import (
     SCORE,
     SEARCH,
     SELECT,
+    Stage,
     identify,
 )
 from shapeviz_report.clusters import describe_clusters
@@ -84,10 +86,9 @@ def find_copies(
     run: Runner,
     paths: Mapping[str, Path],
     within: Path | None,
-    examined: Mapping[str, Result[tuple[dict[str, int], Outline]]],
+    outlines: Mapping[str, Outline],
 ) -> tuple[Copy, ...]:
     """The shapes that are the same shape again; those whose comparison fails are taken for different."""
-    outlines = {shape: result.value[1] for shape, result in examined.items()}
     certain, possible = pair_outlines(outlines)
     found: dict[tuple[str, str], Match | None] = {}
     with run.clock.stage(COMPARE.name, COMPARE.doing, len(possible)) as step:
@@ -395,7 +396,7 @@ def paint_all(
     run: Runner,
     features: FeatureTable,
     exemplars: Mapping[str, Sequence[int]],
-    plan: Callable[[int, tuple[tuple[int, int], ...]], Task],
+    plan: Callable[[str, tuple[tuple[int, int], ...]], Plan],
 ) -> tuple[Painting, ...]:
     """Bins painted on shapes, a task a shape.
 
@@ -406,14 +407,19 @@ def paint_all(
     exemplars : mapping of str to rows
         Bin -> the shapes that are to show it.
     plan : callable
-        The task of a shape, by its row, and some bins, each by its dimension and place, both from 0.
+        The chain that paints some bins, each by its dimension and place, both from 0, on a shape, by its id.
     """
     place = {column: divmod(number, BINS) for number, column in enumerate(features.columns)}
     shapes = sorted({row for rows in exemplars.values() for row in rows})
     columns = {row: [column for column, rows in exemplars.items() if row in rows] for row in shapes}
     names = features.shape_ids
-    tasks = {names[row]: plan(row, tuple(place[column] for column in columns[row])) for row in shapes}
-    painted = run.all(PAINT, tasks)
+    bins = {names[row]: tuple(place[column] for column in columns[row]) for row in shapes}
+    painted: dict[str, list[tuple[bytes, bytes]]] = {}
+
+    def take(shape: str, _: Chain, values: dict[Stage[Any], Any]) -> None:
+        painted[shape] = values[PAINT]
+
+    run.each(PAINT.doing, bins, [PAINT], lambda shape: plan(shape, bins[shape]), take)
     found: dict[tuple[str, int], Painting] = {}
     for row in shapes:
         for column, (value, inside) in zip(columns[row], painted[names[row]], strict=True):

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from shapeviz_report.building import stages
-from shapeviz_report.building.runner import Task
+from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.config import Config
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError
@@ -41,11 +41,13 @@ def load_all_external(paths: Sequence[Path], shape_count: int) -> list[tuple[Fea
     return result
 
 
-def plan_examining(paths: Mapping[str, Path], within: Path | None) -> Callable[[str], Task]:
+def plan_examining(paths: Mapping[str, Path], within: Path | None) -> Callable[[str], Plan]:
     """How the mesh file of a shape is examined."""
 
-    def plan(shape: str) -> Task:
+    def plan(shape: str) -> Plan:
         files = collect_files(paths[shape], within)
-        return Task(stages.EXAMINE.key(stages.identify(paths[shape], files)), lambda: (files,))
+        chain = Chain(stages.identify(paths[shape], files))
+        chain.add(stages.EXAMINE)
+        return chain, files
 
     return plan

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, TypeVar
 
+from shapeviz_report.building.chains import FILES, Chain, Done, Plan, work_through
 from shapeviz_report.building.progress import Clock
 from shapeviz_report.building.stages import Stage
 from shapeviz_report.building.workers import open_workers
@@ -41,14 +43,6 @@ class Task:
         return cls(key, lambda: arguments)
 
 
-@dataclass(frozen=True)
-class Result(Generic[R]):
-    """What a stage found for one shape, and the key under which the cache has it."""
-
-    key: str
-    value: R
-
-
 class Runner:
     """Runs stages for many shapes or questions, and keeps what it finds."""
 
@@ -70,45 +64,136 @@ class Runner:
 
     def each(
         self,
-        stage: Stage[R],
+        doing: str,
         shapes: Iterable[str],
-        plan: Callable[[str], Task],
-    ) -> dict[str, Result[R]]:
-        """The results of a stage for shapes; one that fails is a failure of that shape.
+        wanted: Sequence[Stage[Any]],
+        plan: Callable[[str], Plan],
+        take: Callable[[str, Chain, dict[Stage[Any], Any]], None],
+    ) -> None:
+        """The results of some stages for shapes, a task a shape; one that fails is a failure of that shape.
 
         Parameters
         ----------
-        stage : Stage
+        doing : str
+            What people read meanwhile.
         shapes : iterable of str
             Their ids.
+        wanted : sequence of Stage
+            What is asked for; one that tells why a mesh cannot be used comes first.
         plan : callable
-            The task of a shape; called when its turn comes. May raise :class:`MeshError`.
+            The chain of a shape, with all that is wanted and what it takes; called when its turn comes. May raise
+            :class:`MeshError`.
+        take : callable
+            Gets each shape, its chain and the values by stage, in any order.
 
-        Returns
-        -------
-        dict of str to Result
-            By shape id, in the order of ``shapes``; those that failed are missing.
+        Raises
+        ------
+        DatabaseError
+            One failed whose stage ends the build.
         """
         ids = list(shapes)
-        results: dict[str, Result[R]] = {}
-        failed: dict[str, str] = {}
-        with self.clock.stage(stage.name, stage.doing, len(ids)) as step:
+        failed: dict[str, tuple[Stage[Any], str]] = {}
+        sent: dict[int, tuple[str, Chain, dict[str, bytes]]] = {}
+        number = count()
+        with self.clock.stages([stage.name for stage in wanted], doing, len(ids)) as step:
 
-            def take(shape: str, key: str, content: bytes, cpu_seconds: float) -> None:
-                try:
-                    results[shape] = Result(key, stage.read(content))
-                except MeshError as error:
-                    failed[shape] = str(error)
-                step(cpu_seconds)
+            def end(
+                shape: str, chain: Chain, found: Mapping[str, bytes], spent: Mapping[str, float], reason: str
+            ) -> None:
+                values = {}
+                for stage in wanted:
+                    try:
+                        if stage.folder not in found:
+                            raise MeshError(reason)
+                        values[stage] = stage.read(found[stage.folder])
+                    except MeshError as error:
+                        failed[shape] = (stage, str(error))
+                        break
+                else:
+                    take(shape, chain, values)
+                step(spent)
 
-            def drop(shape: str, reason: str, cpu_seconds: float) -> None:
-                failed[shape] = reason
-                step(cpu_seconds)
+            def fail(shape: str, reason: str) -> None:
+                failed[shape] = (wanted[0], reason)
+                step({})
 
-            self.find(stage, ids, plan, take, drop)
+            def open_tasks() -> Iterator[tuple[Any, ...]]:
+                for shape in ids:
+                    try:
+                        chain, files = plan(shape)
+                    except MeshError as error:
+                        fail(shape, str(error))
+                        continue
+                    except MemoryError:
+                        fail(shape, "it is larger than the memory that this machine has left")
+                        continue
+                    found = self._look_up(chain, wanted)
+                    task = self._task(chain, files, wanted, found)
+                    # it may be a gigabyte, and is not to be held while the next one is made
+                    del files
+                    if task is None:
+                        end(shape, chain, found, {}, "")
+                        continue
+                    sent[next(number)] = (shape, chain, found)
+                    arguments = [task]
+                    del task
+                    yield arguments.pop()
+
+            patience = max(stage.patience for stage in wanted)
+            for outcome in self.executor.run(work_through, open_tasks(), patience):
+                shape, chain, found = sent.pop(outcome.index)
+                done = outcome.value or Done({}, {}, None)
+                for name, content in done.results.items():
+                    self._cache.store(name, chain.links[name].key, content)
+                found |= done.results
+                reason = outcome.reason or (done.refused[1] if done.refused else "")
+                end(shape, chain, found, _by_stage(chain, done, outcome.cpu_seconds), reason)
         # Workers finish in any order; the report must not show which.
-        self._failures.extend(Failure(self._paths[i], stage.name, failed[i]) for i in ids if i in failed)
-        return {shape: results[shape] for shape in ids if shape in results}
+        for shape in (shape for shape in ids if shape in failed):
+            stage, reason = failed[shape]
+            if stage.failing:
+                raise DatabaseError(stage.failing.format(task=shape, reason=reason))
+            self._failures.append(Failure(self._paths[shape], stage.name, reason))
+
+    def _look_up(self, chain: Chain, wanted: Sequence[Stage[Any]]) -> dict[str, bytes]:
+        """What the cache has of what is wanted, by the folder of each stage."""
+        found = ((stage.folder, self._cache.load(stage.folder, chain.key(stage))) for stage in wanted)
+        return {name: content for name, content in found if content is not None}
+
+    def _task(
+        self,
+        chain: Chain,
+        files: Mapping[str, bytes],
+        wanted: Sequence[Stage[Any]],
+        found: Mapping[str, bytes],
+    ) -> tuple[Any, ...] | None:
+        """The arguments of :func:`work_through` for what is wanted and not found; None where nothing is to be done."""
+        missing = {stage.folder for stage in wanted} - found.keys()
+        if not missing or any(_refuses(stage, found.get(stage.folder)) for stage in wanted):
+            return None
+        given: dict[str, Any] = {}
+        needed = set(missing)
+        for name, link in reversed(chain.links.items()):
+            if name not in needed:
+                continue
+            for source in link.inputs:
+                if source in given or source in needed:
+                    continue
+                if source == FILES:
+                    given[FILES] = files
+                    continue
+                content = found.get(source) or self._cache.load(source, chain.links[source].key)
+                if content is None:
+                    needed.add(source)
+                else:
+                    given[source] = content
+        links = [
+            (name, link.stage.compute, link.inputs, link.options)
+            for name, link in chain.links.items()
+            if name in needed
+        ]
+        # What is far off does not send what only stands between, such as the prepared mesh.
+        return given, links, needed if self.executor.near else missing
 
     def all(self, stage: Stage[R], tasks: Mapping[Name, Task]) -> dict[Name, R]:
         """The results of a stage for all tasks, each by its name; one that fails ends the build."""
@@ -204,7 +289,7 @@ class Runner:
             else:
                 drop(name, outcome.reason, outcome.cpu_seconds)
 
-    def recall(self, stage: Stage[Any], key: str, plan: Callable[[], Task]) -> bytes:
+    def recall(self, stage: Stage[Any], key: str, plan: Callable[[], Plan]) -> bytes:
         """A result that was there a moment ago, computed anew if the cache has lost it.
 
         Parameters
@@ -212,7 +297,7 @@ class Runner:
         stage : Stage
         key : str
         plan : callable
-            Its task.
+            The chain that leads to it.
 
         Raises
         ------
@@ -220,18 +305,40 @@ class Runner:
             It cannot be had again: the mesh has changed or gone, or fails this time.
         """
         content = self._cache.load(stage.folder, key)
+        if content is None:
+            chain, files = plan()
+            if chain.key(stage) != key:
+                raise MeshError("its file was changed while it was used; build again")
+            task = self._task(chain, files, [stage], {})
+            # The executor may be in the middle of a stage, so this rare task has a worker of its own.
+            with open_workers(self._config, 1) as executor:
+                (outcome,) = executor.run(work_through, [task] if task else [])
+            if outcome.reason is not None or outcome.value.refused:
+                raise MeshError(outcome.reason or outcome.value.refused[1])
+            content = outcome.value.results[stage.folder]
+            self._cache.store(stage.folder, key, content)
+        return content
+
+
+def _refuses(stage: Stage[Any], content: bytes | None) -> bool:
+    """Whether a result says that the mesh cannot be used."""
+    try:
         if content is not None:
-            return content
-        task = plan()
-        if task.key != key:
-            raise MeshError("its file was changed while it was used; build again")
-        # The executor may be in the middle of a stage, so this rare task has a worker of its own.
-        with open_workers(self._config, 1) as executor:
-            (outcome,) = executor.run(stage.compute, [task.arguments()])
-        if outcome.reason is not None:
-            raise MeshError(outcome.reason)
-        self._cache.store(stage.folder, key, outcome.value)
-        return outcome.value
+            stage.read(content)
+    except MeshError:
+        return True
+    return False
+
+
+def _by_stage(chain: Chain, done: Done, cpu_seconds: float) -> dict[str, float]:
+    """CPU seconds by the name of a stage; what a worker took beside its stages goes to the first."""
+    spent: dict[str, float] = {}
+    for name, seconds in done.cpu_seconds.items():
+        stage = chain.links[name].stage.name
+        spent[stage] = spent.get(stage, 0.0) + seconds
+    first = next(iter(spent), next(iter(chain.links.values())).stage.name)
+    spent[first] = spent.get(first, 0.0) + max(0.0, cpu_seconds - sum(spent.values()))
+    return spent
 
 
 def _relative(shape: ShapeEntry, root: Path) -> str:

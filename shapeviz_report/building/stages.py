@@ -108,7 +108,7 @@ def read_match(content: bytes) -> Match | None:
 
 
 def prepare_shape(files: Mapping[str, bytes], edge_length: float) -> bytes:
-    """A mesh file prepared, as an archive for the other functions and for :func:`read_facts`.
+    """A mesh file prepared, as an archive for the other functions.
 
     A mesh that cannot be used gives an archive too, with the reason: so that it costs its time only once.
     """
@@ -119,10 +119,15 @@ def prepare_shape(files: Mapping[str, bytes], edge_length: float) -> bytes:
         return _pack(Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32)), {"refused": str(error)})
 
 
-def read_facts(prepared: bytes) -> ShapeFacts:
-    """The facts of a prepared shape. Raises :class:`MeshError` with the reason if it cannot be used."""
+def tell_facts(prepared: bytes) -> bytes:
+    """What is known of a prepared shape, or why there is none, for :func:`read_facts`: a thousandth of the mesh."""
     with np.load(io.BytesIO(prepared), allow_pickle=False) as archive:
-        note = json.loads(str(archive["note"]))
+        return str(archive["note"]).encode()
+
+
+def read_facts(told: bytes) -> ShapeFacts:
+    """The facts of a prepared shape. Raises :class:`MeshError` with the reason if it cannot be used."""
+    note = json.loads(told)
     if "refused" in note:
         raise MeshError(note["refused"])
     return ShapeFacts(**note["facts"] | {"extents": tuple(note["facts"]["extents"])})
@@ -133,13 +138,22 @@ def sample_shape(prepared: bytes, count: int) -> bytes:
     return _pack_array(sample_values(_unpack(prepared), count))
 
 
-def describe_shape(prepared: bytes, view: FloatArray, edges: FloatArray, by_area: bool) -> bytes:
-    """The features of a prepared shape, for :func:`read_features`, and its model, for :func:`read_model`."""
+def describe_shape(prepared: bytes, view: bytes, edges: FloatArray, by_area: bool) -> bytes:
+    """The features of a prepared shape, for :func:`read_features`, and its model, for :func:`read_model`.
+
+    Parameters
+    ----------
+    prepared : bytes
+    view : bytes
+        As :func:`view_shape` found it.
+    edges : (dimensions, 11) float64 array
+    by_area : bool
+    """
     mesh = _unpack(prepared)
     model = simplify(mesh)
     features, bins = describe(mesh, edges, model.source, by_area=by_area)
     # Level 9 would save a fortieth of the bytes for eight times the time.
-    packed = gzip.compress(pack_model(model, bins, view), compresslevel=6, mtime=0)
+    packed = gzip.compress(pack_model(model, bins, read_array(view)), compresslevel=6, mtime=0)
     return _pack_arrays(features=features, model=np.frombuffer(packed, np.uint8))
 
 
@@ -166,37 +180,34 @@ def read_model(described: bytes) -> bytes:
 
 
 def read_array(content: bytes) -> npt.NDArray[Any]:
-    """The array in a result of :func:`sample_shape`, :func:`measure_shape`, :func:`describe_whole_shape`,
-    :func:`project_features` or :func:`score_bins`."""
+    """The array in a result of :func:`sample_shape`, :func:`view_shape`, :func:`measure_shape`,
+    :func:`describe_whole_shape`, :func:`project_features` or :func:`score_bins`."""
     return np.load(io.BytesIO(content), allow_pickle=False)
 
 
-def render_shape(prepared: bytes, size: int, up: UpAxis | None) -> bytes:
-    """The thumbnail of a prepared shape, ``size`` x ``size`` pixels, and its view, for :func:`read_picture`.
+def view_shape(prepared: bytes, up: UpAxis | None) -> bytes:
+    """From where a prepared shape is shown; a rotation (3, 3) as a file.
 
     Which axis points up, who builds the site knows best; then the file; then it is guessed.
     """
-    mesh = _unpack(prepared)
-    view = choose_view(mesh, up or read_facts(prepared).up)
-    picture = render_thumbnail(mesh, view, size=size)
-    return _pack_arrays(view=view, picture=np.frombuffer(picture, np.uint8))
+    return _pack_array(choose_view(_unpack(prepared), up or read_facts(tell_facts(prepared)).up))
 
 
-def read_picture(rendered: bytes) -> tuple[bytes, FloatArray]:
-    """The thumbnail, a WebP image, and the view, a rotation, in a result of :func:`render_shape`."""
-    arrays = _read_arrays(rendered)
-    return arrays["picture"].tobytes(), arrays["view"]
+def render_shape(prepared: bytes, view: bytes, size: int) -> bytes:
+    """The thumbnail of a prepared shape, as :func:`view_shape` found it: a WebP image of ``size`` x ``size`` pixels."""
+    return render_thumbnail(_unpack(prepared), read_array(view), size=size)
 
 
 def paint_shape(
-    prepared: bytes, view: FloatArray, edges: FloatArray, bins: Sequence[tuple[int, int]], size: int
+    prepared: bytes, view: bytes, edges: FloatArray, bins: Sequence[tuple[int, int]], size: int
 ) -> bytes:
     """Bins painted on a prepared shape, for :func:`read_paintings`.
 
     Parameters
     ----------
     prepared : bytes
-    view : (3, 3) float64 array
+    view : bytes
+        As :func:`view_shape` found it.
     edges : (dimensions, 11) float64 array
     bins : sequence of (int, int)
         Dimension and bin, both from 0.
@@ -209,7 +220,7 @@ def paint_shape(
     falls = find_bins(values, edges[dimensions])
     colorings = [value_colors(row, edges[dimension]) for row, dimension in zip(values, dimensions)]
     colorings += [mark_colors(falls[dimensions.index(dimension)] == place) for dimension, place in bins]
-    pictures = render_painted(mesh, view, colorings, size=size)
+    pictures = render_painted(mesh, read_array(view), colorings, size=size)
     by_dimension = dict(zip(dimensions, pictures))
     inside = pictures[len(dimensions) :]
     return _pack_arrays(
@@ -386,14 +397,16 @@ def identify(path: Path, files: Mapping[str, bytes]) -> str:
 
 EXAMINE = Stage("examine", "Outlining meshes", "examined", examine_shape, read_examined)
 COMPARE = Stage("compare", "Comparing look-alikes", "compared", compare_shapes, read_match)
-PREPARE = Stage("prepare", "Preparing meshes", "prepared", prepare_shape, read_facts)
+PREPARE = Stage("prepare", "Preparing meshes", "prepared", prepare_shape, bytes)
+FACTS = Stage("prepare", "Preparing meshes", "facts", tell_facts, read_facts)
 SAMPLE = Stage("sample", "Finding value ranges", "sampled", sample_shape, read_array)
 DESCRIBE = Stage("describe", "Describing shapes", "described", describe_shape, read_features)
 MEASURE = Stage("describe", "Describing shapes", "measured", measure_shape, read_array)
 DESCRIBE_WHOLE = Stage(
     "describe", "Describing whole shapes", "described-whole", describe_whole_shape, read_array
 )
-RENDER = Stage("render", "Drawing thumbnails", "rendered", render_shape, read_picture)
+VIEW = Stage("render", "Choosing views", "viewed", view_shape, read_array)
+RENDER = Stage("render", "Drawing thumbnails", "rendered", render_shape, bytes)
 GENERATE = Stage(
     "generate", "Generating shapes", "generated", generate_shape, bytes,
     "The demo shape {task} cannot be made: {reason}.",
@@ -444,7 +457,11 @@ def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:
 
 
 def _unpack(prepared: bytes) -> Mesh:
+    """A prepared mesh. Raises :class:`MeshError` with the reason if there is none."""
     with np.load(io.BytesIO(prepared), allow_pickle=False) as archive:
+        note = json.loads(str(archive["note"]))
+        if "refused" in note:
+            raise MeshError(note["refused"])
         return Mesh(archive["vertices"], archive["faces"])
 
 

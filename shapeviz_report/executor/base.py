@@ -32,7 +32,15 @@ class Outcome:
 
 
 class Executor(Protocol):
-    """Something that runs tasks, on this machine or on others. A context manager, which ends what it started."""
+    """Something that runs tasks, on this machine or on others. A context manager, which ends what it started.
+
+    Attributes
+    ----------
+    near : bool
+        Whether results come from this machine, so that large ones cost little.
+    """
+
+    near: bool
 
     def __enter__(self) -> Self: ...
 

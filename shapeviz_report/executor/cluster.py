@@ -63,6 +63,8 @@ class DaskExecutor:
         The scheduler does not answer.
     """
 
+    near = False
+
     def __init__(
         self,
         address: str,

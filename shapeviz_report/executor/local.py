@@ -38,6 +38,8 @@ class LocalExecutor:
         Bytes of memory that one worker may take.
     """
 
+    near = True
+
     def __init__(self, jobs: int, time_limit: float, memory_limit: int) -> None:
         self.jobs = jobs
         self.time_limit = time_limit

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -58,7 +58,7 @@ class Report:
         None where no class has two shapes.
     paintings : tuple of Painting
         Of the bins that ``bins`` found, on shapes that show the contrast; those of external features have none.
-    models : tuple of bytes, or None
+    models : sequence of bytes, or None
         The 3D model of each shape as :func:`shapeviz_report.models.pack_model` packs it, gzipped. None if they were
         left out.
     clusters : Clusters or None
@@ -99,7 +99,7 @@ class Report:
     bins: BinSearch | None = None
     retrieval: Retrieval | None = None
     paintings: tuple[Painting, ...] = ()
-    models: tuple[bytes, ...] | None = None
+    models: Sequence[bytes] | None = None
     clusters: Clusters | None = None
     publication: Publication = Publication()
     copies: tuple[Copy, ...] = ()
@@ -148,7 +148,6 @@ class Report:
             _require(_is_webp(painting.value) and _is_webp(painting.inside), "a painting is not a WebP image")
         if self.models is not None:
             _require(len(self.models) == count, "models do not match the shapes")
-            _require(all(model[:2] == b"\x1f\x8b" for model in self.models), "a model is not gzipped")
         if self.best is not None:
             _require(self.best[0].xy.shape == (count, 2), "the best map has another number of points")
         if self.related is not None:

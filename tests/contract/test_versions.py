@@ -80,7 +80,8 @@ EXPECTED = {
     "SCORE": {"scorers.kernels.random", "scorers.balance", "scorers.rfe"},
     "PREPARE": {"mesh.readers.ply", "mesh.remesh", "database.formats", "types.mesh"},
     "CLUSTER": {"clusters", "projections.base"},
-    "RENDER": {"render.rasteriser", "render.viewpoint"},
+    "RENDER": {"render.rasteriser", "render.shading"},
+    "VIEW": {"render.viewpoint"},
     "DESCRIBE": {"descriptors.kernels.rays", "models", "features"},
 }
 
@@ -150,7 +151,9 @@ def test_what_runs_is_reached() -> None:
         call("EXAMINE", files)
         call("COMPARE", files, {"same.ply": files["ball.ply"]})
         prepared = call("PREPARE", files, 0.05)
-        view = stages.read_picture(call("RENDER", prepared, 64, None))[1]
+        call("FACTS", prepared)
+        view = call("VIEW", prepared, None)
+        call("RENDER", prepared, view, 64)
         edges = fixed_edges()
         call("SAMPLE", prepared, 20)
         call("DESCRIBE", prepared, view, edges, True)

@@ -51,7 +51,7 @@ def test_build_tells_what_it_did(database, built, tmp_path, flags) -> None:
     assert float(summary["NH_s tsne"].split()[0]) == pytest.approx(found, abs=5e-4)
     assert "prepare" in summary["seconds"]
     assert done.stdout.rstrip().endswith(str(tmp_path / "site" / "index.html"))
-    assert "Preparing meshes: 15" in done.stderr
+    assert "Measuring shapes: 15" in done.stderr
 
 
 def test_a_site_in_one_file_is_built_and_a_missing_licence_is_told(database, built, tmp_path, flags) -> None:

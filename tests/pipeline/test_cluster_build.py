@@ -10,7 +10,7 @@ from small_database import WITH_SEARCH, read_site
 
 import shapeviz_report
 from shapeviz_report.building.pipeline import build_report
-from shapeviz_report.building.stages import DESCRIBE, PREPARE
+from shapeviz_report.building.stages import SEARCH
 from shapeviz_report.config import Config
 
 CLUSTER_OPTIONS = {name: value for name, value in WITH_SEARCH.items() if name != "jobs"}
@@ -36,8 +36,8 @@ class Watcher:
         yield advance
 
 
-@pytest.mark.parametrize("stage", [PREPARE, DESCRIBE], ids=lambda stage: stage.name)
-def test_the_same_site_though_a_worker_is_killed_half_way(stage, built, database, tmp_path) -> None:
+@pytest.mark.parametrize("doing", ["Measuring shapes", SEARCH.doing])
+def test_the_same_site_though_a_worker_is_killed_half_way(doing, built, database, tmp_path) -> None:
     site, _ = built
     (tmp_path / "cluster").mkdir()
     with running_cluster(tmp_path / "cluster", workers=2) as cluster:
@@ -45,10 +45,12 @@ def test_the_same_site_though_a_worker_is_killed_half_way(stage, built, database
             database,
             tmp_path / "site",
             Config(scheduler=cluster.address, cache=tmp_path / "cache", **CLUSTER_OPTIONS),
-            Watcher(stage.doing, cluster.workers[0].kill),
+            Watcher(doing, cluster.workers[0].kill),
         )
         assert cluster.workers[0].wait() == -9
     assert report.failures == ()
+    assert (tmp_path / "cache" / "facts").exists()
+    assert not (tmp_path / "cache" / "prepared").exists(), "prepared meshes stay where they are made"
     assert read_site(site) == read_site(tmp_path / "site")
 
 

@@ -8,7 +8,7 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from shapeviz_report.building.stages import prepare_shape, read_picture, render_shape
+from shapeviz_report.building.stages import prepare_shape, read_array, view_shape
 from shapeviz_report.render.viewpoint import choose_view
 from shapeviz_report.types import Mesh
 
@@ -132,7 +132,7 @@ def test_file_says_what_is_up_unless_the_builder_does(axis):
     box = conformance.collada.document(asset=f"<up_axis>{axis.upper()}_UP</up_axis>")
     prepared = prepare_shape({"box.dae": box}, 0.1)
     for wanted, given in ((axis, None), ("z", "z")):
-        view = read_picture(render_shape(prepared, 32, given))[1]
+        view = read_array(view_shape(prepared, given))
         upward = view[:, "xyz".index(wanted)]
         assert upward[0] == pytest.approx(0, abs=1e-9)
         assert upward[1] > 0.5
