@@ -5,9 +5,10 @@
 >>> report.projections["tsne"][1].nh_s                       # doctest: +SKIP
 0.905
 
-The stages can be used on their own: ``database.read_database``, ``mesh.prepare``, ``descriptors.DESCRIPTORS``,
-``features.compute_histograms``, ``projections.project``, ``quality.score``, ``search.bins.select_bins``,
-``render.render_thumbnail``, ``models.simplify``, ``site.write_site``.
+Features without a site: :func:`describe` of a mesh, :func:`describe_database`, and :class:`ShapeDescriptors` for
+scikit-learn. The stages can be used on their own: ``database.read_database``, ``mesh.prepare``,
+``descriptors.DESCRIPTORS``, ``features.compute_histograms``, ``projections.project``, ``quality.score``,
+``search.bins.select_bins``, ``render.render_thumbnail``, ``models.simplify``, ``writing.write_site``.
 """
 
 from __future__ import annotations
@@ -34,11 +35,32 @@ from shapeviz_report.errors import ShapevizError
 
 if TYPE_CHECKING:
     from shapeviz_report.building.check import CheckResult
+    from shapeviz_report.building.describing import DescribedDatabase, DescribedMesh
     from shapeviz_report.building.query import QueryResult
+    from shapeviz_report.transformer import ShapeDescriptors
     from shapeviz_report.types import Report
 
 __version__ = version("shapeviz-report")
-__all__ = ["ShapevizError", "__version__", "build", "check", "demo_site", "query"]
+__all__ = [
+    "ShapeDescriptors",
+    "ShapevizError",
+    "__version__",
+    "build",
+    "check",
+    "demo_site",
+    "describe",
+    "describe_database",
+    "query",
+]
+
+
+def __getattr__(name: str) -> Any:
+    # scikit-learn takes long to import, and workers import this package too
+    if name == "ShapeDescriptors":
+        from shapeviz_report.transformer import ShapeDescriptors
+
+        return ShapeDescriptors
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def build(database: str | os.PathLike[str], destination: str | os.PathLike[str], **options: Any) -> Report:
@@ -84,6 +106,37 @@ def check(database: str | os.PathLike[str], **options: Any) -> CheckResult:
     from shapeviz_report.config import load_config
 
     return check_database(Path(database), load_config(Path(database), options))
+
+
+def describe(mesh: Any, **options: Any) -> DescribedMesh:
+    """Everything that is measured of one mesh: values at every vertex, and its row of features.
+
+    Parameters
+    ----------
+    mesh : path, pair of arrays, or object
+        A mesh file; vertices (n, 3) and faces (m, 3); or what has ``vertices`` and ``faces``, as a
+        ``trimesh.Trimesh``.
+    **options
+        Of the fields of :class:`shapeviz_report.config.Config`, ``edge_length``, ``cache``, ``time_limit`` and
+        ``memory_limit`` matter.
+
+    Raises
+    ------
+    MeshError
+        The mesh cannot be used.
+    """
+    from shapeviz_report.building.describing import describe_mesh
+    from shapeviz_report.config import load_config
+
+    return describe_mesh(mesh, load_config(None, {"jobs": 1, **options}))
+
+
+def describe_database(database: str | os.PathLike[str], **options: Any) -> DescribedDatabase:
+    """The features of a shape database, without pictures, maps or a site; see :func:`build`."""
+    from shapeviz_report.building import describing
+    from shapeviz_report.config import load_config
+
+    return describing.describe_database(Path(database), load_config(Path(database), options))
 
 
 def query(

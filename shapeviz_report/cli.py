@@ -46,6 +46,12 @@ LINES_EVERY = 30.0
 QUERYING = ("time_limit", "memory_limit", "cache")
 """Options of a build that a query has as well."""
 
+DESCRIBING = (
+    "layout", "labeling", "preset", "external", "outside", "edge_length", "time_limit", "memory_limit", "jobs",
+    "scheduler", "cache",
+)  # fmt: skip
+"""Options of a build that decide its features, and where they are computed."""
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code."""
@@ -189,6 +195,26 @@ def _parser() -> argparse.ArgumentParser:
     _add_options(query, QUERYING)
     query.set_defaults(command=_query)
 
+    describe = commands.add_parser(
+        "describe",
+        help="write the features of a shape database to a file",
+        description="Measure a shape database and write its features to one file, a row a shape, for other programs: "
+        "no pictures, maps or site. What was computed before and has not changed is reused.",
+        epilog=EXIT_CODES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    _add_database(describe)
+    describe.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        type=Path,
+        required=True,
+        help="FILE.parquet (needs pyarrow), FILE.csv, or FILE.npz for numpy; an earlier one is replaced",
+    )
+    _add_options(describe, DESCRIBING)
+    describe.set_defaults(command=_describe)
+
     cache = commands.add_parser(
         "cache",
         help="say what the cache holds, and remove what was not used for long",
@@ -322,6 +348,22 @@ def _check(options: argparse.Namespace) -> int:
     if not result.failures:
         _say("", "All files can be used.")
     return 1 if result.failures else 0
+
+
+def _describe(options: argparse.Namespace) -> int:
+    from shapeviz_report.building.describing import describe_database
+    from shapeviz_report.writing.feature_files import check_feature_file, write_feature_file
+
+    listen(end_in_order)
+    config = load_config(options.database, _given(options), options.config)
+    check_feature_file(options.output, options.database)
+    found = describe_database(options.database, config, TerminalProgress())
+    write_feature_file(options.output, found.database, found.shapes, found.features, found.edges)
+    _print_failures(found.failures)
+    shapes = _count(len(found.shapes), "shape", "shapes")
+    columns = _count(len(found.features.columns), "feature value", "feature values")
+    _say("", f"{options.output}: {shapes}, {columns} each")
+    return 0
 
 
 def _query(options: argparse.Namespace) -> int:

@@ -30,6 +30,7 @@ ADDRESSES = {
     "Navigate": ("POST", "/session/{session}/url"),
     "Back": ("POST", "/session/{session}/back"),
     "SetWindowRect": ("POST", "/session/{session}/window/rect"),
+    "SwitchToFrame": ("POST", "/session/{session}/frame"),
     "ExecuteAsyncScript": ("POST", "/session/{session}/execute/async"),
     "PerformActions": ("POST", "/session/{session}/actions"),
 }
@@ -120,6 +121,14 @@ class Window:
         # From one address of a page to another, a browser does not load it again.
         self.wire.send("Navigate", {"url": "about:blank"})
         self.wire.send("Navigate", {"url": address})
+
+    def enter(self, frame: int) -> None:
+        """Go on in a frame of the document, by its number from 0."""
+        self.wire.send("SwitchToFrame", {"id": frame})
+
+    def leave(self) -> None:
+        """Go on in the page itself."""
+        self.wire.send("SwitchToFrame", {"id": None})
 
     def back(self) -> None:
         self.wire.send("Back", {})

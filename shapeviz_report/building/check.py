@@ -12,7 +12,7 @@ from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import find_copies
 from shapeviz_report.building.reading import load_all_external, plan_examining, read_published
-from shapeviz_report.building.runner import Runner
+from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.stages import EXAMINE, Stage
 from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache, default_root
@@ -58,7 +58,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
     failures = list(database.failures)
     cache = Cache(root)
     with open_workers(config, config.worker_count) as executor:
-        run = Runner(executor, clock, cache, database, failures, config)
+        run = Runner(executor, clock, cache, name_files(database), failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
         within = None if config.outside else database.root
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from importlib.metadata import version
 from pathlib import Path
@@ -16,6 +16,7 @@ from shapeviz_report.bins import read_bins, scale_bins
 from shapeviz_report.building import stages
 from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.building.guard import check_meshes, check_places
+from shapeviz_report.building.measuring import nothing_usable, sampled_of_each
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import (
     find_clusters,
@@ -30,7 +31,7 @@ from shapeviz_report.building.questions import (
     search_subsets,
 )
 from shapeviz_report.building.reading import load_all_external, read_published
-from shapeviz_report.building.runner import Runner
+from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
@@ -49,7 +50,6 @@ from shapeviz_report.render import check_renderer
 from shapeviz_report.search import make_space
 from shapeviz_report.separation import rate_separation
 from shapeviz_report.types import (
-    Failure,
     FeatureTable,
     FloatArray,
     Painting,
@@ -59,13 +59,7 @@ from shapeviz_report.types import (
     ShapeFacts,
     group_copies,
 )
-from shapeviz_report.writing import write_site
-
-SAMPLED_VERTICES = 400_000
-"""Vertices behind data-driven histogram ranges, over all shapes."""
-
-SAMPLED_OF_A_SHAPE = (16, 1000)
-"""The least and most of these of one shape."""
+from shapeviz_report.writing import ShownReport, write_site
 
 CLUSTERS = "clusters"
 """What the labeling is called that stands in for labels."""
@@ -119,13 +113,13 @@ def build_report(
     failures = list(database.failures)
 
     with open_executor(config) as executor:
-        run = Runner(executor, clock, cache, database, failures, config)
+        run = Runner(executor, clock, cache, name_files(database), failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
         within = None if config.outside else database.root
 
         def plan(shape: str) -> Plan:
             files = collect_files(paths[shape], within)
-            chain = Chain(stages.identify(paths[shape], files))
+            chain = Chain(stages.identify(files))
             chain.add(stages.PREPARE, (), config.edge_length)
             chain.add(stages.FACTS, [stages.PREPARE])
             chain.add(stages.EXAMINE)
@@ -164,7 +158,7 @@ def build_report(
                 models[shape] = chain.key(stages.DESCRIBE)
 
         looks: list[stages.Stage[Any]] = [stages.FACTS, stages.EXAMINE, stages.RENDER]
-        share = int(np.clip(SAMPLED_VERTICES // max(1, len(paths)), *SAMPLED_OF_A_SHAPE))
+        share = sampled_of_each(len(paths))
         edges = fixed_edges() if preset.fixed_ranges else None
         if edges is not None:
             run.each("Measuring shapes", paths, [*looks, *described], plan, take)
@@ -175,7 +169,7 @@ def build_report(
             run.each("Measuring shapes", kept, described, plan, take)
         shapes = tuple(s for s in database.shapes if s.id in models)
         if not shapes:
-            raise DatabaseError(*_nothing_usable(database_path, failures))
+            raise DatabaseError(*nothing_usable(database_path, failures))
         copies = find_copies(run, paths, within, {s.id: outlines[s.id] for s in shapes})
         groups = group_copies(copies, [s.id for s in shapes])
         rows = [row[s.id] for s in shapes]
@@ -247,7 +241,7 @@ def build_report(
             search,
             found.automatic if found is not None else None,
         )
-    report = Report(
+    report = ShownReport(
         database=database,
         shapes=shapes,
         facts=tuple(facts[s.id] for s in shapes),
@@ -281,14 +275,6 @@ def build_report(
     with clock.stage("write", "Writing the site"):
         write_site(report, destination, single_file=config.single_file)
     return report
-
-
-def _nothing_usable(path: Path, failures: Sequence[Failure]) -> Iterator[str]:
-    """The lines of a message."""
-    yield f"None of the files in {path} can be used:"
-    yield from (f"  {failure.path}: {failure.reason}" for failure in failures[:5])
-    if len(failures) > 5:
-        yield f"  and {len(failures) - 5} more"
 
 
 class Models(Sequence[bytes]):

@@ -7,23 +7,19 @@ compared with the features that the site holds for download. ``docs/method/retri
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from shapeviz_report.bins import read_bins
-from shapeviz_report.building import stages
+from shapeviz_report.building.describing import measure_mesh
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Progress, QuietProgress
-from shapeviz_report.cache import Cache
-from shapeviz_report.errors import ConfigError, MeshError
-from shapeviz_report.executor import Executor, LocalExecutor, memory_share
-from shapeviz_report.mesh import collect_files
+from shapeviz_report.config import Config
+from shapeviz_report.errors import ConfigError
 from shapeviz_report.similarity import rank_similar, typical_distance
-from shapeviz_report.types import FloatArray, ShapeFacts
+from shapeviz_report.types import ShapeFacts
 from shapeviz_report.writing.data import SiteData, read_site
 
 
@@ -137,9 +133,15 @@ def find_similar(
     check_cache(cache, None)
     opened = read_site(site)
     chosen, names, left_out = _choose(opened, features, bins)
-    with LocalExecutor(1, time_limit, memory_limit or memory_share(1)) as executor:
-        facts, values = _measure(opened, mesh, Cache(cache), executor, progress or QuietProgress())
+    config = Config(
+        edge_length=opened.summary["parameters"]["edge_length"],
+        time_limit=time_limit,
+        memory_limit=None if memory_limit is None else memory_limit / 2**30,
+        jobs=1,
+        cache=cache,
+    )
     table, preset = opened.table, opened.preset
+    facts, values = measure_mesh(mesh, config, preset, opened.edges, progress or QuietProgress())
     compared: dict[str, Any] = {chosen: names}
     similar = rank_similar(table, preset, values, **compared, count=count)
     blocks = [block.name for block in table.blocks]
@@ -205,47 +207,3 @@ def _choose(
 
 
 _BROUGHT = "which was brought along to the build as a file: a mesh alone has no value for it"
-
-
-def _measure(
-    site: SiteData, mesh: Path, cache: Cache, executor: Executor, progress: Progress
-) -> tuple[ShapeFacts, FloatArray]:
-    """The mesh, prepared and measured as the site's own were."""
-    try:
-        files = collect_files(mesh)
-        edge_length = float(site.summary["parameters"]["edge_length"])
-        with progress.stage(stages.PREPARE.doing, 0):
-            source = stages.PREPARE.key(stages.identify(mesh, files), edge_length)
-            prepared = _compute(executor, cache, stages.PREPARE, source, lambda: (files, edge_length))
-        facts = stages.read_facts(stages.tell_facts(prepared))
-        with progress.stage(stages.MEASURE.doing, 0):
-            by_area = site.preset.by_area
-            key = stages.MEASURE.key(source, site.edges.tobytes(), by_area)
-            measured = _compute(executor, cache, stages.MEASURE, key, lambda: (prepared, site.edges, by_area))
-            values = [stages.MEASURE.read(measured)]
-            if site.preset.whole:
-                key = stages.DESCRIBE_WHOLE.key(source)
-                measured = _compute(executor, cache, stages.DESCRIBE_WHOLE, key, lambda: (prepared,))
-                values.append(stages.DESCRIBE_WHOLE.read(measured))
-    except MeshError as error:
-        raise MeshError(f"the mesh {mesh} cannot be used: {error}") from error
-    cache.tell()
-    return facts, np.concatenate(values)
-
-
-def _compute(
-    executor: Executor,
-    cache: Cache,
-    stage: stages.Stage[Any],
-    key: str,
-    arguments: Callable[[], tuple[Any, ...]],
-) -> bytes:
-    """The result of a stage, kept or computed. Raises :class:`MeshError` with the reason if there is none."""
-    content = cache.load(stage.folder, key)
-    if content is not None:
-        return content
-    (outcome,) = executor.run(stage.compute, [arguments()])
-    if outcome.reason is not None:
-        raise MeshError(outcome.reason)
-    cache.store(stage.folder, key, outcome.value)
-    return outcome.value

@@ -95,8 +95,7 @@ def find_copies(
 
         def plan(pair: tuple[str, str]) -> Task:
             first, second = (collect_files(paths[shape], within) for shape in pair)
-            names = [identify(paths[shape], files) for shape, files in zip(pair, (first, second))]
-            return Task(COMPARE.key(*names), lambda: (first, second))
+            return Task(COMPARE.key(identify(first), identify(second)), lambda: (first, second))
 
         def take(pair: tuple[str, str], _: str, content: bytes, cpu_seconds: float) -> None:
             found[pair] = COMPARE.read(content)

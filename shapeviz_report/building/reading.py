@@ -46,7 +46,7 @@ def plan_examining(paths: Mapping[str, Path], within: Path | None) -> Callable[[
 
     def plan(shape: str) -> Plan:
         files = collect_files(paths[shape], within)
-        chain = Chain(stages.identify(paths[shape], files))
+        chain = Chain(stages.identify(files))
         chain.add(stages.EXAMINE)
         return chain, files
 

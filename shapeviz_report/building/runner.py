@@ -44,14 +44,26 @@ class Task:
 
 
 class Runner:
-    """Runs stages for many shapes or questions, and keeps what it finds."""
+    """Runs stages for many shapes or questions, and keeps what it finds.
+
+    Parameters
+    ----------
+    executor : Executor
+    clock : Clock
+    cache : Cache
+    files : mapping of str to str
+        Shape id -> what failures call its file.
+    failures : list of Failure
+        To which those of shapes are added.
+    config : Config
+    """
 
     def __init__(
         self,
         executor: Executor,
         clock: Clock,
         cache: Cache,
-        database: Database,
+        files: Mapping[str, str],
         failures: list[Failure],
         config: Config,
     ) -> None:
@@ -59,7 +71,7 @@ class Runner:
         self._config = config
         self.clock = clock
         self._cache = cache
-        self._paths = {s.id: _relative(s, database.root) for s in database.shapes}
+        self._files = files
         self._failures = failures
 
     def each(
@@ -153,7 +165,7 @@ class Runner:
             stage, reason = failed[shape]
             if stage.failing:
                 raise DatabaseError(stage.failing.format(task=shape, reason=reason))
-            self._failures.append(Failure(self._paths[shape], stage.name, reason))
+            self._failures.append(Failure(self._files[shape], stage.name, reason))
 
     def _look_up(self, chain: Chain, wanted: Sequence[Stage[Any]]) -> dict[str, bytes]:
         """What the cache has of what is wanted, by the folder of each stage."""
@@ -339,6 +351,11 @@ def _by_stage(chain: Chain, done: Done, cpu_seconds: float) -> dict[str, float]:
     first = next(iter(spent), next(iter(chain.links.values())).stage.name)
     spent[first] = spent.get(first, 0.0) + max(0.0, cpu_seconds - sum(spent.values()))
     return spent
+
+
+def name_files(database: Database) -> dict[str, str]:
+    """Shape id -> its file, below the folder of a database where it lies there."""
+    return {shape.id: _relative(shape, database.root) for shape in database.shapes}
 
 
 def _relative(shape: ShapeEntry, root: Path) -> str:

@@ -21,6 +21,7 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report.cache import make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.copies import Outline, compare, outline
+from shapeviz_report.descriptors import DESCRIPTORS, Surface
 from shapeviz_report.errors import MeshError
 from shapeviz_report.features import (
     compute_histograms,
@@ -167,6 +168,18 @@ def describe_whole_shape(prepared: bytes) -> bytes:
 def measure_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
     """The features of a prepared shape alone, for :func:`read_array`."""
     return _pack_array(compute_histograms(_unpack(prepared), edges, by_area=by_area))
+
+
+def measure_vertices(prepared: bytes) -> bytes:
+    """A prepared shape with the values of all descriptors at every vertex, for :func:`read_vertices`."""
+    mesh = _unpack(prepared)
+    values = measure(mesh, range(sum(descriptor.dimensions for descriptor in DESCRIPTORS)))
+    return _pack_arrays(vertices=mesh.vertices, faces=mesh.faces, areas=Surface(mesh).areas, values=values)
+
+
+def read_vertices(content: bytes) -> dict[str, npt.NDArray[Any]]:
+    """``vertices``, ``faces``, ``areas`` (n,) and ``values`` (D, n) in a result of :func:`measure_vertices`."""
+    return _read_arrays(content)
 
 
 def read_features(described: bytes) -> FloatArray:
@@ -390,9 +403,9 @@ class Stage(Generic[R]):
         return make_key(*inputs, self.version)
 
 
-def identify(path: Path, files: Mapping[str, bytes]) -> str:
+def identify(files: Mapping[str, bytes]) -> str:
     """What of a mesh file decides how it is read: its format and its content."""
-    return f"{path.suffix.lower()} {content_hash(files)}"
+    return f"{Path(next(iter(files))).suffix.lower()} {content_hash(files)}"
 
 
 EXAMINE = Stage("examine", "Outlining meshes", "examined", examine_shape, read_examined)
@@ -404,6 +417,9 @@ DESCRIBE = Stage("describe", "Describing shapes", "described", describe_shape, r
 MEASURE = Stage("describe", "Describing shapes", "measured", measure_shape, read_array)
 DESCRIBE_WHOLE = Stage(
     "describe", "Describing whole shapes", "described-whole", describe_whole_shape, read_array
+)
+MEASURE_VERTICES = Stage(
+    "describe", "Describing vertices", "measured-vertices", measure_vertices, read_vertices
 )
 VIEW = Stage("render", "Choosing views", "viewed", view_shape, read_array)
 RENDER = Stage("render", "Drawing thumbnails", "rendered", render_shape, bytes)

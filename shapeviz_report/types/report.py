@@ -22,7 +22,7 @@ from shapeviz_report.types.search import FeatureSearch
 from shapeviz_report.types.separation import Separation
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report:
     """All that a site shows: the input of the pages.
 
@@ -108,6 +108,11 @@ class Report:
     related: IntArray | None = None
     separation: Separation | None = None
     best: tuple[Projection, Quality, Faithfulness] | None = None
+
+    def __repr__(self) -> str:
+        """In a line: pictures and models alone are megabytes."""
+        shapes, classes = len(self.shapes), len(classes_of(self.labels))
+        return f"<Report of {self.database.name!r}: {shapes:,} shapes, {classes:,} classes>"
 
     def __post_init__(self) -> None:
         """Check what templates and scripts take for granted; a ``ValueError`` is an error of the caller."""

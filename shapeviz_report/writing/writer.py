@@ -69,7 +69,7 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
     check_destination(destination, single_file=single_file)
     try:
         if single_file:
-            write_atomically(destination.resolve(), sealed(_whole(report)))
+            write_atomically(destination.resolve(), sealed(whole_site(report)))
             return
         with replaced_folder(destination, find_own) as folder:
             hashes = {}
@@ -118,7 +118,7 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
         yield f"models/{name}.js", chunk_script(f"model-{name}", "bytes", model)
 
 
-def _whole(report: Report) -> bytes:
+def whole_site(report: Report) -> bytes:
     """The site as one HTML file. It holds no 3D models: these would be most of it."""
     report = replace(report, models=None)
     contents = compute_contents(report)

@@ -159,6 +159,7 @@ def test_what_runs_is_reached() -> None:
         call("DESCRIBE", prepared, view, edges, True)
         call("DESCRIBE_WHOLE", prepared)
         call("MEASURE", prepared, edges, True)
+        call("MEASURE_VERTICES", prepared)
         call("PAINT", prepared, view, edges, [(0, 1)], 64)
         random = np.random.default_rng(0)
         values = random.random((24, sum(block.width for block in BLOCKS)))

@@ -26,7 +26,7 @@ LIKE = REPORT.projections["tsne"][0]
 def run(tmp_path_factory):
     cache = Cache(tmp_path_factory.mktemp("cache"))
     with open_workers(Config(), 1) as executor:
-        yield Runner(executor, Clock(QuietProgress()), cache, REPORT.database, [], Config())
+        yield Runner(executor, Clock(QuietProgress()), cache, {}, [], Config())
 
 
 def search_that_found(*best: str):

@@ -13,6 +13,11 @@ window.addEventListener("hashchange", (event) => {
     return;
   }
   event.stopImmediatePropagation();
+  if (window.name === "shapeviz-framed") {
+    // A document without an address of its own cannot be loaded again; who framed it makes a new one.
+    window.parent.postMessage(window.location.hash, "*");
+    return;
+  }
   window.history.scrollRestoration = "manual";
   window.location.reload();
 });

@@ -1,0 +1,117 @@
+"""The features of a database as one file, for other programs."""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from shapeviz_report.errors import ConfigError, SiteError
+from shapeviz_report.places import explain
+from shapeviz_report.staging import write_atomically
+from shapeviz_report.types import Database, FeatureTable, FloatArray, ShapeEntry
+from shapeviz_report.writing.data.encoding import archive, csv_text, number
+
+SUFFIXES = (".parquet", ".csv", ".npz")
+"""What such a file may be, by its name."""
+
+
+def check_feature_file(path: Path, database: Path) -> None:
+    """Refuse, before anything is computed, a file that cannot be written or that the database needs.
+
+    Raises
+    ------
+    ConfigError
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        raise ConfigError(
+            f"the file of features {path} must end in {', '.join(SUFFIXES[:-1])} or {SUFFIXES[-1]}"
+        )
+    if path.is_dir():
+        raise ConfigError(f"the file of features {path} is a folder")
+    if path.resolve() == database.resolve():
+        raise ConfigError(f"the file of features {path} is the database itself: choose another name")
+    if path.suffix.lower() == ".parquet" and importlib.util.find_spec("pyarrow") is None:
+        raise ConfigError(
+            f"the file of features {path} needs pyarrow, which is not installed: pip install "
+            "'shapeviz-report[parquet]'; .csv and .npz need nothing more"
+        )
+
+
+def write_feature_file(
+    path: Path, database: Database, shapes: Sequence[ShapeEntry], features: FeatureTable, edges: FloatArray
+) -> None:
+    """Write a row a shape: what it is, and its features.
+
+    Parameters
+    ----------
+    path : Path
+        Its suffix, one of :data:`SUFFIXES`, says what is written.
+    database : Database
+    shapes : sequence of ShapeEntry
+        That of each row.
+    features : FeatureTable
+    edges : (D, 11) float64 array
+
+    Raises
+    ------
+    SiteError
+        It cannot be written.
+    """
+    texts = _describe(database, shapes)
+    write = {".parquet": _parquet, ".csv": _csv, ".npz": _archive}[path.suffix.lower()]
+    try:
+        write_atomically(path.absolute(), write(texts, features, edges))
+    except OSError as error:
+        raise SiteError(f"the features cannot be written to {path}: {explain(error)}") from error
+
+
+def _describe(database: Database, shapes: Sequence[ShapeEntry]) -> dict[str, list[str | None]]:
+    """Column -> what it says of each shape, named as in ``data/shapes.csv``."""
+    metadata = dict.fromkeys(column for shape in shapes for column in shape.metadata)
+    active = database.labelings[0] if database.labelings else ""
+    return {
+        "id": [shape.id for shape in shapes],
+        "class": [shape.labels.get(active) for shape in shapes],
+        **{f"label:{name}": [shape.labels.get(name) for shape in shapes] for name in database.labelings},
+        **{f"metadata:{name}": [shape.metadata.get(name) for shape in shapes] for name in metadata},
+    }
+
+
+def _csv(texts: dict[str, list[str | None]], features: FeatureTable, edges: FloatArray) -> bytes:
+    rows = [[*texts, *features.columns]]
+    for told, values in zip(zip(*texts.values(), strict=True), features.values.tolist(), strict=True):
+        rows.append([*(text or "" for text in told), *map(number, values)])
+    return csv_text(rows)
+
+
+def _archive(texts: dict[str, list[str | None]], features: FeatureTable, edges: FloatArray) -> bytes:
+    """As ``data/features.npz`` of a site, and the classes."""
+    return archive(
+        values=features.values,
+        columns=np.array(features.columns, dtype=np.str_),
+        shape_ids=np.array(features.shape_ids, dtype=np.str_),
+        edges=edges,
+        classes=np.array([text or "" for text in texts["class"]], dtype=np.str_),
+    )
+
+
+def _parquet(texts: dict[str, list[str | None]], features: FeatureTable, edges: FloatArray) -> bytes:
+    import pyarrow
+    from pyarrow import parquet
+
+    columns = [
+        # a file name that is no valid text holds lone surrogates, which have no place in UTF-8
+        pyarrow.array(
+            [None if text is None else text.encode("utf-8", "backslashreplace").decode() for text in told],
+            pyarrow.string(),
+        )
+        for told in texts.values()
+    ]
+    columns += [pyarrow.array(column) for column in np.ascontiguousarray(features.values.T)]
+    file = io.BytesIO()
+    parquet.write_table(pyarrow.Table.from_arrays(columns, [*texts, *features.columns]), file)
+    return file.getvalue()
