@@ -109,7 +109,7 @@ def find_related(points: FloatArray, count: int) -> IntArray:
     return found
 
 
-def find_fits(points: FloatArray, codes: npt.NDArray[np.int_]) -> Fits:
+def find_fits(points: FloatArray, codes: npt.NDArray[np.integer]) -> Fits:
     """How well every shape fits its class, by the distances of points.
 
     Parameters
@@ -145,7 +145,7 @@ def find_fits(points: FloatArray, codes: npt.NDArray[np.int_]) -> Fits:
     return Fits(fit, rival)
 
 
-def order_classes(points: FloatArray, codes: npt.NDArray[np.int_]) -> list[int]:
+def order_classes(points: FloatArray, codes: npt.NDArray[np.integer]) -> list[int]:
     """The classes in an order that puts those beside each other whose means are near.
 
     Average linkage of the means; of the orders that its tree allows, the one with the shortest way from class to class

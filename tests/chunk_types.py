@@ -64,7 +64,7 @@ def _interface(record: Any) -> Iterator[str]:
     yield f"  interface {record.__name__} {{"
     for name, hint in get_type_hints(record, include_extras=True).items():
         # A chunk that is left out is never asked for.
-        optional = name in record.__optional_keys__ and record is not chunks.Chunks
+        optional = name in record.__optional_keys__ and record not in (chunks.Chunks, chunks.Parts)
         yield f"    {name}{'?' if optional else ''}: {_type(hint)};"
     yield "  }"
 

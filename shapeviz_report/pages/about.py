@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 
-from shapeviz_report.pages.base import MEASURED, METHODS, PageContent, class_names
+from shapeviz_report.pages.base import MEASURED, METHODS, PageContent, class_names, is_in_full
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import has_licence, licence_warning
 from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
@@ -198,11 +198,15 @@ def _repairs(report: Report) -> list[tuple[str, int, int]]:
 
 def _downloads(report: Report) -> list[tuple[str, str]]:
     """File below ``data/`` and what is in it."""
+    full = is_in_full(report)
     return [
         ("summary.json", "counts, failures, quality of every projection, times, versions, parameters"),
         ("shapes.csv", "one row a shape: labels, metadata, facts, neighbourhood hit, hash"),
-        ("features.npz", "the feature table, for numpy"),
-        ("catalogue.jsonld", "every shape for search engines and catalogues, as schema.org 3DModel"),
+        ("features.npz", "the feature table, for numpy" + ("" if full else ", with three digits")),
+        (
+            "catalogue.jsonld",
+            ("every shape" if full else "the database") + " for search engines and catalogues, by schema.org",
+        ),
         *(
             (f"projection-{method}.csv", f"coordinates of the {METHODS[method].title} map")
             for method in report.projections

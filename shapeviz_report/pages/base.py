@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
@@ -23,6 +23,7 @@ from shapeviz_report.types import (
     FloatArray,
     HeldOutBins,
     HeldOutFold,
+    IntArray,
     Projection,
     Report,
 )
@@ -38,6 +39,10 @@ NO_SHARE = 65535
 
 #: Decimals of figures of quality as pages show them.
 FIGURE_DECIMALS = 3
+
+#: Shapes up to which a site holds all that it can. Of more, hosts would not have a file of each picture, and data for
+#: machines would be most of the site: they leave out what their readers can do without.
+MOST_IN_FULL = 10_000
 
 #: The projections by name.
 METHODS = {method.name: method for method in PROJECTIONS}
@@ -59,10 +64,14 @@ class PageContent:
         What the page's template may use, beside what the site gives every template.
     chunks : Chunks
         Data that the page's scripts load, by name. Two pages may share a chunk when they agree on its content.
+    parts : mapping of str to iterable
+        The chunks that come in parts, by their names in :class:`~shapeviz_report.pages.chunks.Parts`: the parts in
+        their order, each made when it is asked for.
     """
 
     context: Mapping[str, object]
     chunks: Chunks = field(default_factory=Chunks)
+    parts: Mapping[str, Iterable[object]] = field(default_factory=dict)
 
 
 def distinct_means(folds: Sequence[HeldOutFold | HeldOutBins]) -> dict[str, object] | None:
@@ -110,6 +119,17 @@ class Page(Protocol):
 def class_names(report: Report) -> tuple[str, ...]:
     """The classes of the active labeling that have a shape, in natural order."""
     return classes_of(report.labels)
+
+
+def class_codes(report: Report) -> IntArray:
+    """The number of each shape's class; -1 without one."""
+    number = {name: index for index, name in enumerate(class_names(report))}
+    return np.array([-1 if label is None else number[label] for label in report.labels], np.int32)
+
+
+def is_in_full(report: Report) -> bool:
+    """Whether the site leaves nothing out for want of room."""
+    return len(report.shapes) <= MOST_IN_FULL
 
 
 def search_of(report: Report) -> FeatureSearch | None:
@@ -163,7 +183,7 @@ def clusters_chunk(report: Report) -> Clusters | None:
     return {
         # Whether they are the active labels, because the database has none.
         "standIn": found.stand_in,
-        "of": found.of.tolist(),
+        "of": found.of.astype(np.int32),
         "clusters": [
             {
                 "name": cluster.name,

@@ -18,12 +18,21 @@ Spec = dict[str, Any]
 
 
 class ShapeList(TypedDict):
-    """The shapes, one list a fact: ``groups`` are the numbers of classes, -1 without one."""
+    """The shapes, one list a fact.
+
+    Attributes
+    ----------
+    ids, names : list of str
+    groups : (n,) int32 array
+        The numbers of classes, -1 without one.
+    pictures : list of str, or None
+        The files below ``thumbnails``; None where there are too many shapes for files.
+    """
 
     ids: list[str]
     names: list[str]
     groups: npt.NDArray[np.int32]
-    pictures: list[str]
+    pictures: list[str] | None
 
 
 class WithoutCopies(TypedDict):
@@ -193,10 +202,18 @@ class Marks(TypedDict):
     themes: dict[ThemeName, ThemeMarks]
 
 
+class PartSizes(TypedDict):
+    """Of how many shapes each part of a chunk in parts is."""
+
+    details: int
+    pictures: int
+
+
 class Overview(TypedDict):
     """What every page knows of the database."""
 
     shapes: ShapeList
+    partSizes: PartSizes
     classes: list[str]
     labeling: str | None
     standIn: bool
@@ -208,9 +225,19 @@ class Overview(TypedDict):
 
 
 class ShapeDetails(TypedDict):
-    """What is known of a shape beyond its place: ``labels`` by labeling, ``copies`` with what says so."""
+    """What is known of a shape beyond its place.
 
-    labels: list[str | None]
+    Attributes
+    ----------
+    labels, metadata : list of (str, str)
+        By labeling and by column.
+    copies : list of (int, str)
+        Shapes that are the same shape, with what says so.
+    related : list of int, or None
+        The shapes most similar by neighbourhood, the most similar first; None where there are too many.
+    """
+
+    labels: list[tuple[str, str]]
     metadata: list[tuple[str, str]]
     copies: list[tuple[int, str]]
     repairs: list[tuple[str, int]]
@@ -224,13 +251,7 @@ class ShapeDetails(TypedDict):
     area: float | None
     volume: float | None
     extents: list[float]
-
-
-class Details(TypedDict):
-    """What is known of every shape beyond its place."""
-
-    labelings: list[str]
-    shapes: list[ShapeDetails]
+    related: list[int] | None
 
 
 class Cluster(TypedDict):
@@ -246,7 +267,7 @@ class Clusters(TypedDict):
     """The groups that the features alone make; ``standIn`` where they are the active labels, as there are none."""
 
     standIn: bool
-    of: list[int]
+    of: npt.NDArray[np.int32]
     clusters: list[Cluster]
     quality: float
 
@@ -265,12 +286,12 @@ class Field(TypedDict):
         Whether its numbers are days from the first of 1970.
     names : list of str, or None
         The values in their order; None for a field that has no few values.
-    of : list of int, or None
+    of : (n,) int32 array, or None
         The number of each shape's value, -1 without one; None as with ``names``.
     notes : list of str, or None
         A sentence on each of the values.
-    numbers : list of float or None, or None
-        The number of each shape, None without one; None for a field that is no number.
+    numbers : (n,) float64 array, or None
+        The number of each shape, NaN without one; None for a field that is no number.
     edges : list of float, or None
         Of intervals, which rise and hold all numbers; None also for a field of a few numbers.
     """
@@ -281,16 +302,16 @@ class Field(TypedDict):
     active: bool
     date: bool
     names: list[str] | None
-    of: list[int] | None
+    of: npt.NDArray[np.int32] | None
     notes: list[str] | None
-    numbers: list[float | None] | None
+    numbers: npt.NDArray[np.float64] | None
     edges: list[float] | None
 
 
 class Fields(TypedDict):
     """What shapes can be ordered by; ``byName`` are their rows in the order of their names."""
 
-    byName: list[int]
+    byName: npt.NDArray[np.int32]
     fields: list[Field]
 
 
@@ -313,7 +334,7 @@ class Tree(TypedDict):
         Whether it is of the active labeling.
     nodes : list of TreeNode
         Each after its parent, siblings in natural order.
-    of : list of int
+    of : (n,) int32 array
         The node of every shape, -1 without one.
     """
 
@@ -321,7 +342,7 @@ class Tree(TypedDict):
     title: str
     active: bool
     nodes: list[TreeNode]
-    of: list[int]
+    of: npt.NDArray[np.int32]
 
 
 class Hierarchy(TypedDict):
@@ -768,8 +789,8 @@ class Chunks(TypedDict, total=False):
         Of each map of the chunk "overview", by its key.
     best : BestMap
         Where the search laid out a sample.
-    related : list of list of int, or None
-        The shapes most similar to each by neighbourhood, the most similar first; None where there are too many.
+    texts : list of str
+        What a search finds a shape by beside its id, name and class: labels and metadata.
     neighbours : bytes
         Of each of the ``spaces`` of a comparison, the nearest shapes of every shape; little-endian uint32.
     bins : bytes
@@ -778,14 +799,14 @@ class Chunks(TypedDict, total=False):
         The score of every scorer, class and column in 65,535 steps; uint16.
     engine : str
         The script of the worker.
-    pictures : dict of str to str
-        The content of every picture in base64, by its path; not in a site of one file, whose pictures are in it anyway.
+    paintings : dict of str to str
+        The content of every painted bin in base64, by its path; not in a site of one file, where they are anyway.
     """
 
     overview: Overview
     trust: dict[str, Trust]
     best: BestMap
-    details: Details
+    texts: list[str]
     clusters: Clusters | None
     fields: Fields
     hierarchy: Hierarchy
@@ -793,7 +814,6 @@ class Chunks(TypedDict, total=False):
     neighbours: bytes
     retrieval: Retrieval
     search: Search
-    related: list[list[int]] | None
     subsets: SubsetMaps
     faith: SubsetNeighbours
     workbench: Workbench
@@ -801,4 +821,27 @@ class Chunks(TypedDict, total=False):
     scores: bytes
     selection: Selection
     engine: str
-    pictures: dict[str, str]
+    paintings: dict[str, str]
+
+
+class PicturePart(TypedDict):
+    """WebP files, one after the other, and where each ends."""
+
+    ends: npt.NDArray[np.uint32]
+    content: npt.NDArray[np.uint8]
+
+
+class Parts(TypedDict, total=False):
+    """Chunks that come in parts, each of so many shapes: what one of each holds.
+
+    Attributes
+    ----------
+    details : list of ShapeDetails
+        In the order of the shapes.
+    pictures : PicturePart
+        Class by class, first those without one; of a class in the order of the shapes. Not in a site of one file that
+        has them as files.
+    """
+
+    details: list[ShapeDetails]
+    pictures: PicturePart

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import numpy as np
-import numpy.typing as npt
-
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
-from shapeviz_report.pages.base import METHODS, PageContent, class_names, rounded
+from shapeviz_report.pages.base import METHODS, PageContent, class_codes, class_names, rounded
 from shapeviz_report.pages.chunks import Comparison, Side, Sides
 from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.similarity import feature_weight
-from shapeviz_report.types import FloatArray, Report
+from shapeviz_report.types import FloatArray, IntArray, Report
 from shapeviz_report.wording import Said, agreed, dimensions_of, say_bins, word_whole
 
 #: Decimals of a shape's fit, in [-1, 1].
@@ -33,7 +30,7 @@ class ComparePage:
         points = _points(report)
         spaces = {SPACE: points, **{method: shown.xy for method, (shown, _) in report.projections.items()}}
         projection, hits = next(iter(report.projections.values()))
-        codes = _codes(report)
+        codes = class_codes(report)
         return PageContent(
             context={
                 "classes": len(class_names(report)),
@@ -64,19 +61,12 @@ def _points(report: Report) -> FloatArray:
     return scale_bins(report.features, preset, projection.bins)
 
 
-def _codes(report: Report) -> npt.NDArray[np.int_]:
-    number = {name: index for index, name in enumerate(class_names(report))}
-    return np.array([-1 if label is None else number[label] for label in report.labels])
-
-
 def _space(bins: tuple[str, ...] | None) -> str:
     """What is compared, in words."""
     return "all features" if bins is None else "the chosen bins"
 
 
-def _compare(
-    report: Report, points: FloatArray, codes: npt.NDArray[np.int_], k: int, spaces: list[str]
-) -> Comparison:
+def _compare(report: Report, points: FloatArray, codes: IntArray, k: int, spaces: list[str]) -> Comparison:
     """How well shapes fit their classes, in which order classes stand, and what a comparison needs beside the bins."""
     preset = PRESETS[str(report.parameters["preset"])]
     compared = compared_values(report.features, preset)

@@ -10,10 +10,12 @@ from datetime import date
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from shapeviz_report.order import natural
 from shapeviz_report.pages.base import METHODS, class_names
 from shapeviz_report.pages.chunks import Field
-from shapeviz_report.types import Clusters, Report, ShapeFacts
+from shapeviz_report.types import Clusters, FloatArray, Report, ShapeFacts
 
 #: Most values of a column that still says what kind of shape one is; beyond, it names them, and is only searched.
 MOST_VALUES = 1000
@@ -95,7 +97,7 @@ def _clusters(clusters: Clusters) -> Field:
     notes = _notes(clusters)
     field = _field("cluster", "Cluster")
     field["names"] = list(notes)
-    field["of"] = [int(number) for number in clusters.of]
+    field["of"] = clusters.of.astype(np.int32)
     field["notes"] = list(notes.values())
     return field
 
@@ -113,7 +115,7 @@ def _choices(
     names = sorted({value for value in values if value}, key=order)
     number = {name: index for index, name in enumerate(names)}
     field["names"] = names
-    field["of"] = [number[value] if value else -1 for value in values]
+    field["of"] = np.array([number[value] if value else -1 for value in values], np.int32)
     return field
 
 
@@ -203,8 +205,8 @@ def _date_edges(days: Sequence[float]) -> list[float] | None:
     return None
 
 
-def _rounded(numbers: Sequence[float | None]) -> list[float | None]:
-    return [None if number is None else _round(number) for number in numbers]
+def _rounded(numbers: Sequence[float | None]) -> FloatArray:
+    return np.array([np.nan if number is None else _round(number) for number in numbers])
 
 
 def _round(number: float) -> float:

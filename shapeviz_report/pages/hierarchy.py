@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from shapeviz_report.order import natural
 from shapeviz_report.pages.chunks import Field, Hierarchy, Tree, TreeNode
 from shapeviz_report.types import Report
@@ -41,7 +43,9 @@ def describe_hierarchy(report: Report, fields: Sequence[Field]) -> Hierarchy:
     def add(key: str, title: str, chains: list[Chain], *, active: bool = False) -> None:
         known.append(chains)
         nodes, of = _tree(chains)
-        trees.append({"key": key, "title": title, "active": active, "nodes": nodes, "of": of})
+        trees.append(
+            {"key": key, "title": title, "active": active, "nodes": nodes, "of": np.array(of, np.int32)}
+        )
 
     for field in fields:
         chains = _chains(report, field)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from hashlib import sha256
 
 import numpy as np
@@ -11,18 +12,21 @@ from shapeviz_report.pages.base import (
     METHODS,
     PageContent,
     bins_note,
+    class_codes,
     class_names,
     clusters_chunk,
+    is_in_full,
     rounded,
     search_of,
     share_steps,
 )
 from shapeviz_report.pages.chunks import (
     Chunks,
-    Details,
     Faith,
     Marks,
     Method,
+    PicturePart,
+    ShapeDetails,
     ShapeList,
     SubsetChoice,
     Trust,
@@ -38,11 +42,18 @@ from shapeviz_report.types import (
     Report,
     Shepard,
     WithoutCopies,
+    copies_beside,
     copies_of,
 )
 
 #: Decimals of a coordinate in [-1, 1]: a hundredth of a pixel on a map of 1000 pixels, magnified 20 times.
 COORDINATE_DECIMALS = 6
+
+#: Shapes a part of the chunk "details": some tens of kilobytes.
+DETAILS_A_PART = 200
+
+#: Pictures a part: few, as a search or a list of similar shapes shows some from everywhere.
+PICTURES_A_PART = 32
 
 #: Decimals of what is drawn on a small diagram.
 SHARE_DECIMALS = 4
@@ -79,7 +90,8 @@ class OverviewPage:
         ]
         chunks: Chunks = {
             "overview": {
-                "shapes": _shapes(report, classes),
+                "shapes": _shapes(report),
+                "partSizes": {"details": DETAILS_A_PART, "pictures": PICTURES_A_PART},
                 "classes": list(classes),
                 "labeling": report.labeling,
                 "standIn": report.clusters is not None and report.clusters.stand_in,
@@ -95,7 +107,7 @@ class OverviewPage:
                 "marks": _marks(len(classes)),
             },
             "trust": {key: _trust(report.faithfulness.get(key)) for key in report.projections},
-            "details": _details(report),
+            "texts": [_text(report, row) for row in range(len(report.shapes))],
             "clusters": clusters_chunk(report),
         }
         if report.best is not None:
@@ -119,6 +131,7 @@ class OverviewPage:
                 "colors": color_choices(report),
             },
             chunks=chunks,
+            parts={"details": _details(report), "pictures": _picture_parts(report)},
         )
 
 
@@ -127,13 +140,14 @@ def thumbnail_name(thumbnail: bytes) -> str:
     return sha256(thumbnail).hexdigest()[:20] + ".webp"
 
 
-def _shapes(report: Report, classes: tuple[str, ...]) -> ShapeList:
-    number = {name: index for index, name in enumerate(classes)}
+def _shapes(report: Report) -> ShapeList:
     return {
         "ids": [shape.id for shape in report.shapes],
         "names": [shape.name for shape in report.shapes],
-        "groups": np.array([-1 if label is None else number[label] for label in report.labels], np.int32),
-        "pictures": [thumbnail_name(thumbnail) for thumbnail in report.thumbnails],
+        "groups": class_codes(report),
+        "pictures": [thumbnail_name(thumbnail) for thumbnail in report.thumbnails]
+        if is_in_full(report)
+        else None,
     }
 
 
@@ -250,20 +264,41 @@ def _marks(class_count: int) -> Marks:
     }
 
 
-def _details(report: Report) -> Details:
-    """What is known of every shape beyond its place: loaded when a reader opens one, or searches."""
+def _picture_parts(report: Report) -> Iterator[PicturePart]:
+    """Pictures class by class: galleries show those of a class beside each other."""
+    order = np.argsort(class_codes(report), kind="stable").tolist()
+    for start in range(0, len(order), PICTURES_A_PART):
+        pictures = [report.thumbnails[row] for row in order[start : start + PICTURES_A_PART]]
+        yield {
+            "ends": np.cumsum([len(picture) for picture in pictures]).astype(np.uint32),
+            "content": np.frombuffer(b"".join(pictures), np.uint8),
+        }
+
+
+def _text(report: Report, row: int) -> str:
+    """What a search finds a shape by beside its id, name and class."""
+    shape, label = report.shapes[row], report.labels[row]
+    return " ".join([*(other for other in shape.labels.values() if other != label), *shape.metadata.values()])
+
+
+def _details(report: Report) -> Iterator[list[ShapeDetails]]:
+    """What is known of shapes beyond their places: loaded when a reader opens one."""
     row = {shape.id: index for index, shape in enumerate(report.shapes)}
     name = [shape.name for shape in report.shapes]
-    return {
-        "labelings": list(report.database.labelings),
-        "shapes": [
+    beside = copies_beside(report.copies)
+    for start in range(0, len(report.shapes), DETAILS_A_PART):
+        yield [
             {
-                "labels": [shape.labels.get(labeling) for labeling in report.database.labelings],
                 # Pairs, because a column may have any name, "__proto__" included.
+                "labels": [
+                    (labeling, shape.labels[labeling])
+                    for labeling in report.database.labelings
+                    if labeling in shape.labels
+                ],
                 "metadata": list(shape.metadata.items()),
                 "copies": [
                     (row[other], f"by way of {name[row[found]]}" if isinstance(found, str) else found.words)
-                    for other, found in copies_of(report.copies, shape.id)
+                    for other, found in copies_of(beside, shape.id)
                 ],
                 "repairs": list(facts.repairs.items()),
                 "faces": facts.faces,
@@ -276,7 +311,13 @@ def _details(report: Report) -> Details:
                 "area": facts.area,
                 "volume": facts.volume,
                 "extents": list(facts.extents),
+                "related": None if report.related is None else report.related[start + place].tolist(),
             }
-            for shape, facts in zip(report.shapes, report.facts, strict=True)
-        ],
-    }
+            for place, (shape, facts) in enumerate(
+                zip(
+                    report.shapes[start : start + DETAILS_A_PART],
+                    report.facts[start : start + DETAILS_A_PART],
+                    strict=True,
+                )
+            )
+        ]

@@ -18,8 +18,6 @@ class ShapePage:
 
     def content(self, report: Report) -> PageContent:
         preset = PRESETS[str(report.parameters["preset"])]
-        related = None if report.related is None else report.related.tolist()
         return PageContent(
-            chunks={"related": related},
             context={"models": report.models is not None, "whole": word_whole(preset.by_area)},
         )

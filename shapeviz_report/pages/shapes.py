@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from shapeviz_report.order import natural
 from shapeviz_report.pages.base import PageContent
 from shapeviz_report.pages.fields import describe_fields
@@ -25,7 +27,9 @@ class ShapesPage:
             chunks={
                 "fields": {
                     # The rows in the order of their names; those of one name by id, as the shapes stand.
-                    "byName": sorted(range(len(names)), key=lambda row: natural(names[row])),
+                    "byName": np.array(
+                        sorted(range(len(names)), key=lambda row: natural(names[row])), np.int32
+                    ),
                     "fields": fields,
                 },
                 "hierarchy": describe_hierarchy(report, fields),

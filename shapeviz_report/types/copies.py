@@ -74,7 +74,20 @@ class Copy:
     match: Match
 
 
-def copies_of(copies: Sequence[Copy], shape: str) -> list[tuple[str, Match | str]]:
+#: Of each shape, by id, the shapes that were laid on it, with what it is of them.
+Beside = Mapping[str, Mapping[str, Match]]
+
+
+def copies_beside(copies: Sequence[Copy]) -> Beside:
+    """Pairs of copies by shape."""
+    beside: dict[str, dict[str, Match]] = {}
+    for copy in copies:
+        beside.setdefault(copy.first, {})[copy.second] = replace(copy.match, scale=1 / copy.match.scale)
+        beside.setdefault(copy.second, {})[copy.first] = copy.match
+    return beside
+
+
+def copies_of(beside: Beside, shape: str) -> list[tuple[str, Match | str]]:
     """All shapes of the group of copies that a shape, by id, is in, the nearest in the chain first.
 
     Returns
@@ -83,10 +96,6 @@ def copies_of(copies: Sequence[Copy], shape: str) -> list[tuple[str, Match | str
         The other's id and what the shape is of it, such as ten times as large; where the two were not laid on each
         other, the id of the shape through which one is a copy of the other.
     """
-    beside: dict[str, dict[str, Match]] = {}
-    for copy in copies:
-        beside.setdefault(copy.first, {})[copy.second] = replace(copy.match, scale=1 / copy.match.scale)
-        beside.setdefault(copy.second, {})[copy.first] = copy.match
     found: dict[str, Match | str] = dict(beside.get(shape, {}))
     waiting = list(found)
     for other in waiting:

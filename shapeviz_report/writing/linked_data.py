@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from urllib.parse import urlencode
 
-from shapeviz_report.pages.base import class_names
+from shapeviz_report.pages.base import class_names, is_in_full
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.publication.licence import LICENCE_COLUMNS, find_licence
 from shapeviz_report.types import Licence, Report, ShapeEntry, ShapeFacts
@@ -16,7 +16,7 @@ CONTEXT = "https://schema.org/"
 _DOWNLOADS = {
     "shapes.csv": ("The shapes: labels, metadata, facts and neighbourhood hit", "text/csv"),
     "features.npz": ("The feature table, for numpy", "application/octet-stream"),
-    "catalogue.jsonld": ("Every shape as a schema.org 3DModel", "application/ld+json"),
+    "catalogue.jsonld": ("The database for search engines and catalogues", "application/ld+json"),
     "summary.json": ("Counts, quality, parameters and versions", "application/json"),
 }
 
@@ -79,13 +79,15 @@ def dataset(report: Report, description: str, folder: str = "") -> dict[str, obj
 
 
 def catalogue(report: Report, description: str) -> bytes:
-    """The database with every shape as a schema.org ``3DModel``, in one document: ``data/catalogue.jsonld``."""
+    """The database with every shape as a schema.org ``3DModel``, in one document: ``data/catalogue.jsonld``.
+    Of very many shapes, which nobody would load for that, it is the database alone."""
     base = report.publication.url or "../"
     whole = dataset(report, description, "../")
-    whole["hasPart"] = [
-        _model(report, base, *item)
-        for item in zip(report.shapes, report.labels, report.facts, report.thumbnails, strict=True)
-    ]
+    if is_in_full(report):
+        whole["hasPart"] = [
+            _model(report, base, *item)
+            for item in zip(report.shapes, report.labels, report.facts, report.thumbnails, strict=True)
+        ]
     return (json_text(whole, indent=1) + "\n").encode("utf-8", "backslashreplace")
 
 

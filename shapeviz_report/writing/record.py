@@ -25,7 +25,7 @@ RECORD = "data/files.json"
 SUMMARY = "data/summary.json"
 """What tells a site that has no record."""
 
-FOLDERS = ("assets", "data", "models", "paintings", "thumbnails")
+FOLDERS = ("assets", "chunks", "data", "models", "paintings", "thumbnails")
 """The folders of a site; none has folders in it."""
 
 PAGE_MARK = f'<meta name="generator" content="{GENERATOR} '.encode()
@@ -39,6 +39,7 @@ _NAME = re.compile(
     rf"{_PAGES}|preview\.png|assets/(first|shared|vega|{_SCRIPTS}|chunk-[\w-]+)\.js"
     r"|assets/(style\.css|icon\.svg|vega-licenses\.txt|logo\.(svg|png|webp))"
     rf"|data/({DATA_NAMES}|files\.json|catalogue\.jsonld)"
+    r"|chunks/[a-z]+-\d+\.js"
     r"|models/[0-9a-f]{20}\.js|(paintings|thumbnails)/[0-9a-f]{20}\.webp"
 )
 

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from hashlib import sha256
 from importlib.metadata import version
+from itertools import chain
 from pathlib import Path
 
 from markupsafe import Markup
 
 from shapeviz_report.errors import SiteError
+from shapeviz_report.pages import Page, PageContent
+from shapeviz_report.pages.base import is_in_full
 from shapeviz_report.pages.bins import model_name, painting_name
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.places import explain
@@ -84,35 +87,44 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
 
 
 def _files(report: Report) -> Iterator[tuple[str, bytes]]:
-    """Every file of the site: path below its folder, and content. Models come last and one by one: those of 10,000
-    shapes are nearly a gigabyte."""
+    """Every file of the site: path below its folder, and content. What is large comes bit by bit: pictures of 100,000
+    shapes are half a gigabyte, and models of 10,000 are nearly one."""
     contents = compute_contents(report)
+    chunks: dict[str, str] = {}
+    for _, content in contents:
+        for name, parts in content.parts.items():
+            digest = sha256()
+            for number, part in enumerate(parts):
+                script = chunk_script(f"{name}-{number}", *pack(part))
+                digest.update(script)
+                yield f"chunks/{name}-{number}.js", script
+            chunks[name] = f"chunks/{name}-*.js?{digest.hexdigest()[:8]}"
     assets = {
         **{name: text.encode() for name, text in join_scripts().items()},
         **collect_assets(report),
         "style.css": join_styles(report).encode(),
         **{f"chunk-{name}.js": chunk_script(name, *packed) for name, packed in pack_chunks(contents).items()},
-        "chunk-pictures.js": _held_pictures(report),
+        "chunk-paintings.js": _held_paintings(report),
     }
     # The address of an asset names its content, so that a browser's cache never mixes two versions of a site.
     addresses = {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
     environment = make_environment()
     environment.globals["asset"] = addresses.__getitem__
     environment.globals["content_security_policy"] = CONTENT_SECURITY_POLICY
-    environment.globals["chunk_addresses"] = json.dumps(
-        {
-            name.removeprefix("chunk-").removesuffix(".js"): address
-            for name, address in addresses.items()
-            if name.startswith("chunk-")
-        }
-    )
-    yield from {
-        **{page.file: encode(text) for page, text in render_pages(environment, report, contents)},
-        **{f"assets/{name}": content for name, content in assets.items()},
-        **_pictures(report),
-        "preview.png": preview.draw_preview(report),
-        **_data(report),
-    }.items()
+    chunks |= {
+        name.removeprefix("chunk-").removesuffix(".js"): address
+        for name, address in addresses.items()
+        if name.startswith("chunk-")
+    }
+    environment.globals["chunk_addresses"] = json.dumps(chunks)
+    for page, text in render_pages(environment, report, contents):
+        yield page.file, encode(text)
+    for name, asset in assets.items():
+        yield f"assets/{name}", asset
+    yield from _thumbnails(report)
+    yield from _paintings(report)
+    yield "preview.png", preview.draw_preview(report)
+    yield from _data(report)
     for model in report.models or ():
         name = model_name(model)
         yield f"models/{name}.js", chunk_script(f"model-{name}", "bytes", model)
@@ -132,7 +144,7 @@ def whole_site(report: Report) -> bytes:
         ),
     )
     assets = {f"assets/{name}": content for name, content in collect_assets(report).items()}
-    data, left_out = split_large(_data(report), MOST_EMBEDDED)
+    data, left_out = split_large(dict(_data(report)), MOST_EMBEDDED)
     environment = make_environment(single_file=True, left_out=left_out)
     environment.globals["asset"] = "assets/".__add__
     environment.globals["content_security_policy"] = inline.policy
@@ -144,35 +156,49 @@ def whole_site(report: Report) -> bytes:
         scripts=scripts_before,
         opening=opening,
         pages=[Markup(text) for _, text in render_pages(environment, report, contents)],
-        chunks=[(name, kind, base64_text(packed)) for name, (kind, packed) in pack_chunks(contents).items()],
+        chunks=[
+            (name, kind, base64_text(packed))
+            for name, (kind, packed) in [*pack_chunks(contents).items(), *_packed_parts(report, contents)]
+        ],
         files=[
             (path, media_type(path), base64_text(content))
-            for path, content in {**assets, **_pictures(report), **data}.items()
+            for path, content in chain(assets.items(), _thumbnails(report), _paintings(report), data.items())
         ],
     )
     return encode(text)
 
 
-def _pictures(report: Report) -> dict[str, bytes]:
-    return {
-        **{f"thumbnails/{thumbnail_name(thumbnail)}": thumbnail for thumbnail in report.thumbnails},
-        **{
-            f"paintings/{painting_name(picture)}": picture
-            for painting in report.paintings
-            for picture in (painting.value, painting.inside)
-        },
-    }
+def _packed_parts(
+    report: Report, contents: Sequence[tuple[Page, PageContent]]
+) -> Iterator[tuple[str, tuple[str, bytes]]]:
+    for _, content in contents:
+        for name, parts in content.parts.items():
+            if name != "pictures" or not is_in_full(report):
+                for number, part in enumerate(parts):
+                    yield f"{name}-{number}", pack(part)
 
 
-def _held_pictures(report: Report) -> bytes:
-    """All pictures once more, as text that a page from ``file://`` can read: it shows images, but does not know what is
-    in them, and puts them into the figures that readers take away."""
+def _thumbnails(report: Report) -> Iterator[tuple[str, bytes]]:
+    if is_in_full(report):
+        for thumbnail in report.thumbnails:
+            yield f"thumbnails/{thumbnail_name(thumbnail)}", thumbnail
+
+
+def _paintings(report: Report) -> Iterator[tuple[str, bytes]]:
+    for painting in report.paintings:
+        for picture in (painting.value, painting.inside):
+            yield f"paintings/{painting_name(picture)}", picture
+
+
+def _held_paintings(report: Report) -> bytes:
+    """The paintings once more, as text that a page from ``file://`` can read: it shows images, but does not know what
+    is in them, and puts them into the figures that readers take away."""
     return chunk_script(
-        "pictures", *pack({path: base64_text(content) for path, content in _pictures(report).items()})
+        "paintings", *pack({path: base64_text(content) for path, content in _paintings(report)})
     )
 
 
-def _data(report: Report) -> dict[str, bytes]:
-    files = data_files(report, version("shapeviz-report"))
-    files["catalogue.jsonld"] = catalogue(report, describe(report))
-    return {f"data/{name}": content for name, content in files.items()}
+def _data(report: Report) -> Iterator[tuple[str, bytes]]:
+    for name, content in data_files(report, version("shapeviz-report")):
+        yield f"data/{name}", content
+    yield "data/catalogue.jsonld", catalogue(report, describe(report))

@@ -1,12 +1,12 @@
 // Made of shapeviz_report/pages/chunks.py by `make chunks`. Only the type checker reads this file.
 
 declare namespace Chunk {
-  /** The shapes, one list a fact: `groups` are the numbers of classes, -1 without one. */
+  /** The shapes, one list a fact. */
   interface ShapeList {
     ids: string[];
     names: string[];
     groups: Int32Array;
-    pictures: string[];
+    pictures: string[] | null;
   }
   /** What a map reaches where copies of shapes are left out. */
   interface WithoutCopies {
@@ -136,9 +136,15 @@ declare namespace Chunk {
     missing: string;
     themes: Record<"light" | "dark", ThemeMarks>;
   }
+  /** Of how many shapes each part of a chunk in parts is. */
+  interface PartSizes {
+    details: number;
+    pictures: number;
+  }
   /** What every page knows of the database. */
   interface Overview {
     shapes: ShapeList;
+    partSizes: PartSizes;
     classes: string[];
     labeling: string | null;
     standIn: boolean;
@@ -148,9 +154,9 @@ declare namespace Chunk {
     charts: MapCharts;
     marks: Marks;
   }
-  /** What is known of a shape beyond its place: `labels` by labeling, `copies` with what says so. */
+  /** What is known of a shape beyond its place. */
   interface ShapeDetails {
-    labels: (string | null)[];
+    labels: ([string, string])[];
     metadata: ([string, string])[];
     copies: ([number, string])[];
     repairs: ([string, number])[];
@@ -164,11 +170,7 @@ declare namespace Chunk {
     area: number | null;
     volume: number | null;
     extents: number[];
-  }
-  /** What is known of every shape beyond its place. */
-  interface Details {
-    labelings: string[];
-    shapes: ShapeDetails[];
+    related: number[] | null;
   }
   /** A group that the features make: its most central shape, and sentences on what is typical of it. */
   interface Cluster {
@@ -180,7 +182,7 @@ declare namespace Chunk {
   /** The groups that the features alone make; `standIn` where they are the active labels, as there are none. */
   interface Clusters {
     standIn: boolean;
-    of: number[];
+    of: Int32Array;
     clusters: Cluster[];
     quality: number;
   }
@@ -192,14 +194,14 @@ declare namespace Chunk {
     active: boolean;
     date: boolean;
     names: string[] | null;
-    of: number[] | null;
+    of: Int32Array | null;
     notes: string[] | null;
-    numbers: (number | null)[] | null;
+    numbers: Float64Array | null;
     edges: number[] | null;
   }
   /** What shapes can be ordered by; `byName` are their rows in the order of their names. */
   interface Fields {
-    byName: number[];
+    byName: Int32Array;
     fields: Field[];
   }
   /** A class of shapes or of classes; `parent` is the number of a node before it, -1 at the top. */
@@ -213,7 +215,7 @@ declare namespace Chunk {
     title: string;
     active: boolean;
     nodes: TreeNode[];
-    of: number[];
+    of: Int32Array;
   }
   /** The trees of a database: its classes, and whatever else is ordered in levels. */
   interface Hierarchy {
@@ -528,7 +530,7 @@ declare namespace Chunk {
     overview: Overview;
     trust: Record<string, Trust>;
     best: BestMap;
-    details: Details;
+    texts: string[];
     clusters: Clusters | null;
     fields: Fields;
     hierarchy: Hierarchy;
@@ -536,7 +538,6 @@ declare namespace Chunk {
     neighbours: ArrayBuffer;
     retrieval: Retrieval;
     search: Search;
-    related: number[][] | null;
     subsets: SubsetMaps;
     faith: SubsetNeighbours;
     workbench: Workbench;
@@ -544,6 +545,16 @@ declare namespace Chunk {
     scores: ArrayBuffer;
     selection: Selection;
     engine: string;
-    pictures: Record<string, string>;
+    paintings: Record<string, string>;
+  }
+  /** WebP files, one after the other, and where each ends. */
+  interface PicturePart {
+    ends: Uint32Array;
+    content: Uint8Array;
+  }
+  /** Chunks that come in parts, each of so many shapes: what one of each holds. */
+  interface Parts {
+    details: ShapeDetails[];
+    pictures: PicturePart;
   }
 }

@@ -23,11 +23,12 @@ from reports import (
 )
 
 from shapeviz_report.pages import PAGES
-from shapeviz_report.pages.chunks import Chunks
+from shapeviz_report.pages.chunks import Chunks, Parts
 from shapeviz_report.writing import write_site
 from shapeviz_report.writing.packing import pack
 
 TYPES = get_type_hints(Chunks)
+PARTS = get_type_hints(Parts)
 
 MEND = "give it its type in pages/chunks.py, and run `make chunks`"
 
@@ -53,8 +54,15 @@ def test_the_browser_s_types_are_made_of_these():
 def test_a_site_holds_every_chunk_and_each_is_of_its_type(tmp_path):
     write_site(everything(), tmp_path)
     held = dict(read_script(path) for path in (tmp_path / "assets").glob("chunk-*.js"))
+    parts = dict(read_script(path) for path in (tmp_path / "chunks").glob("*.js"))
+    assert {name.partition("-")[0] for name in parts} == PARTS.keys()
     assert held.keys() == TYPES.keys(), "name every chunk in Chunks of pages/chunks.py, and run `make chunks`"
     wrong = [where for name, value in held.items() for where in misfits(value, TYPES[name], name)]
+    wrong += [
+        where
+        for name, value in parts.items()
+        for where in misfits(value, PARTS[name.partition("-")[0]], name)
+    ]
     assert wrong == [], MEND
 
 

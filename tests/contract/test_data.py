@@ -34,6 +34,6 @@ def test_every_column_is_described() -> None:
     text = DOCUMENT.read_text(encoding="utf-8")
     described = {code.partition(":")[0] for code in re.findall(r"`([^`]+)`", text)}
     described |= {key for code in re.findall(r"`\{([^`]+)\}`", text) for key in re.findall(r'"(\w+)"', code)}
-    for name, content in data_files(everything(), "1").items():
+    for name, content in data_files(everything(), "1"):
         for column in names_in(name, content):
             assert column in described, f"describe `{column}` of data/{name} in docs/using/site-data.md"

@@ -13,6 +13,7 @@ from reports import make_report, with_bin_search, with_scores, with_search
 
 from shapeviz_report.pages import PAGES
 from shapeviz_report.writing import write_site
+from shapeviz_report.writing.packing import pack
 from shapeviz_report.writing.resources import site_folder, templates_folder
 
 
@@ -50,6 +51,8 @@ class TestPage:
         one, other = page.content(report), page.content(report)
         assert one.context == other.context
         assert packed(one.chunks) == packed(other.chunks)
+        for name, parts in one.parts.items():
+            assert [pack(part) for part in parts] == [pack(part) for part in other.parts[name]]
 
 
 @cache

@@ -71,7 +71,7 @@ def test_a_query_reads_names_as_they_were(tmp_path, monkeypatch) -> None:
     shapes = tuple(replace(shape, id=name) for shape, name in zip(report.shapes, ids, strict=True))
     report = replace(report, shapes=shapes, features=replace(report.features, shape_ids=ids))
     (tmp_path / "data").mkdir()
-    for name, content in data_files(report, __version__).items():
+    for name, content in data_files(report, __version__):
         (tmp_path / "data" / name).write_bytes(content)
     monkeypatch.setattr("shapeviz_report.presets.Preset.blocks", report.features.blocks)
     site = read_site(tmp_path)

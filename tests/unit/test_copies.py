@@ -12,7 +12,16 @@ from shapeviz_report import demo
 from shapeviz_report.copies import NEARLY_DISTANCE, Outline, compare, join_copies, outline, pair_outlines
 from shapeviz_report.mesh import clean, parse_mesh
 from shapeviz_report.search.certainty import deal_folds
-from shapeviz_report.types import Copy, Match, Mesh, copies_of, distinct_rows, group_copies, representatives
+from shapeviz_report.types import (
+    Copy,
+    Match,
+    Mesh,
+    copies_beside,
+    copies_of,
+    distinct_rows,
+    group_copies,
+    representatives,
+)
 
 TURN = Rotation.from_rotvec([0.3, -1.1, 0.7]).as_matrix()
 
@@ -154,21 +163,21 @@ def test_groups_follow_chains_of_copies() -> None:
 
 def test_each_of_a_pair_says_what_it_is_of_the_other() -> None:
     found = [Copy("a", "b", Match("identical geometry", scale=4.0, mirrored=True))]
-    assert [(other, match.words) for other, match in copies_of(found, "a")] == [
+    assert [(other, match.words) for other, match in copies_of(copies_beside(found), "a")] == [
         ("b", "identical geometry, mirrored, scaled by 0.25")
     ]
-    assert [(other, match.words) for other, match in copies_of(found, "b")] == [
+    assert [(other, match.words) for other, match in copies_of(copies_beside(found), "b")] == [
         ("a", "identical geometry, mirrored, scaled by 4")
     ]
-    assert copies_of(found, "c") == []
+    assert copies_of(copies_beside(found), "c") == []
 
 
 def test_a_shape_names_its_whole_group_and_through_whom() -> None:
     same = Match("identical file")
     found = [Copy("a", "b", same), Copy("b", "c", same), Copy("c", "d", same), Copy("x", "y", same)]
-    assert copies_of(found, "a") == [("b", same), ("c", "b"), ("d", "c")]
-    assert copies_of(found, "c") == [("b", same), ("d", same), ("a", "b")]
-    assert copies_of(found, "x") == [("y", same)]
+    assert copies_of(copies_beside(found), "a") == [("b", same), ("c", "b"), ("d", "c")]
+    assert copies_of(copies_beside(found), "c") == [("b", same), ("d", same), ("a", "b")]
+    assert copies_of(copies_beside(found), "x") == [("y", same)]
 
 
 def test_more_copies_than_are_looked_for_beside_each_shape_make_one_group() -> None:

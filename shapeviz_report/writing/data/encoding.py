@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -36,7 +37,7 @@ def read_archive(content: bytes) -> dict[str, npt.NDArray[Any]]:
         return dict(arrays)
 
 
-def csv_text(rows: list[list[str]]) -> bytes:
+def csv_text(rows: Iterable[list[str]]) -> bytes:
     """A table as a file, in which no spreadsheet program meets a formula."""
     text = io.StringIO(newline="")
     csv.writer(text, lineterminator="\n").writerows([write_cell(text) for text in row] for row in rows)

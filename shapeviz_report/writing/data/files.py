@@ -6,8 +6,12 @@ write the same bytes.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import chain
+
 import numpy as np
 
+from shapeviz_report.pages.base import is_in_full
 from shapeviz_report.projections import MAIN_PROJECTION
 from shapeviz_report.quality import hit_range
 from shapeviz_report.types import BinSelection, Report
@@ -24,11 +28,12 @@ DATA_NAMES = (
 """The names that :func:`data_files` gives, as a regular expression."""
 
 
-def data_files(report: Report, version: str) -> dict[str, bytes]:
+def data_files(report: Report, version: str) -> Iterator[tuple[str, bytes]]:
     """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
     found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, the scores of bins in ``scores.npz``, the bins that
     separate all classes in ``selected-bins.txt``, and how well shapes are found in ``retrieval.csv`` and
-    ``retrieval-classes.csv``, and how far classes are told apart in ``separation.csv``, by name.
+    ``retrieval-classes.csv``, and how far classes are told apart in ``separation.csv``: names and contents, each made
+    when it is asked for.
 
     Parameters
     ----------
@@ -36,43 +41,52 @@ def data_files(report: Report, version: str) -> dict[str, bytes]:
     version : str
         Of this package.
     """
-    files = {
-        "summary.json": (json_text(summary(report, version), indent=1) + "\n").encode(),
-        "shapes.csv": csv_text(shape_rows(report)),
-        "features.npz": archive(
-            values=np.ascontiguousarray(report.features.values, dtype=np.float64),
+    yield "summary.json", (json_text(summary(report, version), indent=1) + "\n").encode()
+    yield "shapes.csv", csv_text(shape_rows(report))
+    yield (
+        "features.npz",
+        archive(
+            values=np.ascontiguousarray(report.features.values, dtype=_type_of_features(report)),
             columns=np.array(report.features.columns, dtype=np.str_),
             shape_ids=np.array(report.features.shape_ids, dtype=np.str_),
             edges=report.edges,
         ),
-    }
+    )
     for method, (projection, _) in report.projections.items():
         points = zip(report.shapes, projection.xy, strict=True)
-        rows = [["id", "x", "y"], *([shape.id, number(x), number(y)] for shape, (x, y) in points)]
-        files[f"projection-{method}.csv"] = csv_text(rows)
+        rows = ([shape.id, number(x), number(y)] for shape, (x, y) in points)
+        yield f"projection-{method}.csv", csv_text(chain([["id", "x", "y"]], rows))
     if report.search is not None:
         limits = hit_range([report.labels[row] for row in report.search.rows], report.search.k)
-        files["subsets.csv"] = csv_text(subset_rows(report.search, limits))
+        yield "subsets.csv", csv_text(subset_rows(report.search, limits))
         if report.search.table:
-            files["greedy.csv"] = csv_text(greedy_rows(report.search, limits))
-            files["table2.csv"] = csv_text(table_rows(report.search, limits))
+            yield "greedy.csv", csv_text(greedy_rows(report.search, limits))
+            yield "table2.csv", csv_text(table_rows(report.search, limits))
     if report.scores is not None:
-        files["scores.npz"] = archive(
-            scores=report.scores.values,
-            methods=np.array(report.scores.methods, dtype=np.str_),
-            classes=np.array(report.scores.classes, dtype=np.str_),
-            columns=np.array(report.features.columns, dtype=np.str_),
+        yield (
+            "scores.npz",
+            archive(
+                scores=report.scores.values,
+                methods=np.array(report.scores.methods, dtype=np.str_),
+                classes=np.array(report.scores.classes, dtype=np.str_),
+                columns=np.array(report.features.columns, dtype=np.str_),
+            ),
         )
     if report.retrieval is not None:
-        files["retrieval.csv"] = csv_text(retrieval_rows(report.retrieval))
-        files["retrieval-classes.csv"] = csv_text(retrieval_class_rows(report.retrieval))
+        yield "retrieval.csv", csv_text(retrieval_rows(report.retrieval))
+        yield "retrieval-classes.csv", csv_text(retrieval_class_rows(report.retrieval))
     if report.separation is not None:
-        files["separation.csv"] = csv_text(separation_rows(report.separation))
+        yield "separation.csv", csv_text(separation_rows(report.separation))
     if report.copies:
-        files["copies.csv"] = csv_text(copy_rows(report))
+        yield "copies.csv", csv_text(copy_rows(report))
     if report.bins is not None:
-        files["selected-bins.txt"] = _bin_list(report.bins.automatic).encode()
-    return files
+        yield "selected-bins.txt", _bin_list(report.bins.automatic).encode()
+
+
+def _type_of_features(report: Report) -> type[np.floating]:
+    """Three digits are enough of very many shapes, unless a feature that was brought along is too large for them."""
+    half = not is_in_full(report) and float(np.abs(report.features.values).max()) < np.finfo(np.float16).max
+    return np.float16 if half else np.float64
 
 
 def _bin_list(selection: BinSelection) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -10,64 +11,60 @@ from shapeviz_report.types import FeatureSearch, HitRange, Report
 from shapeviz_report.writing.data.encoding import json_text, number
 
 
-def shape_rows(report: Report) -> list[list[str]]:
+def shape_rows(report: Report) -> Iterator[list[str]]:
+    """A shape a row, below the names of the columns."""
     labelings = report.database.labelings
     columns = list(dict.fromkeys(column for shape in report.shapes for column in shape.metadata))
     methods = list(report.projections)
     highest = next(quality.range for _, quality in report.projections.values()).highest_of_class
-    rows = [
-        [
-            "id",
-            "name",
-            "file",
-            "class",
-            *(("cluster",) if report.clusters is not None else ()),
-            *(f"label:{labeling}" for labeling in labelings),
-            *(f"metadata:{column}" for column in columns),
-            *(f"nh:{method}" for method in methods),
-            "nh_max",
-            *(f"{name}:{method}" for method in report.faithfulness for name in ("kept", "false", "missing")),
-            *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
-            *("area", "volume", "extent_x", "extent_y", "extent_z"),
-            *("repairs", "sha256"),
-        ]
+    yield [
+        "id",
+        "name",
+        "file",
+        "class",
+        *(("cluster",) if report.clusters is not None else ()),
+        *(f"label:{labeling}" for labeling in labelings),
+        *(f"metadata:{column}" for column in columns),
+        *(f"nh:{method}" for method in methods),
+        "nh_max",
+        *(f"{name}:{method}" for method in report.faithfulness for name in ("kept", "false", "missing")),
+        *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
+        *("area", "volume", "extent_x", "extent_y", "extent_z"),
+        *("repairs", "sha256"),
     ]
     for index, (shape, facts, label) in enumerate(
         zip(report.shapes, report.facts, report.labels, strict=True)
     ):
-        rows.append(
-            [
-                shape.id,
-                shape.name,
-                _relative_file(report, shape.path),
-                label or "",
-                *(
-                    (report.clusters.clusters[report.clusters.of[index]].name,)
-                    if report.clusters is not None
-                    else ()
-                ),
-                *(shape.labels.get(labeling, "") for labeling in labelings),
-                *(shape.metadata.get(column, "") for column in columns),
-                *(number(report.projections[method][1].nh[index]) for method in methods),
-                number(None if label is None else highest.get(label)),
-                *(
-                    number(None if values is None else values[index])
-                    for found in report.faithfulness.values()
-                    for values in (found.kept, found.false, found.missing)
-                ),
-                *map(
-                    str,
-                    (facts.faces_read, facts.vertices_read, facts.faces, facts.vertices, facts.components),
-                ),
-                "true" if facts.watertight else "false",
-                number(facts.deviation),
-                *("" if value is None else number(value) for value in (facts.area, facts.volume)),
-                *map(number, facts.extents),
-                json_text(dict(facts.repairs)) if facts.repairs else "",
-                facts.sha256,
-            ]
-        )
-    return rows
+        yield [
+            shape.id,
+            shape.name,
+            _relative_file(report, shape.path),
+            label or "",
+            *(
+                (report.clusters.clusters[report.clusters.of[index]].name,)
+                if report.clusters is not None
+                else ()
+            ),
+            *(shape.labels.get(labeling, "") for labeling in labelings),
+            *(shape.metadata.get(column, "") for column in columns),
+            *(number(report.projections[method][1].nh[index]) for method in methods),
+            number(None if label is None else highest.get(label)),
+            *(
+                number(None if values is None else values[index])
+                for found in report.faithfulness.values()
+                for values in (found.kept, found.false, found.missing)
+            ),
+            *map(
+                str,
+                (facts.faces_read, facts.vertices_read, facts.faces, facts.vertices, facts.components),
+            ),
+            "true" if facts.watertight else "false",
+            number(facts.deviation),
+            *("" if value is None else number(value) for value in (facts.area, facts.volume)),
+            *map(number, facts.extents),
+            json_text(dict(facts.repairs)) if facts.repairs else "",
+            facts.sha256,
+        ]
 
 
 def copy_rows(report: Report) -> list[list[str]]:

@@ -30,7 +30,7 @@ const loaded = new Map();
  * @returns {Promise<Chunk.Chunks[Name]>}
  */
 export function chunk(name) {
-  return entry(loaded, name, () => load(name, () => JSON.parse(document.body.dataset.chunks ?? "{}")[name]));
+  return entry(loaded, name, () => load(name, () => addressOf(name)));
 }
 
 /**
@@ -41,6 +41,36 @@ export function chunk(name) {
  */
 export function chunks(...names) {
   return /** @type {any} */ (Promise.all(names.map(chunk)));
+}
+
+/** Parts that are kept at hand. */
+const MOST_PARTS = 64;
+
+/** @type {Map<string, Promise<any>>} the one that was asked for last comes last */
+const parts = new Map();
+
+/**
+ * A part of a chunk that comes in parts, from 0.
+ * @template {keyof Chunk.Parts} Name
+ * @param {Name} name
+ * @param {number} number
+ * @returns {Promise<Chunk.Parts[Name]>}
+ */
+export function part(name, number) {
+  const key = `${String(name)}-${number}`;
+  const found = parts.get(key) ?? load(key, () => addressOf(String(name)).replace("*", String(number)));
+  parts.delete(key);
+  parts.set(key, found);
+  if (parts.size > MOST_PARTS) parts.delete([...parts.keys()][0]);
+  return found;
+}
+
+/**
+ * Where a chunk is; of one that comes in parts a star stands for the number of the part.
+ * @param {string} name
+ */
+function addressOf(name) {
+  return JSON.parse(document.body.dataset.chunks ?? "{}")[name];
 }
 
 /**
@@ -142,7 +172,11 @@ export function addScript(address) {
   return new Promise((resolve, reject) => {
     const script = document.createElement("script");
     script.src = address;
-    script.onload = resolve;
+    // Scripts that have run need not keep their texts.
+    script.onload = () => {
+      script.remove();
+      resolve(undefined);
+    };
     script.onerror = () => reject(new Error(`${address} is missing from the site`));
     document.head.append(script);
   });

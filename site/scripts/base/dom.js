@@ -66,14 +66,13 @@ export function swatch(path, color) {
 
 /**
  * A thumbnail; `name` is said where the picture is all there is to read.
- * @param {{ picture(index: number): string }} database
+ * @param {{ pictures: { show(image: HTMLImageElement, index: number): void } }} database
  * @param {number} index
  * @param {number} size
  * @param {string} [name]
  */
 export function picture(database, index, size, name = "") {
-  return element("img", {
-    src: database.picture(index),
+  const image = element("img", {
     alt: name,
     width: size,
     height: size,
@@ -81,6 +80,8 @@ export function picture(database, index, size, name = "") {
     decoding: "async",
     draggable: "false",
   });
+  database.pictures.show(image, index);
+  return image;
 }
 
 /**

@@ -3,12 +3,14 @@
 // There is one way for all of them: the element is drawn as it stands on the page, by day, in texts, boxes and lines that a
 // program for drawings can change. Nothing in the file leads out of it.
 
-import { chunk } from "./chunks.js";
 import { element, said, svg } from "./dom.js";
 import { drawnSymbols } from "./figures.js";
 import { onPaper } from "./paper.js";
+import { heldPictures } from "./pictures.js";
 import { fileName, saveFile, xmlText } from "./saving.js";
 import { snapshot, toldOf } from "./snapshot.js";
+
+/** @import { Held } from "./snapshot.js" */
 
 /** Around a figure, and between its parts, in pixels. */
 const MARGIN = 20;
@@ -83,8 +85,7 @@ async function saveFigure(root, kind) {
 
 /** @param {Found} root */
 async function figureText(root) {
-  const pictures = await heldPictures(root);
-  const { node, width, height } = await onPaper(() => alone(root, () => snapshot(root, pictures)));
+  const { node, width, height } = await drawn(root);
   const { title, words } = toldOf(root);
   const wide = Math.max(width, 320) + 2 * MARGIN;
   const source = wrapped(said("source"), (wide - 2 * MARGIN) / 5.6);
@@ -167,18 +168,21 @@ function wrapped(text, most) {
 }
 
 /**
- * The content of the site's pictures. A page from file:// may show them but not read them, so they come in a chunk.
+ * The figure with the pictures in it, which are only known, and then loaded, once it has been drawn.
  * @param {Found} root
- * @returns {Promise<(address: string) => string | null>}
  */
-async function heldPictures(root) {
-  const shown = root.querySelector("img:not([src^='data:']), image") !== null;
-  const pictures = shown && JSON.parse(document.body.dataset.chunks ?? "{}").pictures ? await chunk("pictures") : {};
-  return (address) => {
-    if (address.startsWith("data:")) return address;
-    const path = address.split("/").slice(-2).join("/");
-    return pictures[path] === undefined ? null : `data:image/webp;base64,${pictures[path]}`;
-  };
+async function drawn(root) {
+  /** @type {Set<number | string>} */
+  const wanted = new Set();
+  /** @param {Held} picture */
+  const draw = (picture) => onPaper(() => alone(root, () => snapshot(root, picture)));
+  const first = await draw((picture) => {
+    wanted.add(picture);
+    return null;
+  });
+  if (wanted.size === 0) return first;
+  const held = await heldPictures(wanted);
+  return draw((picture) => held.get(picture) ?? null);
 }
 
 /**

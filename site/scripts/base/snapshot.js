@@ -2,6 +2,7 @@
 // canvas is drawn again, by who drew it.
 
 import { svg } from "./dom.js";
+import { shownPicture } from "./pictures.js";
 
 /**
  * @typedef {{ node: SVGElement, width: number, height: number }} Drawing
@@ -32,7 +33,7 @@ const LOOKS = [
 /**
  * How an element is drawn, and what belongs below the figure that it stands in; `picture` gives the content of a picture
  * as an address that holds it all.
- * @typedef {(address: string) => string | null} Held
+ * @typedef {(picture: number | string) => string | null} Held a shape's by its number, another one by its address
  * @typedef {(picture: Held) => { node: SVGElement, below?: Drawing } | null} Draw
  */
 
@@ -102,7 +103,7 @@ function captionOf(figure) {
  */
 export function drawnWithin(root) {
   return [...root.querySelectorAll("*")].flatMap((node) => {
-    const drawing = node.clientWidth > 0 ? drawings.get(node)?.((address) => address)?.node : undefined;
+    const drawing = node.clientWidth > 0 ? drawings.get(node)?.(shownPicture)?.node : undefined;
     return drawing === undefined ? [] : [{ node, drawing }];
   });
 }
@@ -251,7 +252,7 @@ class Taker {
    */
   #image(node, into) {
     const place = this.#place(node.getBoundingClientRect());
-    const href = node instanceof HTMLImageElement ? this.picture(node.src) : canvasAddress(node);
+    const href = node instanceof HTMLImageElement ? this.picture(pictureOf(node)) : canvasAddress(node);
     if (href !== null && place.width > 0) into.append(svg("image", { ...place, href }));
   }
 
@@ -283,6 +284,11 @@ class Taker {
       into.append(svg("text", attributes, style.textTransform === "uppercase" ? words.toUpperCase() : words));
     }
   }
+}
+
+/** @param {HTMLImageElement} image */
+function pictureOf({ dataset, src }) {
+  return dataset.picture === undefined ? src : Number(dataset.picture);
 }
 
 /** @param {string} color */

@@ -92,7 +92,9 @@ export class Stage {
 
   /** @param {number} shape */
   #picture(shape) {
-    return element("img", { src: this.database.picture(shape), alt: "", width: 320, height: 320 });
+    const image = element("img", { alt: "", width: 320, height: 320 });
+    this.database.pictures.show(image, shape);
+    return image;
   }
 
   /** @param {...(HTMLImageElement | HTMLParagraphElement | HTMLButtonElement)} nodes */

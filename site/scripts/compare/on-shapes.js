@@ -163,7 +163,7 @@ export class OnShapes {
   async #apart(view) {
     const { database, chosen } = this;
     const { bins } = view;
-    const details = await chunk("details");
+    const known = await database.details(chosen.a);
     if (view !== this.view || this.state.get("reading") !== "apart") return;
     const selection = /** @type {Chunk.Selection} */ (this.selection);
     const stages = /** @type {Record<Side, Stage>} */ (this.stages);
@@ -177,7 +177,7 @@ export class OnShapes {
     });
     this.similarity ??= new Similarity(bins);
     const parts = this.similarity.differences(...pair, { features: [...bins.features.keys()] });
-    const evidence = copyEvidence(details, ...pair);
+    const evidence = copyEvidence(known, chosen.b);
     const nowhere = byFeature(parts, bins, pair).reduce((sum, { beside }) => sum + beside, 0);
     document
       .getElementById("seen-bin")

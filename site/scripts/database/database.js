@@ -1,7 +1,7 @@
 // The shapes, classes and projections of the database, as the views ask for them.
 
-import { chunk } from "../base/chunks.js";
-import { resource } from "../base/place.js";
+import { chunk, part } from "../base/chunks.js";
+import { picturesOf } from "../base/pictures.js";
 import { reachOf } from "./hit-range.js";
 import { sharesOf } from "./shares.js";
 
@@ -50,6 +50,7 @@ export class Database {
     this.names = data.shapes.names;
     this.groups = data.shapes.groups;
     this.classes = data.classes;
+    this.pictures = picturesOf(data);
     /** @type {ShapeMap[]} of all features, or of the bins that the site was made for */
     this.projections = data.methods.map((method) => ({ ...mapOf(method), know: () => this.#know() }));
     /** @type {Method[]} those, and others that are added to them */
@@ -106,9 +107,14 @@ export class Database {
     return this.classes.length > 1;
   }
 
-  /** @param {number} index */
-  picture(index) {
-    return resource(`thumbnails/${this.data.shapes.pictures[index]}`);
+  /**
+   * What is known of a shape beyond its place.
+   * @param {number} index
+   * @returns {Promise<Chunk.ShapeDetails>}
+   */
+  async details(index) {
+    const size = this.data.partSizes.details;
+    return (await part("details", Math.floor(index / size)))[index % size];
   }
 
   /** @param {number} group */
@@ -181,7 +187,7 @@ export class Database {
       x: this.methods.map((method) => method.x[index]),
       y: this.methods.map((method) => method.y[index]),
       hit: this.methods.map((method) => reachOf(this, method, index)),
-      picture: this.picture(index),
+      picture: this.pictures.at(index),
     }));
   }
 }

@@ -29,10 +29,9 @@ export function meshFacts({ facesRead, verticesRead, faces, vertices, deviation 
 
 /**
  * What says that two shapes are the same shape, if they are copies of each other.
- * @param {Chunk.Details} details
- * @param {number} shape
+ * @param {Chunk.ShapeDetails} known of the one
  * @param {number} other
  */
-export function copyEvidence({ shapes }, shape, other) {
-  return shapes[shape].copies.find(([copy]) => copy === other)?.[1] ?? null;
+export function copyEvidence({ copies }, other) {
+  return copies.find(([copy]) => copy === other)?.[1] ?? null;
 }

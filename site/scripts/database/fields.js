@@ -7,8 +7,8 @@ import { highestOf } from "./hit-range.js";
 
 /**
  * One with values, of a range of numbers, and one of a tree.
- * @typedef {Field & { names: string[], of: number[] }} ChoiceField
- * @typedef {Field & { numbers: (number | null)[], edges: number[] }} RangeField
+ * @typedef {Field & { names: string[], of: Int32Array }} ChoiceField
+ * @typedef {Field & { numbers: Float64Array, edges: number[] }} RangeField
  * @typedef {Field & { tree: Chunk.Tree & { ways: string[][] } }} TreeField
  */
 
@@ -94,6 +94,14 @@ const NOTHING = {
 };
 
 /**
+ * Numbers of the shapes, no numbers where there are none.
+ * @param {ArrayLike<number | null>} values
+ */
+function column(values) {
+  return Float64Array.from(values, (value) => value ?? Number.NaN);
+}
+
+/**
  * @param {Database} database
  * @returns {Field[]}
  */
@@ -103,7 +111,7 @@ function hits(database) {
     ...NOTHING,
     key: `nh:${method.key}`,
     title: `NH on the ${method.title} map`,
-    numbers: method.hit,
+    numbers: column(method.hit),
     edges: HIT_EDGES,
     hit: true,
     highest: (row) => highestOf(database, method, row),
@@ -124,7 +132,7 @@ function kept(database) {
             ...NOTHING,
             key: `kept:${key}`,
             title: `Neighbours kept on the ${title} map`,
-            numbers: faith.kept,
+            numbers: column(faith.kept),
             edges: HIT_EDGES,
           },
         ],
@@ -168,7 +176,7 @@ export function groupOf({ active, groups }, value) {
  * @param {{ hit?: boolean, date?: boolean }} [field]
  */
 export function numberText(number, { hit = false, date = false } = {}) {
-  if (number === null || number === undefined) return "–";
+  if (number === null || number === undefined || Number.isNaN(number)) return "–";
   if (date) return new Date(number * DAY).toISOString().replace(/T.*/, "");
   if (hit) return number.toFixed(3);
   const size = Math.abs(number);

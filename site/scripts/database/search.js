@@ -5,7 +5,12 @@ import { entry } from "../base/entry.js";
 
 /** @import { Database } from "./database.js" */
 
-/** @type {WeakMap<Database, Promise<string[]>>} */
+/**
+ * Texts to be searched, one a line, and where each line starts; the last start is where a further one would.
+ * @typedef {{ text: string, starts: Int32Array }} Searchable
+ */
+
+/** @type {WeakMap<Database, Promise<Searchable>>} */
 const known = new WeakMap();
 
 /**
@@ -13,36 +18,84 @@ const known = new WeakMap();
  * @param {Database} database
  */
 export function searchTexts(database) {
-  return entry(known, database, () => makeTexts(database));
+  return entry(known, database, async () => searchableWith(database, await chunk("texts")));
 }
 
-/** @param {Database} database */
-async function makeTexts(database) {
-  const { shapes } = await chunk("details");
-  return shapes.map(({ labels, metadata }, index) =>
-    plain(
-      [
-        database.ids[index],
-        database.names[index],
-        database.groups[index] < 0 ? "" : database.className(database.groups[index]),
-        ...labels.filter(Boolean),
-        ...metadata.map(([, value]) => value),
-      ].join("\n"),
-    ),
+/**
+ * The id, name and class of every shape, and what else is said of it.
+ * @param {Database} database
+ * @param {string[]} more
+ */
+export function searchableWith({ ids, names, groups, classes }, more) {
+  return searchable(
+    ids.map((id, index) => [id, names[index], classes[groups[index]] ?? "", more[index] ?? ""].join(" ")),
   );
 }
 
 /**
- * The numbers of the texts that hold all words of a query, parts of words included.
+ * Texts in one: going through it is far quicker than from text to text.
  * @param {string[]} texts
+ * @returns {Searchable}
+ */
+export function searchable(texts) {
+  const text = plain(texts.map((one) => one.replaceAll("\n", " ")).join("\n"));
+  const starts = new Int32Array(texts.length + 1);
+  for (let line = 1; line < texts.length; line += 1) starts[line] = text.indexOf("\n", starts[line - 1]) + 1;
+  starts[texts.length] = text.length + 1;
+  return { text, starts };
+}
+
+/**
+ * A line of what is searched.
+ * @param {Searchable} searched
+ * @param {number} line
+ */
+export function lineOf({ text, starts }, line) {
+  return text.slice(starts[line], starts[line + 1] - 1);
+}
+
+/**
+ * The numbers of the texts that hold all words of a query, parts of words included.
+ * @param {Searchable} searched
  * @param {string} query
  */
-export function findWords(texts, query) {
+export function findWords({ text, starts }, query) {
   const words = plain(query).split(/\s+/);
+  const count = starts.length - 1;
+  const held = new Uint16Array(count);
+  for (const [place, word] of words.entries()) {
+    let line = 0;
+    for (let at = text.indexOf(word); at >= 0 && line < count; at = text.indexOf(word, starts[line])) {
+      line = lineAt(starts, at, line);
+      if (held[line] === place) held[line] += 1;
+      line += 1;
+    }
+  }
   /** @type {number[]} */
   const found = [];
-  for (const [index, text] of texts.entries()) if (words.every((word) => text.includes(word))) found.push(index);
+  for (let line = 0; line < count; line += 1) if (held[line] === words.length) found.push(line);
   return found;
+}
+
+/**
+ * The line that a place in the text lies in.
+ * @param {Int32Array} starts
+ * @param {number} place
+ * @param {number} first which it does not lie before
+ */
+function lineAt(starts, place, first) {
+  let [low, step] = [first, 1];
+  while (low + step < starts.length && starts[low + step] <= place) {
+    low += step;
+    step *= 2;
+  }
+  let high = Math.min(low + step, starts.length - 1);
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (starts[middle] <= place) low = middle;
+    else high = middle;
+  }
+  return low;
 }
 
 /**

@@ -2,9 +2,10 @@
 
 import { element, picture, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
-import { findWords, plain, searchTexts } from "./search.js";
+import { findWords, lineOf, plain, searchable, searchableWith, searchTexts } from "./search.js";
 
 /** @import { Database } from "./database.js" */
+/** @import { Searchable } from "./search.js" */
 
 const PICTURE = 36;
 
@@ -15,21 +16,25 @@ const PICTURE = 36;
  * @param {{ field: string, list: string }} [nodes]
  */
 export function findShapes(database, choose, { field, list } = { field: "shape-search", list: "shape-found" }) {
-  const names = database.names.map(plain);
+  /** @type {Searchable | undefined} */
+  let names;
   // Names, ids and classes are at hand; labels and metadata come when somebody is about to search.
-  let texts = names.map((name, index) =>
-    plain(`${name}\n${database.ids[index]}\n${database.className(database.groups[index])}`),
-  );
+  /** @type {Searchable | undefined} */
+  let texts;
   return new Finder(field, list, {
     find: (text) => {
+      names ??= searchable(database.names);
+      texts ??= searchableWith(database, []);
       const whole = plain(text);
       // Whose name is just that, begins with it or has it comes before those of whom something else has the words.
-      /** @param {number} index */
-      const rank = (index) => {
-        const place = names[index].indexOf(whole);
-        return names[index] === whole ? 0 : place === 0 ? 1 : place > 0 ? 2 : 3;
-      };
-      return findWords(texts, text).sort((a, b) => rank(a) - rank(b) || a - b);
+      /** @type {number[][]} */
+      const ranks = [[], [], [], []];
+      for (const index of findWords(texts, text)) {
+        const name = lineOf(names, index);
+        const place = name.indexOf(whole);
+        ranks[name === whole ? 0 : place === 0 ? 1 : place > 0 ? 2 : 3].push(index);
+      }
+      return ranks.flat();
     },
     label: (index) =>
       [

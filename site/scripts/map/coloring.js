@@ -169,7 +169,8 @@ export function binColoring(database, bins, column) {
 function choiceColoring({ data, marks }, field) {
   const of = field.of ?? [];
   const names = field.names ?? [];
-  const sizes = names.map((_, value) => of.filter((own) => own === value).length);
+  const sizes = new Int32Array(names.length);
+  for (const value of of) if (value !== NONE) sizes[value] += 1;
   const most = data.marks.categories.length;
   // Those with most shapes are told apart, and stand in the order of all.
   const told = [...names.keys()]
@@ -187,7 +188,7 @@ function choiceColoring({ data, marks }, field) {
     return { symbol: data.marks.categories[kind], color: marks.categories[kind] };
   };
   /** @param {number | null} kind */
-  const shapesOf = (kind) => of.flatMap((_, index) => (kindOf(index) === kind ? [index] : []));
+  const shapesOf = (kind) => [...of.keys()].filter((index) => kindOf(index) === kind);
   /** @type {[number | null, string][]} */
   const kinds = [
     ...told.map((value, place) => /** @type {[number, string]} */ ([place, names[value]])),
@@ -215,10 +216,13 @@ const STEPS = 48;
 const SKEWED = 0.25;
 const TEXTS = 3;
 
+/** @param {number | null} number */
+const isKnown = (number) => Number.isFinite(number);
+
 /**
  * @param {Database} database
  * @param {string} title
- * @param {(number | null)[]} numbers
+ * @param {(number | null)[] | Float64Array} numbers null, or no number, where there is none
  * @param {(number: number) => string} textOf
  * @param {object} [scale]
  * @param {[number, number] | null} [scale.range] where the ramp begins and ends, if not with the numbers
@@ -227,7 +231,7 @@ const TEXTS = 3;
  */
 function numberColoring(database, title, numbers, textOf, { range = null, open = false } = {}) {
   const { data, marks } = database;
-  const known = numbers.filter((number) => number !== null).sort((one, other) => one - other);
+  const known = Float64Array.from(/** @type {number[]} */ (Array.from(numbers).filter(isKnown))).sort();
   const [least, most] = [known[0], known[known.length - 1]];
   const [low, high] = range ?? [least, most];
   const middle = known[known.length >> 1];
@@ -244,19 +248,19 @@ function numberColoring(database, title, numbers, textOf, { range = null, open =
     const group = Math.floor(kind / (STEPS + 1)) - 1;
     return { symbol: database.symbol(group), color: between(marks.ramp, (kind % (STEPS + 1)) / STEPS) };
   };
-  const lacking = numbers.flatMap((number, index) => (number === null ? [index] : []));
+  const lacking = [...numbers.keys()].filter((index) => !isKnown(numbers[index]));
   /** @param {number} share */
   const at = (share) => (wide ? low * (high / low) ** share : low + share * (high - low));
   return {
     title,
     kindOf(index) {
       const number = numbers[index];
-      if (number === null) return null;
+      if (number === null || !isKnown(number)) return null;
       const step = Math.min(Math.round(((lengthOf(number) - lengthOf(low)) / span) * STEPS), STEPS);
       return (database.groups[index] + 1) * (STEPS + 1) + step;
     },
     look,
-    textOf: (index) => (numbers[index] === null ? "–" : textOf(/** @type {number} */ (numbers[index]))),
+    textOf: (index) => (isKnown(numbers[index]) ? textOf(/** @type {number} */ (numbers[index])) : "–"),
     legend: {
       lines: lacking.length > 0 ? [{ name: "no value", look: look(null), shapes: lacking }] : [],
       ramp: {

@@ -93,7 +93,7 @@ function namesOf({ overlay, width, height }, picture) {
  */
 function markOf({ database, coloring, pictured, pictureSize, markRadius }, index, [x, y], picture) {
   const { symbol, color } = coloring.look(coloring.kindOf(index));
-  const held = pictured[index] ? picture(new URL(database.picture(index), document.baseURI).href) : null;
+  const held = pictured[index] ? picture(index) : null;
   if (held === null) return [markAt(symbol, color, [x, y], markRadius, database.marks.outline)];
   const [radius, side] = [pictureSize / 2, pictureSize * 0.86];
   const line = Math.max(1.5, pictureSize * 0.035);

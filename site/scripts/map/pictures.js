@@ -47,10 +47,8 @@ export class Pictures {
 
   /** @param {number} index */
   #picture(index) {
-    return element(
-      "div",
-      { class: "pictured" },
-      element("img", { src: this.view.database.picture(index), alt: "", decoding: "async", draggable: "false" }),
-    );
+    const image = element("img", { alt: "", decoding: "async", draggable: "false" });
+    this.view.database.pictures.show(image, index);
+    return element("div", { class: "pictured" }, image);
   }
 }

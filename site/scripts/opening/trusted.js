@@ -2,7 +2,7 @@
 
 import { chunk } from "../base/chunks.js";
 
-const OWN = /^(assets\/(chunk-[a-z-]+|vega)\.js\?[0-9a-f]{8}|models\/[0-9a-f]{20}\.js)$/;
+const OWN = /^((assets\/(chunk-[a-z-]+|vega)|chunks\/[a-z]+-\d+)\.js\?[0-9a-f]{8}|models\/[0-9a-f]{20}\.js)$/;
 
 /** The address of the one worker that is being started at this moment. */
 /** @type {string | null} */

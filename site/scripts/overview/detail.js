@@ -1,6 +1,5 @@
 // What is known of one shape: picture, labels, facts, and its nearest neighbours on the map.
 
-import { chunk } from "../base/chunks.js";
 import { element, focused, picture } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
@@ -40,11 +39,11 @@ export class Detail {
       this.returnTo = null;
       return;
     }
-    const { labelings, shapes } = await chunk("details");
+    const known = await this.database.details(index);
     if (this.state.get("opened") !== index) return;
     const first = this.node.hidden;
     if (first) this.returnTo = focused();
-    this.node.replaceChildren(...this.#content(index, labelings, shapes[index]));
+    this.node.replaceChildren(...this.#content(index, known));
     this.node.hidden = false;
     this.node.scrollTop = 0;
     if (first) this.node.querySelector("button").focus({ preventScroll: true });
@@ -52,15 +51,12 @@ export class Detail {
 
   /**
    * @param {number} index
-   * @param {string[]} labelings
    * @param {Chunk.ShapeDetails} known
    */
-  #content(index, labelings, known) {
+  #content(index, known) {
     const { database } = this;
     const method = database.methods[this.state.get("method")];
-    const others = labelings
-      .map((labeling, place) => [labeling, known.labels[place]])
-      .filter(([labeling, label]) => label !== null && label !== undefined && labeling !== database.data.labeling);
+    const others = known.labels.filter(([labeling]) => labeling !== database.data.labeling);
     return [
       element(
         "div",

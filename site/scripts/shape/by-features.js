@@ -47,28 +47,23 @@ export async function showFeatures(database, state, { links, portrait }) {
   const waiting = document.getElementById("waiting");
   waiting.textContent =
     database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
-  const [data, bytes, selection, details, related] = await chunks(
-    "workbench",
-    "bins",
-    "selection",
-    "details",
-    "related",
-  );
+  const [data, bytes, selection] = await chunks("workbench", "bins", "selection");
+  const { related } = await database.details(state.get("shape") ?? 0);
   const bins = new Bins(data, bytes);
-  const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, related, state);
+  const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, related !== null, state);
   const histograms = new Histograms(database, bins, state, {
     spread: new Spread(database, bins),
     dimensions: selection.dimensions,
     card: new ValueCard(bins, kind(database)),
   });
   const similarity = new Similarity(bins);
-  const known = { database, bins, state, links, comparison, similarity, details };
+  const known = { database, bins, state, links, comparison, similarity };
   const similar = new SimilarShapes(known);
   const beside = new SideBySide(known, selection);
   waiting.hidden = true;
   section.removeAttribute("aria-busy");
   document.getElementById("featured").hidden = false;
-  for (const view of [similar, beside, histograms]) view.render();
+  await Promise.all([similar, beside, histograms].map((view) => view.render()));
   portrait.know(bins, selection, comparison);
   return { similar, beside, histograms };
 }

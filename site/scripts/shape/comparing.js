@@ -19,25 +19,23 @@ export class Comparing {
    * @param {ShapeLinks} known.links
    * @param {Comparison} known.comparison
    * @param {Similarity} known.similarity
-   * @param {Chunk.Details} known.details
    */
-  constructor({ database, bins, state, links, comparison, similarity, details }) {
+  constructor({ database, bins, state, links, comparison, similarity }) {
     this.database = database;
     this.bins = bins;
     this.state = state;
     this.links = links;
     this.comparison = comparison;
     this.similarity = similarity;
-    this.details = details;
   }
 
   /**
    * That another shape is this one again, and what says so; null where it is not.
-   * @param {number} shape
+   * @param {Chunk.ShapeDetails} known
    * @param {number} other
    */
-  copyInWords(shape, other) {
-    const evidence = copyEvidence(this.details, shape, other);
+  copyInWords(known, other) {
+    const evidence = copyEvidence(known, other);
     return evidence && `A copy of this shape: ${evidence}.`;
   }
 }

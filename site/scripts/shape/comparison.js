@@ -13,7 +13,7 @@ export class Comparison {
   /**
    * @param {Chunk.Workbench} data
    * @param {number[] | null} selected the bins of the site's own search
-   * @param {number[][] | null} related the shapes most similar to each by neighbourhood
+   * @param {boolean} related whether the site knows which shapes have the same neighbours
    * @param {ShapeState} state
    */
   constructor(data, selected, related, state) {
@@ -48,9 +48,9 @@ export class Comparison {
     return data.bins ? { columns: data.bins } : { features: [...names.keys()] };
   }
 
-  /** Whether shapes are similar that have the same neighbours, where the site knows these. */
+  /** Whether shapes are similar that have the same neighbours. */
   get byNeighbourhood() {
-    return this.related !== null && this.state.get("neighbourhood");
+    return this.related && this.state.get("neighbourhood");
   }
 
   /** Whether all features are compared, by their plain distances. */

@@ -40,9 +40,9 @@ export class Facts {
   async render() {
     const shape = this.state.get("shape");
     if (shape === null) return;
-    const [{ labelings, shapes }, clusters] = await Promise.all([chunk("details"), chunk("clusters")]);
+    const [known, clusters] = await Promise.all([this.database.details(shape), chunk("clusters")]);
     if (this.state.get("shape") !== shape) return;
-    this.groups = factGroups(this.database, shape, labelings, shapes[shape], clusters);
+    this.groups = factGroups(this.database, shape, known, clusters);
     this.node.replaceChildren(...this.groups.map((group) => this.#section(group)));
   }
 
@@ -75,20 +75,15 @@ export class Facts {
  * All facts of a shape, whose it is first.
  * @param {Database} database
  * @param {number} shape
- * @param {string[]} labelings
  * @param {Chunk.ShapeDetails} known
  * @param {Chunk.Clusters | null} clusters
  * @returns {FactGroup[]}
  */
-function factGroups(database, shape, labelings, known, clusters) {
+function factGroups(database, shape, known, clusters) {
   /** @param {[string, string]} parts */
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
-  /** @type {[string, string][]} */
-  const labels = labelings.flatMap((labeling, place) => {
-    const label = known.labels[place];
-    return label === null ? [] : [[labeling, label]];
-  });
+  const labels = [...known.labels];
   // A column that is a labeling is told among the labels.
   const told = new Set(labels.length > 1 ? labels.map(([labeling]) => labeling) : []);
   const others = known.metadata.filter((pair) => rank(pair) < 0 && !told.has(pair[0]));

@@ -122,20 +122,21 @@ export class SideBySide extends Comparing {
    */
   #tell([own, other], distance, told) {
     const words = document.getElementById("beside-words");
-    const evidence = copyEvidence(this.details, own, other);
-    const copy =
-      evidence === null
-        ? []
-        : [element("p", {}, this.#name(other), " is a copy of ", this.#name(own), `: ${evidence}.`)];
+    const copy = element("p", { hidden: true });
+    this.database.details(own).then((known) => {
+      const evidence = copyEvidence(known, other);
+      copy.hidden = evidence === null;
+      copy.replaceChildren(this.#name(other), " is a copy of ", this.#name(own), `: ${evidence}.`);
+    });
     if (told.length === 0) {
-      words.replaceChildren(...copy, element("p", {}, "Nothing that is compared tells the two apart."));
+      words.replaceChildren(copy, element("p", {}, "Nothing that is compared tells the two apart."));
       return;
     }
     const [here, there] = [0, 1].map((side) => told.reduce((sum, { on }) => sum + on[side], 0));
     const nowhere = told.reduce((sum, { beside }) => sum + beside, 0);
     const one = told.length === 1 && this.bins.features[told[0].feature];
     words.replaceChildren(
-      ...copy,
+      copy,
       element(
         "p",
         {},

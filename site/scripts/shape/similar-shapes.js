@@ -35,10 +35,10 @@ export class SimilarShapes extends Comparing {
     this.list = document.getElementById("similar-list");
     this.shown = FIRST;
     this.more = document.getElementById("similar-more");
-    this.more.addEventListener("click", () => {
+    this.more.addEventListener("click", async () => {
       const first = this.shown;
       this.shown = Math.min(2 * this.shown, MOST);
-      this.render();
+      await this.render();
       this.list.children[first]?.querySelector("a").focus();
     });
     toldAs(this.section, () => ({
@@ -69,19 +69,21 @@ export class SimilarShapes extends Comparing {
     return listed((features ?? []).map((feature) => bins.features[feature].title));
   }
 
-  render() {
+  async render() {
     const { database, state } = this;
     const shape = state.get("shape");
     this.section.hidden = shape === null || database.count === 1;
     if (shape === null || this.section.hidden) return;
-    const { choice, byNeighbourhood, related } = this.comparison;
+    const known = await database.details(shape);
+    if (state.get("shape") !== shape) return;
+    const { choice, byNeighbourhood } = this.comparison;
     this.found =
-      related && byNeighbourhood
-        ? this.similarity.tell(shape, related[shape].slice(0, this.shown), choice)
+      known.related && byNeighbourhood
+        ? this.similarity.tell(shape, known.related.slice(0, this.shown), choice)
         : this.similarity.rank(shape, choice, this.shown);
     this.#offer();
     document.getElementById("similar-words").replaceChildren(...this.#tell(shape, choice));
-    this.list.replaceChildren(...this.found.map((found) => this.#card(shape, found)));
+    this.list.replaceChildren(...this.found.map((found) => this.#card(shape, known, found)));
     this.more.hidden = this.shown >= MOST || this.found.length < this.shown;
     document.getElementById("similar-on-map").href = this.#together(shape, "index.html");
   }
@@ -182,13 +184,14 @@ export class SimilarShapes extends Comparing {
 
   /**
    * @param {number} shape
+   * @param {Chunk.ShapeDetails} known
    * @param {Similar} similar
    */
-  #card(shape, { row, distance, closer }) {
+  #card(shape, known, { row, distance, closer }) {
     const { database } = this;
     const [own, group] = [database.groups[shape], database.groups[row]];
     const differ = own >= 0 && group >= 0 && own !== group;
-    const copy = this.copyInWords(shape, row);
+    const copy = this.copyInWords(known, row);
     return element(
       "li",
       { class: "similar" },

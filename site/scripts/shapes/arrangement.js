@@ -1,5 +1,6 @@
 // In which order, and in which groups, the shapes that passed stand.
 
+import { entry } from "../base/entry.js";
 import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
 import { interval } from "./sieve.js";
 
@@ -8,6 +9,7 @@ import { interval } from "./sieve.js";
 /** @import { Group } from "./layout.js" */
 
 export class Arrangement {
+  /** @type {Map<string, Int32Array>} */
   #orders = new Map();
 
   /**
@@ -28,7 +30,7 @@ export class Arrangement {
   arrange(passes, { group, sort, down }) {
     const order = this.#order(sort, down);
     const field = this.fields.byKey.get(group);
-    if (!field) return [{ key: "", title: null, group: null, note: "", rows: order.filter(passes) }];
+    if (!field) return [{ key: "", title: null, group: null, note: "", rows: Array.from(order).filter(passes) }];
     const { count, of, describe } = grouping(field);
     /** @type {number[][]} */
     const rows = Array.from({ length: count + 1 }, () => []);
@@ -48,8 +50,7 @@ export class Arrangement {
    */
   #order(sort, down) {
     const key = `${down} ${sort}`;
-    if (!this.#orders.has(key)) this.#orders.set(key, Int32Array.from(sorted(this.fields, sort, down)));
-    return this.#orders.get(key);
+    return entry(this.#orders, key, () => sorted(this.fields, sort, down));
   }
 }
 
@@ -61,14 +62,14 @@ export class Arrangement {
  */
 function sorted({ byKey, byName }, sort, down) {
   const field = byKey.get(sort);
-  if (!field) return down ? [...byName].reverse() : byName;
-  const values = field.numbers ?? (field.of ?? []).map((value) => (value < 0 ? null : value));
+  if (!field) return down ? byName.slice().reverse() : byName;
   const sign = down ? -1 : 1;
-  // Sorting keeps the order of equals.
-  return [...byName].sort((a, b) => {
-    if (values[a] === null || values[b] === null) return Number(values[a] === null) - Number(values[b] === null);
-    return sign * (Number(values[a]) - Number(values[b]));
-  });
+  const values = field.numbers ?? field.of ?? [];
+  const keys = Float64Array.from(values, (value) =>
+    Number.isNaN(value) || (field.numbers === null && value === NONE) ? Infinity : sign * value,
+  );
+  // Sorting keeps the order of equals; of two without a value the difference is no number.
+  return byName.slice().sort((a, b) => keys[a] - keys[b] || 0);
 }
 
 /**
@@ -95,7 +96,7 @@ function grouping(field) {
     count: edges.length - 1,
     of: (row) => {
       const number = numbers[row];
-      return number === null ? NONE : interval(edges, number);
+      return Number.isNaN(number) ? NONE : interval(edges, number);
     },
     describe: (value) => ({
       key: value < 0 ? "" : `=${edges[value]}`,

@@ -234,8 +234,8 @@ export class Grid {
       return;
     }
     for (const shape of this.#unpictured) {
-      const picture = this.#made.get(shape)?.querySelector("img");
-      if (picture) picture.src = this.database.picture(shape);
+      const picture = /** @type {HTMLImageElement | null} */ (this.#made.get(shape)?.querySelector("img") ?? null);
+      if (picture) this.database.pictures.show(picture, shape);
     }
     this.#unpictured.clear();
   }

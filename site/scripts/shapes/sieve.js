@@ -90,7 +90,7 @@ export class Sieve {
 
   /**
    * How many of the shapes that pass all other filters have each value of a field; those without one come last.
-   * @param {{ key: string, names: ArrayLike<unknown>, of: number[] }} field
+   * @param {{ key: string, names: ArrayLike<unknown>, of: ArrayLike<number> }} field
    */
   counts({ key, names, of }) {
     const counts = new Int32Array(names.length + 1);
@@ -119,7 +119,7 @@ export class Sieve {
     const counts = new Int32Array(edges.length - 1);
     this.#each(key, (row) => {
       const number = numbers[row];
-      if (number !== null) counts[interval(edges, number)] += 1;
+      if (!Number.isNaN(number)) counts[interval(edges, number)] += 1;
     });
     return counts;
   }
@@ -157,8 +157,8 @@ export function interval(edges, number) {
 function passing({ tree, of, numbers }, filter) {
   if (!(filter instanceof Set))
     return (row) => {
-      const number = numbers?.[row] ?? null;
-      return number !== null && number >= filter.low && number <= filter.high;
+      const number = numbers?.[row] ?? Number.NaN;
+      return number >= filter.low && number <= filter.high;
     };
   if (tree === null) return (row) => filter.has(of?.[row] ?? NONE);
   const under = new Set(filter);

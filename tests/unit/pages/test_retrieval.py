@@ -79,7 +79,7 @@ def test_summary_and_tables_agree_with_the_report(report) -> None:
     assert told["bins"]["bins"] == list(report.bins.automatic.bins)
     assert told["chance"]["nearest_neighbour"] == pytest.approx(5 / 23)
 
-    files = data_files(report, "0")
+    files = dict(data_files(report, "0"))
     rows = list(csv.DictReader(io.StringIO(files["retrieval.csv"].decode())))
     assert len(rows) == 2 * (7 + 1 + 1 + 1)
     (own,) = [

@@ -22,7 +22,7 @@ def folder(tmp_path):
         failures=[Failure("bad.off", "read", "no faces")],
         metadata={"artist": 'O"Neill, line\nbreak', "__proto__": "x"},
     )
-    for name, content in data_files(report, "1.2.3").items():
+    for name, content in data_files(report, "1.2.3"):
         (tmp_path / name).write_bytes(content)
     return tmp_path, report
 
@@ -101,13 +101,13 @@ def test_summary_names_the_bins_that_maps_are_made_of():
 
 def test_scores_stand_beside_what_they_are_scores_of(tmp_path):
     report = with_scores(make_report([*NASTY_LABELS[:3], None], 4))
-    (tmp_path / "scores.npz").write_bytes(data_files(report, "1")["scores.npz"])
+    (tmp_path / "scores.npz").write_bytes(dict(data_files(report, "1"))["scores.npz"])
     with np.load(tmp_path / "scores.npz", allow_pickle=False) as content:
         np.testing.assert_array_equal(content["scores"], report.scores.values)
         assert tuple(content["methods"]) == report.scores.methods
         assert tuple(content["classes"]) == tuple(sorted(NASTY_LABELS[:3]))
         assert tuple(content["columns"]) == report.features.columns
-    assert "scores.npz" not in data_files(make_report(), "1")
+    assert "scores.npz" not in dict(data_files(make_report(), "1"))
 
 
 @pytest.fixture(scope="module")
@@ -118,7 +118,7 @@ def searched():
 class TestBins:
     @pytest.mark.slow
     def test_summary_has_the_promised_keys(self, searched):
-        bins = json.loads(data_files(searched, "1")["summary.json"])["bins"]
+        bins = json.loads(dict(data_files(searched, "1"))["summary.json"])["bins"]
         automatic = bins["automatic"]
         assert tuple(automatic["bins"]) == searched.bins.automatic.bins
         assert automatic["nh_s"] == searched.bins.automatic.nh_s == automatic["path"][-1]["nh_s"]
@@ -135,12 +135,12 @@ class TestBins:
 
     def test_the_list_of_selected_bins_is_what_a_build_reads(self, searched, tmp_path):
         path = tmp_path / "selected-bins.txt"
-        path.write_bytes(data_files(searched, "1")["selected-bins.txt"])
+        path.write_bytes(dict(data_files(searched, "1"))["selected-bins.txt"])
         assert read_bins(path, searched.features.blocks) == searched.bins.automatic.bins
 
     def test_without_a_search_there_is_neither(self):
         assert summary(make_report(), "1")["bins"] is None
-        assert "selected-bins.txt" not in data_files(make_report(), "1")
+        assert "selected-bins.txt" not in dict(data_files(make_report(), "1"))
 
 
 @pytest.fixture(scope="module")
@@ -151,7 +151,7 @@ def report():
 class TestSearch:
     @pytest.fixture
     def folder(self, report, tmp_path):
-        for name, content in data_files(report, "1").items():
+        for name, content in data_files(report, "1"):
             (tmp_path / name).write_bytes(content)
         return tmp_path
 
@@ -198,11 +198,11 @@ class TestSearch:
         subsets = replace(report.search.subsets, cpu_seconds=report.search.subsets.cpu_seconds + 7)
         table = tuple(replace(row, cpu_seconds=row.cpu_seconds + 7) for row in report.search.table)
         slower = replace(report, search=replace(report.search, subsets=subsets, table=table))
-        for name, content in data_files(slower, "1").items():
+        for name, content in data_files(slower, "1"):
             assert (content == (folder / name).read_bytes()) == (name != "summary.json")
 
     def test_without_labels_there_are_subsets_without_scores(self, tmp_path):
-        files = data_files(with_search(make_report([None], 8)), "1")
+        files = dict(data_files(with_search(make_report([None], 8)), "1"))
         assert "table2.csv" not in files
         search = json.loads(files["summary.json"])["search"]
         assert search["greedy"] is None
@@ -239,7 +239,7 @@ def keys_beside(value: object, name: str) -> list[dict[str, object]]:
 def test_the_maximum_stands_beside_every_hit() -> None:
     """Six of a class have at most five of ten neighbours in it."""
     report = with_bin_search(with_search(make_report(("ant", "bird", "cup"), 6)))
-    content = json.loads(data_files(report, "1.2.3")["summary.json"])
+    content = json.loads(dict(data_files(report, "1.2.3"))["summary.json"])
     for name in ("nh_s", "nh_c"):
         places = keys_beside(content, name)
         assert len(places) > 10

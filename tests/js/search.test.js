@@ -1,0 +1,66 @@
+// A search finds the texts that hold all its words.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { findWords, lineOf, plain, searchable } from "../../site/scripts/database/search.js";
+
+/** The slow way. */
+function expected(texts, query) {
+  const words = plain(query).split(/\s+/);
+  return [...texts.keys()].filter((index) =>
+    words.every((word) => plain(texts[index].replaceAll("\n", " ")).includes(word)),
+  );
+}
+
+const TEXTS = [
+  "cups/1 Münze aus Gold",
+  "",
+  "a\nb",
+  "İstanbul ΣΊΣΥΦΟΣ",
+  "gold gold gold",
+  "ends with a",
+  "Gold\u00a0leaf and münzen",
+  "",
+  "東京 vase",
+];
+
+test("words are found in any order and form, and only where all of them are", () => {
+  for (const query of [
+    "gold",
+    "munze",
+    "MÜNZE gold",
+    "gold gold",
+    "a",
+    "a b",
+    "vase 東",
+    "nowhere",
+    "old l",
+    "σισυφος",
+    "",
+  ])
+    assert.deepEqual(findWords(searchable(TEXTS), query), expected(TEXTS, query), query);
+});
+
+test("nothing is found among nothing", () => {
+  assert.deepEqual(findWords(searchable([]), "a"), []);
+  assert.deepEqual(findWords(searchable([""]), "a"), []);
+  assert.deepEqual(findWords(searchable([""]), ""), [0]);
+});
+
+test("a word does not reach from one text into the next", () => {
+  assert.deepEqual(findWords(searchable(["go", "ld"]), "gold"), []);
+});
+
+test("lines are the texts", () => {
+  const searched = searchable(TEXTS);
+  assert.deepEqual(
+    TEXTS.map((_, line) => lineOf(searched, line)),
+    TEXTS.map((text) => plain(text.replaceAll("\n", " "))),
+  );
+});
+
+test("many texts are searched as few are", () => {
+  const texts = Array.from({ length: 5000 }, (_, number) => `shape ${number} of ${number % 7} kinds`);
+  for (const query of ["shape", "99", "4999", "of 3", "7 kinds 12"])
+    assert.deepEqual(findWords(searchable(texts), query), expected(texts, query), query);
+});
