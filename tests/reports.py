@@ -156,6 +156,53 @@ def make_report(
     )
 
 
+def multiplied(report: Report, times: int) -> Report:
+    """A report in which every shape of another stands so many times, with names and pictures of their own; each picture
+    is of one colour, :func:`colour_of` its row."""
+    count = times * len(report.shapes)
+    shapes = tuple(
+        replace(shape, id=f"{shape.id}-{number:05}", name=f"{shape.name} number {number}")
+        for shape in report.shapes
+        for number in range(times)
+    )
+    noise = np.random.default_rng(0).normal(0, 1e-3, (count, 2))
+    return replace(
+        report,
+        database=replace(report.database, shapes=shapes),
+        shapes=shapes,
+        facts=tuple(_facts(row) for row in range(count)),
+        thumbnails=tuple(plain_picture(colour_of(row)) for row in range(count)),
+        labels=tuple(np.repeat(np.array(report.labels, object), times)),
+        features=replace(
+            report.features,
+            shape_ids=tuple(shape.id for shape in shapes),
+            values=np.repeat(report.features.values, times, axis=0),
+        ),
+        projections={
+            method: (
+                replace(projection, xy=np.repeat(projection.xy, times, axis=0) + noise),
+                replace(hits, nh=np.repeat(hits.nh, times)),
+            )
+            for method, (projection, hits) in report.projections.items()
+        },
+        faithfulness={},
+        separation=None,
+        related=(np.arange(count)[:, None] + np.arange(1, 9)) % count,
+    )
+
+
+def colour_of(row: int) -> tuple[int, int, int]:
+    """A colour for every row below 65,536."""
+    return row % 256, row // 256, 77
+
+
+def plain_picture(colour: tuple[int, int, int]) -> bytes:
+    """A WebP image of one colour and no other."""
+    file = io.BytesIO()
+    Image.new("RGBA", (8, 8), (*colour, 255)).save(file, "WEBP", lossless=True, method=0)
+    return file.getvalue()
+
+
 def with_clusters(report: Report) -> Report:
     """The report with its real clusters, which stand in for labels where it has none; to be called before all else that
     looks at labels."""

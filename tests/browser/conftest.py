@@ -16,6 +16,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 from reports import (
     NASTY_LABELS,
     make_report,
+    multiplied,
     with_best,
     with_bin_search,
     with_bins,
@@ -64,6 +65,9 @@ SITES = {
         [f"kind {letter}" for letter in "abcdefghijkl"], 10, name="Twelve kinds", metadata={"artist": "N. N."}
     ),
     "nasty": lambda: make_report([*NASTY_LABELS, None], 4, name='<img src=x onerror="alert(1)">'),
+    "very many": lambda: multiplied(
+        make_report(["ant", None, "cup"], 4, name="Very many", methods=("tsne",)), 1000
+    ),
     "published": lambda: with_publication(make_report(["ant", "bird", "cup"], 6, name="Vessels")),
     "one shape": lambda: make_report(["ant"], 1),
     "one class": lambda: make_report(["ant"], 12),
