@@ -176,9 +176,16 @@ export function within(least, most) {
  * @returns {Kind}
  */
 export function named(names, noun) {
-  const places = new Map(names.map((name, place) => [name, place]));
+  // Most addresses name none of them, which may be very many.
+  /** @type {Map<string, number> | undefined} */
+  let places;
+  /** @param {string} word */
+  const placeOf = (word) => {
+    places ??= new Map(names.map((name, place) => [name, place]));
+    return places.get(word);
+  };
   return {
-    read: (words, miss) => lookUp(words, (word) => places.get(word), noun, miss)[0],
+    read: (words, miss) => lookUp(words, placeOf, noun, miss)[0],
     write: (place) => [names[place]],
   };
 }

@@ -55,7 +55,6 @@ export class Database {
     this.projections = data.methods.map((method) => ({ ...mapOf(method), know: () => this.#know() }));
     /** @type {Method[]} those, and others that are added to them */
     this.methods = this.projections.map((map, base) => ({ ...map, base }));
-    this.indexOfId = new Map(this.ids.map((id, index) => [id, index]));
     /** @type {Map<number, number>} */
     this.sizes = new Map();
     for (const group of this.groups) this.sizes.set(group, (this.sizes.get(group) ?? 0) + 1);
@@ -91,6 +90,15 @@ export class Database {
   async #know() {
     const trust = await chunk("trust");
     for (const { key, faith } of this.projections) if (faith && !faith.false) tell(faith, trust[key]);
+  }
+
+  /** @type {Map<string, number> | undefined} */
+  #indexOfId;
+
+  /** Most pages are opened without the name of a shape. */
+  get indexOfId() {
+    this.#indexOfId ??= new Map(this.ids.map((id, index) => [id, index]));
+    return this.#indexOfId;
   }
 
   /** Colours and chart configuration of the theme in use. */
