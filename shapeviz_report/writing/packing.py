@@ -16,13 +16,15 @@ from shapeviz_report.writing.data import json_text
 ALIGNMENT = 8
 
 
-def pack(value: object) -> tuple[str, bytes]:
+def pack(value: object, level: int = 9) -> tuple[str, bytes]:
     """The kind of a chunk and its gzipped content.
 
     Parameters
     ----------
     value : object
         Bytes, or what JSON holds, in which arrays of numbers may stand anywhere but at the top.
+    level : int
+        Of the compression; 0 for what is compressed already.
 
     Returns
     -------
@@ -38,7 +40,7 @@ def pack(value: object) -> tuple[str, bytes]:
         kind, content = "columns", _with_arrays(value, arrays)
     else:
         kind, content = "json", json_text(value).encode()
-    return kind, gzip.compress(content, compresslevel=9, mtime=0)
+    return kind, gzip.compress(content, compresslevel=level, mtime=0)
 
 
 def chunk_script(name: str, kind: str, packed: bytes) -> bytes:

@@ -95,7 +95,7 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
         for name, parts in content.parts.items():
             digest = sha256()
             for number, part in enumerate(parts):
-                script = chunk_script(f"{name}-{number}", *pack(part))
+                script = chunk_script(f"{name}-{number}", *_pack_part(name, part))
                 digest.update(script)
                 yield f"chunks/{name}-{number}.js", script
             chunks[name] = f"chunks/{name}-*.js?{digest.hexdigest()[:8]}"
@@ -175,7 +175,11 @@ def _packed_parts(
         for name, parts in content.parts.items():
             if name != "pictures" or not is_in_full(report):
                 for number, part in enumerate(parts):
-                    yield f"{name}-{number}", pack(part)
+                    yield f"{name}-{number}", _pack_part(name, part)
+
+
+def _pack_part(name: str, part: object) -> tuple[str, bytes]:
+    return pack(part, level=0 if name == "pictures" else 9)
 
 
 def _thumbnails(report: Report) -> Iterator[tuple[str, bytes]]:

@@ -13,6 +13,7 @@ from shapeviz_report.writing.data.encoding import json_text, number
 
 def shape_rows(report: Report) -> Iterator[list[str]]:
     """A shape a row, below the names of the columns."""
+    root = report.database.root.resolve()
     labelings = report.database.labelings
     columns = list(dict.fromkeys(column for shape in report.shapes for column in shape.metadata))
     methods = list(report.projections)
@@ -38,7 +39,7 @@ def shape_rows(report: Report) -> Iterator[list[str]]:
         yield [
             shape.id,
             shape.name,
-            _relative_file(report, shape.path),
+            _relative_file(root, shape.path),
             label or "",
             *(
                 (report.clusters.clusters[report.clusters.of[index]].name,)
@@ -142,10 +143,10 @@ def table_rows(search: FeatureSearch, limits: HitRange) -> list[list[str]]:
     ]
 
 
-def _relative_file(report: Report, path: Path) -> str:
+def _relative_file(root: Path, path: Path) -> str:
     """A mesh file as seen from the database's root, with ``/``; only its name where it lies elsewhere."""
     try:
-        return path.resolve().relative_to(report.database.root.resolve()).as_posix()
+        return path.resolve().relative_to(root).as_posix()
     except ValueError:
         return path.name
 

@@ -276,12 +276,13 @@ function strips(rows, edge, x) {
 
 /**
  * A quantile of sorted values.
- * @param {ArrayLike<number>} values
+ * @param {{ length: number, at(place: number): number | undefined }} values
  * @param {number} share
  */
 export function quantile(values, share) {
   const place = share * (values.length - 1);
   const below = Math.floor(place);
   const above = Math.min(below + 1, values.length - 1);
-  return values[below] + (place - below) * (values[above] - values[below]);
+  const [low, high] = [values.at(below) ?? Number.NaN, values.at(above) ?? Number.NaN];
+  return low + (place - below) * (high - low);
 }

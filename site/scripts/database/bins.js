@@ -98,8 +98,16 @@ export class Bins {
    * @param {number} row
    */
   value(column, row) {
+    return this.#valueAt(column, this.steps[column * this.rows + row]);
+  }
+
+  /**
+   * @param {number} column
+   * @param {number} step
+   */
+  #valueAt(column, step) {
     const { low, high } = this.features[this.#featureOf[column]];
-    return low + ((high - low) * this.steps[column * this.rows + row]) / STEPS;
+    return low + ((high - low) * step) / STEPS;
   }
 
   /**
@@ -136,7 +144,16 @@ export class Bins {
    * @param {number} row
    */
   share(column, row) {
-    const value = this.value(column, row);
+    return this.shareAt(column, this.steps[column * this.rows + row]);
+  }
+
+  /**
+   * The same at a step of a column; rises with it.
+   * @param {number} column
+   * @param {number} step
+   */
+  shareAt(column, step) {
+    const value = this.#valueAt(column, step);
     const { rooted } = this.features[this.#featureOf[column]];
     return rooted || (this.balanced && this.isShare(column)) ? value * value : value;
   }

@@ -1,7 +1,7 @@
 // The shapes most similar to this one under any choice of features or bins, each with what makes the two alike.
 
 import { compareAddress } from "../addresses/compare.js";
-import { element, swatch } from "../base/dom.js";
+import { element, pause, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
 import { count, figure, grouped, listed, shortened, wholePercent } from "../base/words.js";
@@ -75,6 +75,8 @@ export class SimilarShapes extends Comparing {
     this.section.hidden = shape === null || database.count === 1;
     if (shape === null || this.section.hidden) return;
     const known = await database.details(shape);
+    // Who the shape is comes first.
+    await pause();
     if (state.get("shape") !== shape) return;
     const { choice, byNeighbourhood } = this.comparison;
     this.found =
