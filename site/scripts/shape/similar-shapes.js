@@ -54,6 +54,8 @@ export class SimilarShapes extends Comparing {
 
   /** @type {Similar[]} */
   found = [];
+  /** @type {number | null} the shape that they are like */
+  #of = null;
 
   get #called() {
     return this.database.names[this.state.get("shape") ?? 0];
@@ -75,9 +77,10 @@ export class SimilarShapes extends Comparing {
     this.section.hidden = shape === null || database.count === 1;
     if (shape === null || this.section.hidden) return;
     const known = await database.details(shape);
-    // Who the shape is comes first.
-    await pause();
+    // Of a new one the reader sees first who it is.
+    if (shape !== this.#of) await pause();
     if (state.get("shape") !== shape) return;
+    this.#of = shape;
     const { choice, byNeighbourhood } = this.comparison;
     this.found =
       known.related && byNeighbourhood
