@@ -1,17 +1,15 @@
-"""Our t-SNE beside scikit-learn's and openTSNE's: CPU seconds, KL divergence, neighbourhood hit.
+"""Our t-SNE, exact and for many rows, beside scikit-learn's: CPU seconds, KL divergence, neighbourhood hit.
 
     python -m benchmarks.tsne seeds SITE/data/features.npz     ten seeds on a database's own features
     python -m benchmarks.tsne sizes 280 1000 5000 20000        generated rows, one seed
 
 All start from the same principal components with the same jitter. The KL divergence is that of the affinities of all
-pairs, whatever a library minimises, on up to 5000 rows. Everything runs on one thread. openTSNE takes part where
-it is installed.
+pairs, whatever a library minimises, on up to 5000 rows. Everything runs on one thread.
 """
 
 from __future__ import annotations
 
 import argparse
-import importlib.util
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -40,9 +38,17 @@ def ours(values: FloatArray, seed: int) -> FloatArray:
     return tsne.arrange(squared_distances(values), seed)
 
 
+def for_many(values: FloatArray, seed: int) -> FloatArray:
+    """openTSNE, as it lays out databases that are too large for the exact engine."""
+    return tsne.embed(values, seed)
+
+
 def by_scikit_learn(values: FloatArray, seed: int) -> FloatArray:
     """Barnes-Hut."""
-    return tsne.embed(values, seed)
+    from sklearn.manifold import TSNE
+
+    start = tsne._start(principal_components(values), seed)
+    return TSNE(perplexity=PERPLEXITY, init=start, random_state=seed, n_jobs=1).fit_transform(values)
 
 
 def by_scikit_learn_exactly(values: FloatArray, seed: int) -> FloatArray:
@@ -53,18 +59,14 @@ def by_scikit_learn_exactly(values: FloatArray, seed: int) -> FloatArray:
     return TSNE(perplexity=PERPLEXITY, init=start, method="exact", random_state=seed).fit_transform(values)
 
 
-def by_opentsne(values: FloatArray, seed: int) -> FloatArray:
-    """Its own choice between Barnes-Hut and interpolation (FFT)."""
-    import openTSNE
+SCIKIT_LEARN_LIMIT = 20_000
+"""Most rows that scikit-learn lays out in less than an hour."""
 
-    start = tsne._start(principal_components(values), seed)
-    engine = openTSNE.TSNE(perplexity=PERPLEXITY, initialization=start, random_state=seed, n_jobs=1)
-    return np.asarray(engine.fit(values))
-
-
-LAYOUTS: dict[str, Layout] = {"ours, exact": ours, "scikit-learn, Barnes-Hut": by_scikit_learn}
-if importlib.util.find_spec("openTSNE"):
-    LAYOUTS["openTSNE"] = by_opentsne
+LAYOUTS: dict[str, Layout] = {
+    "ours, exact": ours,
+    "ours, for many": for_many,
+    "scikit-learn, Barnes-Hut": by_scikit_learn,
+}
 
 
 def divergence(values: FloatArray, xy: FloatArray) -> float:
@@ -116,7 +118,7 @@ def compare_sizes(sizes: list[int]) -> None:
         labels = np.arange(count) // 20
         values = random.normal(size=(labels[-1] + 1, 50))[labels] + 1.6 * random.normal(size=(count, 50))
         for name, layout in LAYOUTS.items():
-            if layout is ours and count > PAIRS_LIMIT:
+            if count > {ours: PAIRS_LIMIT, by_scikit_learn: SCIKIT_LEARN_LIMIT}.get(layout, count):
                 continue
             seconds, xy = measure(layout, values, 0)
             kl = f"{divergence(values, xy):.3f}" if count <= PAIRS_LIMIT else ""
@@ -128,7 +130,7 @@ def compare_sizes(sizes: list[int]) -> None:
 
 def main() -> None:
     """Measure and print a table in Markdown."""
-    parser = argparse.ArgumentParser(description="Our t-SNE beside scikit-learn's and openTSNE's.")
+    parser = argparse.ArgumentParser(description="Our t-SNE beside scikit-learn's.")
     commands = parser.add_subparsers(dest="command", required=True)
     seeds = commands.add_parser("seeds", help="ten seeds on a database's own features")
     seeds.add_argument("features", type=Path, metavar="SITE/data/features.npz")

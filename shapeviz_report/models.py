@@ -14,6 +14,9 @@ from shapeviz_report.types import FloatArray, IntArray, Mesh
 FACES = 4000
 """Faces of a model: a size at which a limb is still round, and 60 kB."""
 
+MANY, FACES_OF_MANY = 1000, 1100
+"""A database of more shapes has models of so many faces: a third of the bytes, and corners show on a large screen."""
+
 AGGRESSIVENESS = 5.0
 """How readily edges collapse: below the library's usual 7, which is quicker and leaves slivers."""
 
@@ -41,6 +44,11 @@ class Model:
     vertices: FloatArray
     faces: IntArray
     source: npt.NDArray[np.int64]
+
+
+def faces_of_model(shapes: int) -> int:
+    """Faces of each model in a database of so many shapes."""
+    return FACES if shapes <= MANY else FACES_OF_MANY
 
 
 def simplify(mesh: Mesh, faces: int = FACES) -> Model:

@@ -42,6 +42,7 @@ from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import fixed_edges, quantile_edges
 from shapeviz_report.mesh import collect_files
+from shapeviz_report.models import faces_of_model
 from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.publication import read_publication
@@ -128,7 +129,7 @@ def build_report(
             if edges is None:
                 chain.add(stages.SAMPLE, [stages.PREPARE], share)
             else:
-                chain.add(stages.DESCRIBE, [stages.PREPARE, stages.VIEW], edges, preset.by_area)
+                chain.add(stages.DESCRIBE, [stages.PREPARE, stages.VIEW], edges, preset.by_area, faces)
             if preset.whole:
                 chain.add(stages.DESCRIBE_WHOLE, [stages.PREPARE])
             return chain, files
@@ -160,6 +161,7 @@ def build_report(
         looks: list[stages.Stage[Any]] = [stages.FACTS, stages.EXAMINE, stages.RENDER]
         share = sampled_of_each(len(paths))
         edges = fixed_edges() if preset.fixed_ranges else None
+        faces = faces_of_model(len(paths))
         if edges is not None:
             run.each("Measuring shapes", paths, [*looks, *described], plan, take)
         else:

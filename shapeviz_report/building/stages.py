@@ -139,7 +139,7 @@ def sample_shape(prepared: bytes, count: int) -> bytes:
     return _pack_array(sample_values(_unpack(prepared), count))
 
 
-def describe_shape(prepared: bytes, view: bytes, edges: FloatArray, by_area: bool) -> bytes:
+def describe_shape(prepared: bytes, view: bytes, edges: FloatArray, by_area: bool, faces: int) -> bytes:
     """The features of a prepared shape, for :func:`read_features`, and its model, for :func:`read_model`.
 
     Parameters
@@ -149,9 +149,11 @@ def describe_shape(prepared: bytes, view: bytes, edges: FloatArray, by_area: boo
         As :func:`view_shape` found it.
     edges : (dimensions, 11) float64 array
     by_area : bool
+    faces : int
+        Of the model.
     """
     mesh = _unpack(prepared)
-    model = simplify(mesh)
+    model = simplify(mesh, faces)
     features, bins = describe(mesh, edges, model.source, by_area=by_area)
     # Level 9 would save a fortieth of the bytes for eight times the time.
     packed = gzip.compress(pack_model(model, bins, read_array(view)), compresslevel=6, mtime=0)

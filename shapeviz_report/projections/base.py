@@ -56,13 +56,19 @@ class Method:
 def principal_components(values: FloatArray) -> FloatArray:
     """Coordinates (n, 2) of the rows of ``values`` (n, w) along their first two principal axes.
 
-    Each axis points the way in which the farthest row lies. Axes that the data does not have are zero.
+    Each axis points the way in which the farthest row lies. Axes that the data does not have are zero. Where there are
+    more rows than columns, they come from the covariance of the columns.
     """
     centred = values - values.mean(axis=0)
-    left, singular, _ = np.linalg.svd(centred, full_matrices=False)
-    scores = np.zeros((len(values), 2))
-    found = min(2, len(singular))
-    scores[:, :found] = left[:, :found] * singular[:found]
+    count, width = values.shape
+    scores = np.zeros((count, 2))
+    found = min(2, count, width)
+    if count > width:
+        _, axes = scipy.linalg.eigh(centred.T @ centred, subset_by_index=[width - found, width - 1])
+        scores[:, :found] = centred @ axes[:, ::-1]
+    else:
+        left, singular, _ = np.linalg.svd(centred, full_matrices=False)
+        scores[:, :found] = left[:, :found] * singular[:found]
     return _point(scores)
 
 
@@ -124,6 +130,12 @@ def project(method: Method, values: FloatArray, features: Sequence[str], seed: i
 
 def canonical_order(values: FloatArray) -> npt.NDArray[np.intp]:
     """Indices that sort the rows of ``values`` (n, w), first column first."""
+    for width in (8, 64):
+        # Rarely do more columns decide, and to sort by thousands takes long.
+        order = np.lexsort(values[:, :width].T[::-1])
+        ordered = values[order, :width]
+        if (ordered[1:] != ordered[:-1]).any(axis=1).all():
+            return order
     return np.lexsort(values.T[::-1])
 
 

@@ -12,6 +12,7 @@ from numba.core.dispatcher import Dispatcher
 
 from shapeviz_report.compilation import kept_for
 from shapeviz_report.projections.base import Method
+from shapeviz_report.projections.kernels.nearest import nearest_rows
 from shapeviz_report.types import FloatArray
 
 NEIGHBOURS = 15
@@ -34,7 +35,11 @@ def arrange(squared: FloatArray, seed: int) -> FloatArray:
 
 def embed(values: FloatArray, seed: int) -> FloatArray:
     """Lay out rows (n, w) with UMAP; (n, 2)."""
-    return _fit(values, seed)
+    rows, distances = nearest_rows(values, _neighbours(len(values)) - 1, seed)
+    # UMAP counts a point as its own first neighbour.
+    own = np.arange(len(values), dtype=np.int32)[:, None]
+    nearest = (np.hstack([own, rows]), np.pad(distances, ((0, 0), (1, 0))), None)
+    return _fit(values, seed, precomputed_knn=nearest, force_approximation_algorithm=True)
 
 
 def _neighbours(count: int) -> int:

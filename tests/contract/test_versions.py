@@ -156,7 +156,7 @@ def test_what_runs_is_reached() -> None:
         call("RENDER", prepared, view, 64)
         edges = fixed_edges()
         call("SAMPLE", prepared, 20)
-        call("DESCRIBE", prepared, view, edges, True)
+        call("DESCRIBE", prepared, view, edges, True, 100)
         call("DESCRIBE_WHOLE", prepared)
         call("MEASURE", prepared, edges, True)
         call("MEASURE_VERTICES", prepared)

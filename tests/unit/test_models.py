@@ -8,7 +8,7 @@ import trimesh
 from packed_models import unpack
 from solids import ball, lump, sheet, tube
 
-from shapeviz_report.models import POSITION_STEPS, pack_model, simplify
+from shapeviz_report.models import POSITION_STEPS, faces_of_model, pack_model, simplify
 from shapeviz_report.types import Mesh
 
 
@@ -57,3 +57,9 @@ def test_the_same_mesh_gives_the_same_bytes():
     first, second = (simplify(ball(5), 900) for _ in range(2))
     none = np.zeros((0, len(first.vertices)), np.uint8)
     assert pack_model(first, none, np.eye(3)) == pack_model(second, none, np.eye(3))
+
+
+def test_models_of_many_shapes_weigh_a_third():
+    mesh = ball(5)
+    one, several = (simplify(mesh, faces_of_model(shapes)) for shapes in (1000, 1001))
+    assert len(several.faces) < len(one.faces) / 3
