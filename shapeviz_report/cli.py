@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import importlib
 import io
 import logging
 import math
@@ -23,7 +24,7 @@ from shapeviz_report.building.progress import TimeLeft, in_words
 from shapeviz_report.cache import default_root
 from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
 from shapeviz_report.ending import STOPPED, end_in_order, listen, listening
-from shapeviz_report.errors import ShapevizError
+from shapeviz_report.errors import PluginError, ShapevizError
 from shapeviz_report.imports import import_numba
 from shapeviz_report.order import classes_of
 from shapeviz_report.pruning import DAY, Entry, choose_unused, list_entries, remove
@@ -214,6 +215,14 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_options(describe, DESCRIBING)
     describe.set_defaults(command=_describe)
+
+    plugins = commands.add_parser(
+        "plugins",
+        help="list the parts that other packages bring along",
+        description="List the descriptors, scorers, projections and layouts that other packages bring along, with the "
+        "packages and their versions. The exit code is 1 if one of them cannot be used.",
+    )
+    plugins.set_defaults(command=_plugins)
 
     cache = commands.add_parser(
         "cache",
@@ -414,6 +423,31 @@ def _print_found(result: QueryResult, mesh: Path) -> None:
         shares = "  ".join(f"{100 * found.closer[name]:{max(4, len(name))}.0f}" for name in features)
         said = f"{label:{width}}  " if width else ""
         _say(f"{place:4}  {found.distance:8.3f}  {said}{shares}  {found.id}")
+
+
+def _plugins(options: argparse.Namespace) -> int:
+    from shapeviz_report.plugins import GROUPS, find_plugins
+
+    found = find_plugins()
+    if not found:
+        _say("No package that is installed here brings anything along.")
+    rows = [
+        (GROUPS[plugin.group][0], plugin.name, f"{plugin.package} {plugin.version}", plugin.entry.value)
+        for plugin in found
+    ]
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    for row in rows:
+        _say("  ".join(f"{cell:{width}}" for cell, width in zip(row, widths)).rstrip())
+    try:
+        for _, module in GROUPS.values():
+            importlib.import_module(module)
+        from shapeviz_report.wording.registry import all_global_wordings, all_wordings
+
+        all_wordings(), all_global_wordings()
+    except PluginError as error:
+        _complain("", *error.lines)
+        return 1
+    return 0
 
 
 def _cache(options: argparse.Namespace) -> int:

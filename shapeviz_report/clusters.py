@@ -25,8 +25,6 @@ from shapeviz_report.types import (
     ShapeEntry,
 )
 from shapeviz_report.wording import (
-    GLOBAL_WORDINGS,
-    WORDINGS,
     Dimension,
     agreed,
     call_bins,
@@ -34,6 +32,7 @@ from shapeviz_report.wording import (
     word_whole,
 )
 from shapeviz_report.wording.base import percents
+from shapeviz_report.wording.registry import all_global_wordings, all_wordings
 
 SMALLEST = 8
 """Fewer shapes are seen at a glance, and no number of groups among them could be told from chance."""
@@ -290,7 +289,7 @@ def _word_typical(
     for block in table.blocks:
         own_dimensions = [dimension for dimension in dimensions if dimension.block == block]
         values = table.values[:, table.slice_of(block.name)]
-        wording = WORDINGS.get(block.name) or GLOBAL_WORDINGS.get(block.name)
+        wording = all_wordings().get(block.name) or all_global_wordings().get(block.name)
         # What somebody brought along as one number has a name that says what it is.
         ease = (2.0 if block.width == 1 else 1.0) if wording is None else wording.ease
         # Values as they are told: shares of the surface, of whole shapes shares or numbers.

@@ -48,5 +48,9 @@ class ClusterError(ShapevizError):
     """A Dask cluster that cannot be used, or no longer."""
 
 
+class PluginError(ShapevizError):
+    """A part that another package brings along, and that cannot be used."""
+
+
 class SiteError(ShapevizError):
     """The site cannot be written where it was asked for."""

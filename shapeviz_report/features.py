@@ -11,8 +11,9 @@ from zipfile import BadZipFile
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
+from shapeviz_report.descriptors import Descriptor, Surface
 from shapeviz_report.descriptors.kernels.histograms import add_up
+from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
 from shapeviz_report.types import FeatureBlock, FloatArray, Mesh
@@ -38,13 +39,14 @@ SHARE_ROUNDING = 1e-7
 LEAST = 1e-3
 """Rounding moves continuous values smaller than this as much as this one: they are differences of larger ones."""
 
-BLOCKS = tuple(FeatureBlock(d.name, d.dimensions, BINS) for d in DESCRIPTORS)
-"""The features of Table 1: a histogram of ``BINS`` columns for each of the D dimensions of all descriptors."""
+BLOCKS = tuple(FeatureBlock(d.name, d.dimensions, BINS) for d in ALL_DESCRIPTORS)
+"""Those of the paper's Table 1, and of plug-ins: a histogram of ``BINS`` columns for each of the D dimensions of all
+descriptors."""
 
 
 def fixed_edges() -> FloatArray:
     """The (D, 11) bin edges of every dimension that the descriptors define, clear of the values they take."""
-    return clear_edges(np.concatenate([np.tile(d.edges, (d.dimensions, 1)) for d in DESCRIPTORS]))
+    return clear_edges(np.concatenate([np.tile(d.edges, (d.dimensions, 1)) for d in ALL_DESCRIPTORS]))
 
 
 def quantile_edges(samples: Sequence[FloatArray]) -> FloatArray:
@@ -86,7 +88,7 @@ def clear_edges(edges: FloatArray) -> FloatArray:
         The first and last edges, which no value is compared with, stay.
     """
     cleared, start = edges.astype(np.float64), 0
-    for descriptor in DESCRIPTORS:
+    for descriptor in ALL_DESCRIPTORS:
         rows = slice(start, start + descriptor.dimensions)
         inner = cleared[rows, 1:-1]
         if descriptor.totals:
@@ -110,7 +112,7 @@ def sample_values(mesh: Mesh, count: int) -> FloatArray:
     """Values of all descriptors at ``count`` vertices spread over a mesh's numbering; (count, D) float32."""
     surface = Surface(mesh)
     chosen = ((np.arange(count) + 0.5) / count * len(surface.vertices)).astype(int)
-    return np.concatenate([d.compute(surface)[chosen].astype(np.float32) for d in DESCRIPTORS], axis=1)
+    return np.concatenate([d.compute(surface)[chosen].astype(np.float32) for d in ALL_DESCRIPTORS], axis=1)
 
 
 def compute_histograms(mesh: Mesh, edges: FloatArray, *, by_area: bool) -> FloatArray:
@@ -158,7 +160,7 @@ def describe(
     totals, start = np.zeros(edges[:, 1:].shape), 0
     bins = np.empty((len(edges), len(vertices)), np.uint8)
     # One descriptor at a time: together they would take 1.5 kB a vertex.
-    for descriptor in DESCRIPTORS:
+    for descriptor in ALL_DESCRIPTORS:
         end = start + descriptor.dimensions
         values = descriptor.compute(surface).astype(np.float32, copy=False)
         add_up(values, limits[start:end], weights, totals[start:end])
@@ -197,7 +199,7 @@ def measure(mesh: Mesh, dimensions: Sequence[int]) -> npt.NDArray[np.float32]:
     surface = Surface(mesh)
     values = np.empty((len(dimensions), len(surface.vertices)), np.float32)
     start = 0
-    for descriptor in DESCRIPTORS:
+    for descriptor in ALL_DESCRIPTORS:
         end = start + descriptor.dimensions
         own = [place for place, dimension in enumerate(dimensions) if start <= dimension < end]
         if own:

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from shapeviz_report.features import BLOCKS
-from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS
+from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 
-GLOBAL_BLOCKS = tuple(FeatureBlock(d.name, d.width, 1) for d in GLOBAL_DESCRIPTORS)
+GLOBAL_BLOCKS = tuple(FeatureBlock(d.name, d.width, 1) for d in ALL_GLOBAL_DESCRIPTORS)
 """The features of whole shapes, whose values are compared as they are."""
 
 

@@ -3,7 +3,7 @@
 What code reaches is read from its source: the modules of this package that it imports, also within functions, what
 these import, and so on; and every distribution that one of them imports, with what that requires. A name that a
 package's ``__init__`` only passes on leads to where it is defined, past the package's other modules. Nothing is listed
-by hand, and nothing is imported to find it.
+by hand, and nothing is imported to find it. What takes up plug-ins reaches those that are installed.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, distribution, packages_distributions
 from pathlib import Path
 from typing import Any
+
+from shapeviz_report.plugins import GROUPS, find_plugins
 
 Import = tuple[str, str | None]
 """A module, and a name in it; None: the module as such."""
@@ -56,7 +58,15 @@ def function_version(function: Callable[..., Any]) -> str:
     text, _ = _definition(function.__module__, function.__name__)
     closure = find_function_closure(function)
     python = f"python {sys.version_info.major}.{sys.version_info.minor}"
-    return _digest([text, python, *_sources(closure), *library_versions(closure.libraries)])
+    return _digest(
+        [
+            text,
+            python,
+            *_sources(closure),
+            *library_versions(closure.libraries),
+            *plugin_versions(closure.modules),
+        ]
+    )
 
 
 @cache
@@ -101,6 +111,21 @@ def library_versions(libraries: tuple[str, ...]) -> tuple[str, ...]:
             if "extra ==" not in condition and (match := _REQUIREMENT.match(bare.strip())):
                 waiting.append(match[0])
     return tuple(sorted(f"{name} {number}" for name, number in found.items()))
+
+
+def plugin_versions(modules: tuple[str, ...]) -> list[str]:
+    """Of every plug-in that some modules take up, its name, its package with the version, its sources and libraries."""
+    found = []
+    for plugin in find_plugins():
+        if GROUPS[plugin.group][1] not in modules:
+            continue
+        module = plugin.entry.module
+        found.append(f"{plugin.group} {plugin.name} {plugin.package} {plugin.version} {plugin.entry.value}")
+        if _find_source(module) is not None:
+            closure = _reach(module.partition(".")[0], [(module, None)])
+            libraries = tuple(name for name in closure.libraries if name != __package__)
+            found += [*_sources(closure), *library_versions(libraries)]
+    return found
 
 
 def _reach(own: str, imports: Iterable[Import]) -> Closure:
@@ -242,6 +267,8 @@ def _find_source(module: str) -> Path | None:
     spec = importlib.util.find_spec(top)
     if spec is None or spec.origin is None:
         return None
+    if spec.submodule_search_locations is None:
+        return Path(spec.origin) if not rest and spec.origin.endswith(".py") else None
     path = Path(spec.origin).parent.joinpath(*rest)
     return next(
         (file for file in (path / "__init__.py", path.with_name(path.name + ".py")) if file.is_file()), None

@@ -21,7 +21,7 @@ from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
-from shapeviz_report.descriptors import DESCRIPTORS
+from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.errors import DatabaseError, MeshError
 from shapeviz_report.features import fixed_edges
 from shapeviz_report.mesh import collect_files
@@ -109,8 +109,8 @@ def describe_mesh(mesh: Any, config: Config) -> DescribedMesh:
     preset, edges = PRESETS["default"], fixed_edges()
     name, measured = _measure(mesh, config, preset, edges, QuietProgress(), vertices=True)
     arrays = measured.vertices[name]
-    names = [descriptor.name for descriptor in DESCRIPTORS]
-    ends = np.cumsum([descriptor.dimensions for descriptor in DESCRIPTORS])[:-1]
+    names = [descriptor.name for descriptor in ALL_DESCRIPTORS]
+    ends = np.cumsum([descriptor.dimensions for descriptor in ALL_DESCRIPTORS])[:-1]
     return DescribedMesh(
         facts=measured.facts[name],
         vertices=arrays["vertices"],

@@ -43,6 +43,7 @@ from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import fixed_edges, quantile_edges
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.models import faces_of_model
+from shapeviz_report.plugins import find_plugins
 from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.publication import read_publication
@@ -256,6 +257,7 @@ def build_report(
         failures=tuple(failures),
         parameters=config.as_parameters(),
         versions={name: version(name) for name in ("shapeviz-report", *LIBRARIES)}
+        | {plugin.package: plugin.version for plugin in find_plugins()}
         | {"python": platform.python_version()},
         seconds=clock.seconds,
         cpu_seconds=clock.cpu_seconds,

@@ -36,10 +36,11 @@ from shapeviz_report.features import BINS
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS
-from shapeviz_report.projections import PAIRWISE_LIMIT, PROJECTIONS, align, squared_distances
+from shapeviz_report.projections import PAIRWISE_LIMIT, align, squared_distances
+from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.quality import hit_range
 from shapeviz_report.retrieval import query_classes, rate_chance
-from shapeviz_report.scorers import SCORERS
+from shapeviz_report.scorers.registry import ALL_SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, planned_runs, search_features
 from shapeviz_report.search.bins import (
     SAMPLE_LIMIT_OF_CLASS,
@@ -142,7 +143,7 @@ def project_all(
     # Where the search takes all shapes, its map of all features is the map: t-SNE and UMAP make another one of sums
     # that differ in their last digits.
     whole = bins is None and len(space.rows) == len(values)
-    offered = [method for method in PROJECTIONS if method.takes(len(values))]
+    offered = [method for method in ALL_PROJECTIONS if method.takes(len(values))]
     methods = [method.name for method in offered]
     shared = {method.name for method in offered if method.rounds and whole}
     everything = (space.everything,)
@@ -265,7 +266,7 @@ def score_all(run: Runner, compared: FloatArray, labels: Sequence[str | None], s
         tasks[name] = Task.of(key, compared, members, others, seed)
     found = run.all(SCORE, tasks)
     values = np.stack([found[name] for name in classes], axis=1)
-    return BinScores(tuple(scorer.name for scorer in SCORERS), tuple(classes), values)
+    return BinScores(tuple(scorer.name for scorer in ALL_SCORERS), tuple(classes), values)
 
 
 def search_all_bins(

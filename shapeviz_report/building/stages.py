@@ -21,7 +21,8 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report.cache import make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.copies import Outline, compare, outline
-from shapeviz_report.descriptors import DESCRIPTORS, Surface
+from shapeviz_report.descriptors import Surface
+from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.errors import MeshError
 from shapeviz_report.features import (
     compute_histograms,
@@ -30,12 +31,14 @@ from shapeviz_report.features import (
     measure,
     sample_values,
 )
-from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, PosedShape
+from shapeviz_report.global_descriptors import PosedShape
+from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
 from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
 from shapeviz_report.mesh.clean import bounding_diagonal
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.neighbours import RELATED, find_related
-from shapeviz_report.projections import PROJECTIONS, project
+from shapeviz_report.projections import project
+from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.render import (
     choose_view,
     mark_colors,
@@ -44,7 +47,8 @@ from shapeviz_report.render import (
     value_colors,
 )
 from shapeviz_report.retrieval import rate_subsets
-from shapeviz_report.scorers import SCORERS, Contest, score_separation
+from shapeviz_report.scorers import Contest, score_separation
+from shapeviz_report.scorers.registry import ALL_SCORERS
 from shapeviz_report.search import SubsetMaps, map_subsets
 from shapeviz_report.search.bins import BinSpace, find_minimal_bins, hold_out, select_bins
 from shapeviz_report.types import (
@@ -164,7 +168,9 @@ def describe_whole_shape(prepared: bytes) -> bytes:
     """The features of a prepared shape as a whole, for :func:`read_array`."""
     with threadpool_limits(limits=1):
         shape = PosedShape(_unpack(prepared))
-        return _pack_array(np.concatenate([descriptor.compute(shape) for descriptor in GLOBAL_DESCRIPTORS]))
+        return _pack_array(
+            np.concatenate([descriptor.compute(shape) for descriptor in ALL_GLOBAL_DESCRIPTORS])
+        )
 
 
 def measure_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
@@ -175,7 +181,7 @@ def measure_shape(prepared: bytes, edges: FloatArray, by_area: bool) -> bytes:
 def measure_vertices(prepared: bytes) -> bytes:
     """A prepared shape with the values of all descriptors at every vertex, for :func:`read_vertices`."""
     mesh = _unpack(prepared)
-    values = measure(mesh, range(sum(descriptor.dimensions for descriptor in DESCRIPTORS)))
+    values = measure(mesh, range(sum(descriptor.dimensions for descriptor in ALL_DESCRIPTORS)))
     return _pack_arrays(vertices=mesh.vertices, faces=mesh.faces, areas=Surface(mesh).areas, values=values)
 
 
@@ -265,7 +271,7 @@ def generate_shape(class_name: str, index: int, seed: int) -> bytes:
 
 def project_features(method: str, values: FloatArray, seed: int) -> bytes:
     """Lay out the rows of ``values`` with the method of that name; an array (n, 2) as a file."""
-    return _pack_array(project(next(m for m in PROJECTIONS if m.name == method), values, (), seed).xy)
+    return _pack_array(project(next(m for m in ALL_PROJECTIONS if m.name == method), values, (), seed).xy)
 
 
 def relate_shapes(values: FloatArray) -> bytes:
@@ -304,7 +310,7 @@ def score_bins(values: FloatArray, members: Sequence[int], others: Sequence[int]
     float32 as a file."""
     contests = [Contest(np.array(members), np.array(others))]
     with threadpool_limits(limits=1):
-        scores = [score_separation(scorer, values, contests, seed=seed) for scorer in SCORERS]
+        scores = [score_separation(scorer, values, contests, seed=seed) for scorer in ALL_SCORERS]
     return _pack_array(np.array(scores, dtype=np.float32))
 
 

@@ -20,7 +20,7 @@ from shapeviz_report.types import Database
 __all__ = ["LAYOUTS", "MESH_FORMATS", "Layout", "read_database"]
 
 LAYOUTS: tuple[Layout, ...] = (Princeton(), Table(), ModelNet(), ClassFolders(), FlatFolder())
-"""Every layout, in the order in which they are tried: the first that recognises a database reads it."""
+"""Ours, in the order in which they are tried: the first that recognises a database reads it."""
 
 
 def read_database(
@@ -38,7 +38,7 @@ def read_database(
     path : Path
         A folder, a table, or a Princeton ``.cla`` file.
     layout : str, optional
-        Name of one of :data:`LAYOUTS`; by default the first that recognises the path.
+        Name of one of ours or of a plug-in; by default the first that recognises the path.
     labeling : str, optional
         The labeling to put first, that is to use.
     name : str, optional
@@ -82,16 +82,24 @@ def read_database(
 
 
 def _choose_layout(path: Path, name: str | None, outside: bool) -> Layout:
+    layouts = _all_layouts()
     if name is not None:
-        for layout in LAYOUTS:
+        for layout in layouts:
             if layout.name == name:
                 return layout
-        names = ", ".join(f"'{layout.name}'" for layout in LAYOUTS)
+        names = ", ".join(f"'{layout.name}'" for layout in layouts)
         raise DatabaseError(f"There is no layout '{name}'. The layouts: {names}.")
-    for layout in LAYOUTS:
+    for layout in layouts:
         if layout.recognises(path, outside):
             return layout
     raise DatabaseError(*_nothing_found(path))
+
+
+def _all_layouts() -> tuple[Layout, ...]:
+    # when they are asked for: plug-ins, which bring more, import this package themselves
+    from shapeviz_report.database.registry import ALL_LAYOUTS
+
+    return ALL_LAYOUTS
 
 
 def _nothing_found(path: Path) -> Iterator[str]:
@@ -100,4 +108,4 @@ def _nothing_found(path: Path) -> Iterator[str]:
         yield f"{path} is neither a folder, nor a table ({', '.join(TABLE_SUFFIXES)}), nor a .cla file."
         return
     yield f"No shapes were found in {path}. Looked for meshes ({', '.join(MESH_FORMATS)}) laid out as one of:"
-    yield from (f"  {layout.name}: {layout.description}" for layout in LAYOUTS)
+    yield from (f"  {layout.name}: {layout.description}" for layout in _all_layouts())

@@ -228,8 +228,8 @@ def _check(
     (outcome,) = executor.run(fingerprint, [()])
     if outcome.value != wanted:
         raise ClusterError(
-            f"The worker {address} has other versions of shapeviz-report or of its libraries than this machine, so "
-            "its results would differ. Install the same ones on both, with the same constraints file."
+            f"The worker {address} has other versions of shapeviz-report, of its plug-ins or of its libraries than "
+            "this machine, so its results would differ. Install the same ones on both, with the same constraints file."
         )
     (outcome,) = executor.run(check, [()])
     if outcome.reason is not None:

@@ -10,11 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report import charts
-from shapeviz_report.descriptors import DESCRIPTORS, Descriptor
-from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor
+from shapeviz_report.descriptors import Descriptor
+from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
+from shapeviz_report.global_descriptors import GlobalDescriptor
+from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
 from shapeviz_report.order import classes_of
 from shapeviz_report.pages.chunks import Chunks, Clusters, FeatureMarks, ThemeName
-from shapeviz_report.projections import PROJECTIONS
+from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.quality import hit_range
 from shapeviz_report.search.certainty import measure_distinct_gain
 from shapeviz_report.types import (
@@ -45,12 +47,12 @@ FIGURE_DECIMALS = 3
 MOST_IN_FULL = 10_000
 
 #: The projections by name.
-METHODS = {method.name: method for method in PROJECTIONS}
+METHODS = {method.name: method for method in ALL_PROJECTIONS}
 
 #: The descriptors by name: what is measured, beside features that were brought along.
 MEASURED: Mapping[str, Descriptor | GlobalDescriptor] = {
-    **{descriptor.name: descriptor for descriptor in DESCRIPTORS},
-    **{descriptor.name: descriptor for descriptor in GLOBAL_DESCRIPTORS},
+    **{descriptor.name: descriptor for descriptor in ALL_DESCRIPTORS},
+    **{descriptor.name: descriptor for descriptor in ALL_GLOBAL_DESCRIPTORS},
 }
 
 

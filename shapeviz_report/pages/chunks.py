@@ -607,12 +607,13 @@ class Feature(FeatureWords):
 
 
 class Scorer(TypedDict):
-    """A way to score bins; ``exact`` where the browser scores as the build does."""
+    """A way to score bins; ``exact`` where the browser scores as the build does, ``live`` where it scores at all."""
 
     key: str
     title: str
     explanation: str
     exact: bool
+    live: bool
 
 
 class MixedClasses(TypedDict):

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report import charts, quality
-from shapeviz_report.features import BLOCKS
+from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.pages.base import (
     COORDINATE_STEPS,
     METHODS,
@@ -228,7 +228,7 @@ def _by_effect(search: FeatureSearch) -> list[int]:
 
 def _of_paper(search: FeatureSearch) -> list[int] | None:
     """Those of the paper's Table 1 by their indices; None if there are no others, or not all of their subsets."""
-    names = {block.name for block in BLOCKS}
+    names = {descriptor.name for descriptor in DESCRIPTORS}
     paper = [index for index, name in enumerate(search.features) if name in names]
     complete = np.count_nonzero(_within(search, paper)) == 2 ** len(paper) - 1
     return paper if 1 < len(paper) < len(search.features) and complete else None

@@ -19,9 +19,11 @@ from shapeviz_report.pages.chunks import (
 from shapeviz_report.pages.fields import color_choices
 from shapeviz_report.presets import PRESETS, Preset, compared_values
 from shapeviz_report.scorers import SCORERS
+from shapeviz_report.scorers.registry import ALL_SCORERS
 from shapeviz_report.search.certainty import choosing_pays
 from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
-from shapeviz_report.wording import GLOBAL_WORDINGS, WORDINGS, call_bins, explain_bins
+from shapeviz_report.wording import call_bins, explain_bins
+from shapeviz_report.wording.registry import all_global_wordings, all_wordings
 
 #: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
 STEPS = 65535
@@ -115,7 +117,7 @@ def _words(block: FeatureBlock) -> FeatureWords:
             "rooted": False,
             "ease": 1,
         }
-    wording = WORDINGS.get(block.name) or GLOBAL_WORDINGS[block.name]
+    wording = all_wordings().get(block.name) or all_global_wordings()[block.name]
     return {
         "title": descriptor.title,
         "aspect": wording.aspect,
@@ -173,8 +175,9 @@ def _scorers() -> list[Scorer]:
             "title": scorer.title,
             "explanation": scorer.explanation,
             "exact": scorer.exact,
+            "live": scorer in SCORERS,
         }
-        for scorer in SCORERS
+        for scorer in ALL_SCORERS
     ]
 
 

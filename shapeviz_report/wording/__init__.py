@@ -46,6 +46,19 @@ GLOBAL_WORDINGS: Mapping[str, GlobalWording] = {
 """By the names of the global descriptors."""
 
 
+def _wording_of(descriptor: str) -> Wording | None:
+    # when it is asked for: plug-ins, which bring more, import this package themselves
+    from shapeviz_report.wording.registry import all_wordings
+
+    return all_wordings().get(descriptor)
+
+
+def _wordings_of_whole() -> Mapping[str, GlobalWording]:
+    from shapeviz_report.wording.registry import all_global_wordings
+
+    return all_global_wordings()
+
+
 class Dimension(NamedTuple):
     """A histogram of a feature: the block and its number in it, and its edges as they are shown."""
 
@@ -56,7 +69,7 @@ class Dimension(NamedTuple):
     @property
     def wording(self) -> Wording | None:
         """Of its descriptor; None for a histogram that is none of ours."""
-        return WORDINGS.get(self.block.name)
+        return _wording_of(self.block.name)
 
     @property
     def topic(self) -> str:
@@ -105,7 +118,7 @@ def dimensions_of(table: FeatureTable, edges: FloatArray) -> Iterator[Dimension]
     """
     row = 0
     for block in table.blocks:
-        wording = WORDINGS.get(block.name)
+        wording = _wording_of(block.name)
         for number in range(block.dimensions if block.bins > 1 else 0):
             yield Dimension(block, number, edges[row] if wording is None else wording.shown(edges[row]))
             row += 1
@@ -115,7 +128,7 @@ def explain_bins(table: FeatureTable, edges: FloatArray, *, by_area: bool) -> tu
     """What the value of every column is exactly, a sentence each; parameters as for :func:`say_bins`."""
     sentences = [f"The value of {column}, a feature that was brought along." for column in table.columns]
     for block, start in _whole(table):
-        for place, quantity in enumerate(GLOBAL_WORDINGS[block.name].quantities):
+        for place, quantity in enumerate(_wordings_of_whole()[block.name].quantities):
             sentences[start + place] = f"The value is {quantity}."
     for dimension, start in _placed(table, edges):
         for place in range(dimension.block.bins):
@@ -132,7 +145,7 @@ def call_bins(table: FeatureTable, edges: FloatArray) -> tuple[str, ...]:
         for place in range(dimension.block.bins):
             called[start + place] = dimension.say_bin(place).name
     for block, start in _whole(table):
-        called[start : start + block.width] = GLOBAL_WORDINGS[block.name].names
+        called[start : start + block.width] = _wordings_of_whole()[block.name].names
     return tuple(called)
 
 
@@ -164,7 +177,7 @@ def _placed(table: FeatureTable, edges: FloatArray) -> Iterator[tuple[Dimension,
 def _whole(table: FeatureTable) -> Iterator[tuple[FeatureBlock, int]]:
     """The features of whole shapes with their first columns."""
     for block in table.blocks:
-        if block.name in GLOBAL_WORDINGS:
+        if block.name in _wordings_of_whole():
             yield block, table.slice_of(block.name).start
 
 

@@ -398,12 +398,13 @@ declare namespace Chunk {
     low: number;
     high: number;
   }
-  /** A way to score bins; `exact` where the browser scores as the build does. */
+  /** A way to score bins; `exact` where the browser scores as the build does, `live` where it scores at all. */
   interface Scorer {
     key: string;
     title: string;
     explanation: string;
     exact: boolean;
+    live: boolean;
   }
   /** The two classes most mixed on the map of all features. */
   interface MixedClasses {

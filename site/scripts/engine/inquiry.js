@@ -7,9 +7,9 @@ import { Cancelled } from "./client.js";
 /**
  * How a question stands.
  * @typedef {object} Standing
- * @property {"none" | "working" | "answered" | "stopped" | "failed"} kind
+ * @property {"none" | "working" | "answered" | "stopped" | "failed" | "beyond"} kind
  * @property {number} [progress] of work, from 0 to 1
- * @property {string} [message] of a failure
+ * @property {string} [message] of a failure, or why there is no answer
  */
 
 const MOST_KEPT = 60;
@@ -69,11 +69,14 @@ export class Inquiry {
     this.tell({ kind: "answered" });
   }
 
-  /** Nothing is asked any more. */
-  rest() {
+  /**
+   * Nothing is asked any more.
+   * @param {string} [message] why there is no answer to what was asked last
+   */
+  rest(message) {
     this.#drop();
     this.key = null;
-    this.tell({ kind: "none" });
+    this.tell(message === undefined ? { kind: "none" } : { kind: "beyond", message });
   }
 
   /** Give up what is being worked on; true if there was such work. */

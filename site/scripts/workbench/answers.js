@@ -249,6 +249,17 @@ export class Answers {
   }
 
   /**
+   * Whether a question for scores can be answered: not every scorer runs in the browser.
+   * @param {string} scorer
+   * @param {Separation} separation
+   * @param {Asked} step
+   */
+  canScore(scorer, separation, { hidden, features }) {
+    const live = this.data.scorers.some((known) => known.key === scorer && known.live);
+    return live || this.#isScored(separation, hidden, features);
+  }
+
+  /**
    * Relative scores of all columns; no numbers for those of features that are not in use.
    * @param {string} scorer
    * @param {Separation} separation
@@ -363,19 +374,32 @@ export class Answers {
   }
 
   /**
+   * Whether the site has the scores that are asked for.
+   * @param {Separation} separation
+   * @param {Set<number>} hidden
+   * @param {Set<number>} features
+   */
+  #isScored(separation, hidden, features) {
+    const { data, database, bins } = this;
+    const groups = database.classes.map((_, group) => group);
+    const single = contests(separation, groups).every(
+      ({ positive, negative }) => positive.length === 1 && negative.length === groups.length - 1,
+    );
+    return (
+      data.scored && single && !groups.some((group) => hidden.has(group)) && features.size === bins.features.length
+    );
+  }
+
+  /**
    * @param {string} scorer
    * @param {Separation} separation
    * @param {Set<number>} hidden
    * @param {Set<number>} features
    */
   #offlineScores(scorer, separation, hidden, features) {
-    const { data, database, bins } = this;
+    const { data, database } = this;
+    if (!this.#isScored(separation, hidden, features)) return null;
     const groups = database.classes.map((_, group) => group);
-    const single = contests(separation, groups).every(
-      ({ positive, negative }) => positive.length === 1 && negative.length === groups.length - 1,
-    );
-    if (!data.scored || !single || groups.some((group) => hidden.has(group)) || features.size < bins.features.length)
-      return null;
     const asked = contests(separation, groups).map(({ positive: [group] }) => group);
     return this.#meanOfClasses(
       data.scorers.findIndex(({ key }) => key === scorer),

@@ -378,6 +378,14 @@ export class Desk {
       return;
     }
     const scorer = state.get("scorer");
+    if (!answers.canScore(scorer, separation, step)) {
+      const { title } = /** @type {Chunk.Scorer} */ (this.data.scorers.find(({ key }) => key === scorer));
+      this.inquiries.scores.rest(
+        `${title} was computed with the site, for all features and every class against all the rest: ask that, or choose another scorer.`,
+      );
+      state.set({ scores: null });
+      return;
+    }
     const sample = state.get("sample");
     const key = JSON.stringify([scorer, sample, asked, sorted(step.features)]);
     this.inquiries.scores.ask(

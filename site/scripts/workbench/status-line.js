@@ -38,6 +38,7 @@ export class StatusLine {
     if (kind === "stopped") this.#put("Stopped.", this.again("Continue"));
     else if (kind === "failed")
       this.#put(element("span", { role: "alert" }, `That did not work: ${message}`), this.again("Try again"));
+    else if (kind === "beyond") this.#put(element("span", { role: "status" }, message));
     else this.#put();
   }
 

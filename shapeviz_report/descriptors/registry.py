@@ -1,0 +1,43 @@
+"""All local descriptors: ours, and those of plug-ins."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
+from shapeviz_report.plugins import Plugin, guarded, require, with_plugins
+
+
+def _prepare(plugin: Plugin, descriptor: Descriptor) -> Descriptor:
+    require(
+        plugin,
+        descriptor.name.isidentifier(),
+        "its name is part of the names of bins: letters and digits only",
+    )
+    require(
+        plugin,
+        descriptor.measures.endswith("."),
+        "what it measures is a sentence, which ends with a full stop",
+    )
+    require(plugin, descriptor.dimensions >= 1, "it has no dimension")
+    edges = np.array(descriptor.edges, np.float64)
+    require(
+        plugin,
+        edges.shape == (11,) and bool(np.isfinite(edges).all() and (np.diff(edges) > 0).all()),
+        "its edges are not 11 rising numbers",
+    )
+
+    def check(values: Any, surface: Surface) -> str:
+        size = (len(surface.vertices), descriptor.dimensions)
+        if np.shape(values) != size:
+            return f"its values are an array {np.shape(values)}, and not {size}"
+        return "" if np.isfinite(values).all() else "a value is not finite"
+
+    return replace(descriptor, compute=guarded(plugin, descriptor.compute, check))
+
+
+ALL_DESCRIPTORS = with_plugins("shapeviz_report.descriptors", DESCRIPTORS, Descriptor, _prepare)
+"""Ours first, in the order of the paper's table."""

@@ -1,0 +1,168 @@
+"""Parts of other packages: which are taken up, in which order, and what is said of those that cannot be used."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from solids import lump
+
+from shapeviz_report import plugins
+from shapeviz_report.database import LAYOUTS, Layout
+from shapeviz_report.database import registry as layouts
+from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
+from shapeviz_report.descriptors import registry as descriptors
+from shapeviz_report.errors import MeshError, PluginError
+from shapeviz_report.plugins import find_plugins, load_plugins, with_plugins
+
+Install = Callable[..., None]
+
+HEIGHT = """
+import numpy as np
+from shapeviz_report.descriptors import Descriptor
+def compute(surface):
+    return surface.vertices[:, 2:]
+HEIGHT = Descriptor("{name}", "Height", "How high a point is.", 1, tuple(np.linspace(-1, 1, 11)), compute)
+"""
+
+
+@pytest.fixture
+def install(tmp_path, monkeypatch) -> Iterator[Install]:
+    """Put a package onto the path as an installer leaves it there."""
+    monkeypatch.syspath_prepend(str(tmp_path))
+    modules = set(sys.modules)
+
+    def add(package: str, text: str, version: str = "1.0", **parts: str) -> None:
+        module = package.replace("-", "_").lower()
+        (tmp_path / f"{module}.py").write_text(text)
+        info = tmp_path / f"{module}-{version}.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: {version}\n")
+        (info / "entry_points.txt").write_text(
+            "".join(
+                f"[shapeviz_report.{group}]\n"
+                + "".join(f"{entry} = {module}:{entry}\n" for entry in entries.split())
+                for group, entries in parts.items()
+            )
+        )
+        find_plugins.cache_clear()
+
+    yield add
+    find_plugins.cache_clear()
+    for name in set(sys.modules) - modules:
+        del sys.modules[name]
+
+
+def all_descriptors() -> tuple[Descriptor, ...]:
+    return with_plugins("shapeviz_report.descriptors", DESCRIPTORS, Descriptor, descriptors._prepare)
+
+
+def test_without_plugins_all_is_ours() -> None:
+    assert find_plugins() == ()
+    assert all_descriptors() == DESCRIPTORS
+
+
+def test_packages_come_by_name_and_ours_first(install) -> None:
+    install("zebra", HEIGHT.format(name="Zh"), descriptors="HEIGHT")
+    install("Ape_Tools", HEIGHT.format(name="Ah") + HEIGHT.format(name="Bh").replace("HEIGHT", "ALSO"),
+            version="2.1", descriptors="HEIGHT ALSO")  # fmt: skip
+    found = [(plugin.package, plugin.version, plugin.name) for plugin in find_plugins()]
+    assert found == [("ape-tools", "2.1", "ALSO"), ("ape-tools", "2.1", "HEIGHT"), ("zebra", "1.0", "HEIGHT")]
+    assert [d.name for d in all_descriptors()] == [*(d.name for d in DESCRIPTORS), "Bh", "Ah", "Zh"]
+
+
+def test_a_descriptor_computes(install) -> None:
+    install("heights", HEIGHT.format(name="Hgt"), descriptors="HEIGHT")
+    surface = Surface(lump())
+    np.testing.assert_array_equal(all_descriptors()[-1].compute(surface), surface.vertices[:, 2:])
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("raise ValueError('no luck')", r"cannot be loaded \(ValueError: no luck\)"),
+        ("import nowhere_to_be_found", r"cannot be loaded \(ModuleNotFoundError: .*nowhere_to_be_found"),
+        ("OTHER = 1", "cannot be loaded .AttributeError"),
+        ("HEIGHT = 3", "it is of the type int, not Descriptor"),
+        (HEIGHT.format(name="Gc"), "has the name 'Gc', which is taken by one of shapeviz-report itself"),
+        (HEIGHT.format(name="two words"), "letters and digits only"),
+        (HEIGHT.format(name="H").replace("11", "12"), "its edges are not 11 rising numbers"),
+        (HEIGHT.format(name="H").replace("high a point is.", "high"), "ends with a full stop"),
+    ],
+)
+def test_what_cannot_be_used_is_told_with_its_package(install, text, said) -> None:
+    install("heights", text, version="3.2", descriptors="HEIGHT")
+    with pytest.raises(PluginError, match=said) as told:
+        all_descriptors()
+    assert str(told.value).startswith("the descriptor 'HEIGHT' of the package heights 3.2 ")
+
+
+def test_a_name_that_two_packages_have(install) -> None:
+    for package in ("one", "two"):
+        install(package, HEIGHT.format(name="Hgt"), descriptors="HEIGHT")
+    with pytest.raises(PluginError, match=r"of the package two 1\.0 has the name 'Hgt'.* of the package one"):
+        all_descriptors()
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("surface.vertices", r"its values are an array \(\d+, 3\), and not \(\d+, 1\)"),
+        ("surface.vertices[:, 2:] / 0", "a value is not finite"),
+        ("surface.nothing", r"\(AttributeError: 'Surface' object has no attribute 'nothing'\)"),
+    ],
+)
+def test_what_fails_on_a_shape_is_told_with_its_package(install, body, said) -> None:
+    install(
+        "heights", HEIGHT.format(name="Hgt").replace("surface.vertices[:, 2:]", body), descriptors="HEIGHT"
+    )
+    with np.errstate(all="ignore"), pytest.raises(PluginError, match=rf"heights 1\.0 failed.*{said}"):
+        all_descriptors()[-1].compute(Surface(lump()))
+
+
+def test_what_a_plugin_says_of_a_mesh_is_passed_on(install) -> None:
+    text = "from shapeviz_report.errors import MeshError\n" + HEIGHT.format(name="Hgt")
+    raising = text.replace("return surface.vertices[:, 2:]", "raise MeshError('it is too flat')")
+    install("heights", raising, descriptors="HEIGHT")
+    with pytest.raises(MeshError, match="it is too flat"):
+        all_descriptors()[-1].compute(Surface(lump()))
+
+
+def test_layouts_of_plugins_are_asked_first(install, tmp_path) -> None:
+    text = """
+from shapeviz_report.database import Layout
+class Odd(Layout):
+    name, description = "odd", "an odd one"
+    def recognises(self, path, outside): return True
+    def read(self, path, outside): return None
+ODD = Odd()
+"""
+    install("odd-layout", text, layouts="ODD")
+    found = with_plugins("shapeviz_report.layouts", LAYOUTS, Layout, layouts._prepare, first=True)
+    assert [layout.name for layout in found] == ["odd", *(layout.name for layout in LAYOUTS)]
+    assert found[0].recognises(tmp_path, False)
+    with pytest.raises(PluginError, match=r"odd-layout 1\.0 failed: what it gives is of the type NoneType"):
+        found[0].read(tmp_path, False)
+
+
+def test_every_group_has_its_registry() -> None:
+    for group, (_, module) in plugins.GROUPS.items():
+        path = Path(plugins.__file__).parents[1] / (module.replace(".", "/") + ".py")
+        assert f'"{group}"' in path.read_text(encoding="utf-8"), f"{path} takes up no {group}"
+
+
+def test_a_plugin_that_is_imported_first() -> None:
+    """It imports this package, which looks for plug-ins, which is it."""
+    example = Path(__file__).parents[2] / "examples" / "plugin"
+    code = f"import sys; sys.path.insert(0, {str(example)!r}); import shapeviz_example"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_kinds_of_a_group(install) -> None:
+    install("words", "W = 1", wordings="W")
+    with pytest.raises(PluginError, match="it is of the type int, not str or bytes"):
+        load_plugins("shapeviz_report.wordings", (str, bytes))
