@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import isotonic_regression
@@ -10,13 +11,17 @@ from scipy.spatial.distance import pdist
 from threadpoolctl import threadpool_limits
 
 from shapeviz_report.compilation import kernel
-from shapeviz_report.neighbours import squared_blocks
+from shapeviz_report.neighbours import find_nearest, squared_blocks
 from shapeviz_report.projections import canonical_order
+from shapeviz_report.projections.kernels.nearest import EXACT_LIMIT
 from shapeviz_report.quality import TIE
-from shapeviz_report.types import Faithfulness, FloatArray, Shepard
+from shapeviz_report.types import Faithfulness, FloatArray, IntArray, Shepard
 
 DRAWN = 1000
 """Most shapes whose pairs a Shepard diagram shows."""
+
+RANKED = 2000
+"""Shapes that are asked where others rank, of more than are asked for all their distances."""
 
 CELLS = 48
 """Cells of a Shepard diagram in each direction."""
@@ -46,6 +51,9 @@ def rate_maps(points: FloatArray, maps: Mapping[str, FloatArray], k: int) -> dic
     Shapes dealt out anew over the places of the map have the mean of :math:`\delta` times the sum of :math:`d` in place
     of :math:`\sum \delta d`.
 
+    Of more than :data:`~shapeviz_report.projections.kernels.nearest.EXACT_LIMIT` shapes only ``RANKED`` are asked where
+    all others rank, so that single shapes have no false and missing neighbours; those kept are of all.
+
     Parameters
     ----------
     points : (n, d) float array
@@ -62,12 +70,22 @@ def rate_maps(points: FloatArray, maps: Mapping[str, FloatArray], k: int) -> dic
     """
     # Sorted by their values, so that sums do not follow the order of files.
     order = canonical_order(points)
+    many = len(points) > EXACT_LIMIT
+    if many:
+        asked = np.zeros(len(order), bool)
+        asked[np.arange(RANKED) * len(order) // RANKED] = True
+        order = np.concatenate([order[asked], order[~asked]])
     back = np.argsort(order)
     with threadpool_limits(limits=1):
         sorted_points = points[order]
         laid = [np.ascontiguousarray(xy[order], dtype=np.float64) for xy in maps.values()]
-        rated = _rate(squared_blocks(sorted_points), laid, k)
+        rated = _rate(squared_blocks(sorted_points), laid, k, RANKED if many else len(points))
+        if many:
+            near = find_nearest(sorted_points, k)
+            rated = [_keep(found, near, find_nearest(xy, k)) for found, xy in zip(rated, laid, strict=True)]
         drawn = np.arange(min(len(points), DRAWN)) * len(points) // min(len(points), DRAWN)
+        if many:
+            drawn = drawn * RANKED // len(points)
         apart = pdist(sorted_points[drawn])
     return {
         name: Faithfulness(
@@ -102,13 +120,16 @@ def rate_distances(squared: FloatArray, xy: FloatArray, k: int) -> Faithfulness 
     Faithfulness or None
         None for one shape.
     """
-    return next(iter(_rate([(slice(0, len(xy)), squared)], [xy], k)), None)
+    return next(iter(_rate([(slice(0, len(xy)), squared)], [xy], k, len(xy))), None)
 
 
 def _rate(
-    blocks: Iterable[tuple[slice, FloatArray]], maps: Sequence[FloatArray], k: int
+    blocks: Iterable[tuple[slice, FloatArray]], maps: Sequence[FloatArray], k: int, asked: int
 ) -> list[Faithfulness]:
-    """The measures of every map, from squared distances of some rows to all at a time; none for one shape."""
+    """The measures of every map, from squared distances of some rows to all at a time; none for one shape.
+
+    Only the first rows, as many as are asked, tell what they rank.
+    """
     count = len(maps[0]) if maps else 0
     k = min(k, count - 1)
     if k < 1:
@@ -116,13 +137,16 @@ def _rate(
     kept, false, missing = np.empty((3, len(maps), count))
     sums = np.empty((len(maps), count, 5))
     for rows, squared in blocks:
+        if rows.start >= asked:
+            break
+        squared = squared[: asked - rows.start]
         for xy, *found in zip(maps, kept, false, missing, sums, strict=True):
             _rate_rows(rows.start, squared, xy, k, TIE, *found)
     ranked = 2 * k < count
     most = k * (2 * count - 3 * k - 1) / 2
     rated = []
     for place in range(len(maps)):
-        stress, random_stress = _stress(sums[place].sum(axis=0), count)
+        stress, random_stress = _stress(sums[place, :asked].sum(axis=0), asked * (count - 1))
         rated.append(
             Faithfulness(
                 k,
@@ -130,8 +154,8 @@ def _rate(
                 k / (count - 1),
                 false[place] / most if ranked else None,
                 missing[place] / most if ranked else None,
-                1 - float(false[place].mean()) / most if ranked else None,
-                1 - float(missing[place].mean()) / most if ranked else None,
+                1 - float(false[place, :asked].mean()) / most if ranked else None,
+                1 - float(missing[place, :asked].mean()) / most if ranked else None,
                 1 - (count - 1 - k) * (count - k) / ((count - 1) * (2 * count - 3 * k - 1))
                 if ranked
                 else None,
@@ -142,14 +166,20 @@ def _rate(
     return rated
 
 
-def _stress(sums: FloatArray, count: int) -> tuple[float | None, float | None]:
+def _keep(found: Faithfulness, near: IntArray, shown: IntArray) -> Faithfulness:
+    """The same with the neighbours kept of all shapes, which are few of many, and no others of single shapes."""
+    kept = np.array([np.isin(one, two).mean() for one, two in zip(near, shown, strict=True)])
+    return replace(found, kept=kept, false=None, missing=None)
+
+
+def _stress(sums: FloatArray, pairs: int) -> tuple[float | None, float | None]:
     """The stress of a map, and that of its shapes dealt out anew; None where all shapes are equal."""
     together, squares, shown, apart, far = sums.tolist()
     if squares == 0:
         return None, None
     if shown == 0:
         return 1.0, 1.0
-    dealt = apart * far / (count * (count - 1))
+    dealt = apart * far / pairs
     return (
         float(np.sqrt(max(1 - together**2 / (squares * shown), 0))),
         float(np.sqrt(max(1 - dealt**2 / (squares * shown), 0))),

@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_limits
 
 from shapeviz_report.diffusion import diffuse
 from shapeviz_report.projections import canonical_order, squared_distances
+from shapeviz_report.projections.kernels.nearest import EXACT_LIMIT, nearest_rows
 from shapeviz_report.types import FloatArray, IntArray
 
 KIN = 5
@@ -24,6 +25,9 @@ KIN = 5
 
 RELATED = 48
 """Most similar shapes by neighbourhood that are kept of each."""
+
+FITTED = 4000
+"""Shapes that stand for their classes where there are very many, at least ten a class."""
 
 _BLOCK = 8_000_000
 """Distances at a time."""
@@ -61,11 +65,15 @@ def find_nearest(points: FloatArray, k: int) -> IntArray:
     Returns
     -------
     (n, k) int32 array
+        By features of more than :data:`~shapeviz_report.projections.kernels.nearest.EXACT_LIMIT` rows nearly all of
+        the nearest, and all of them near.
     """
     count, dimensions = points.shape
     nearest = np.empty((count, k), np.int32)
     if k == 0:
         return nearest
+    if dimensions > 2 and count > EXACT_LIMIT:
+        return nearest_rows(points, k, 0)[0]
     if dimensions == 2:
         # One more, because a row finds itself; among equal points not always first.
         _, found = KDTree(points).query(points, k + 1)
@@ -112,6 +120,9 @@ def find_related(points: FloatArray, count: int) -> IntArray:
 def find_fits(points: FloatArray, codes: npt.NDArray[np.integer]) -> Fits:
     """How well every shape fits its class, by the distances of points.
 
+    Of more than :data:`~shapeviz_report.projections.kernels.nearest.EXACT_LIMIT` points some of every class stand for
+    it, ``FITTED`` in all.
+
     Parameters
     ----------
     points : (n, d) float array
@@ -120,10 +131,15 @@ def find_fits(points: FloatArray, codes: npt.NDArray[np.integer]) -> Fits:
     """
     count, classes = len(points), int(codes.max(initial=-1)) + 1
     fit, rival = np.full(count, np.nan), np.full(count, -1, np.int32)
-    members = [np.flatnonzero(codes == code) for code in range(classes)]
     if classes < 2:
         return Fits(fit, rival)
-    for rows, squared in squared_blocks(points):
+    members = [np.flatnonzero(codes == code) for code in range(classes)]
+    standing = None
+    if count > EXACT_LIMIT:
+        most = max(FITTED // classes, 2 * KIN)
+        standing = np.concatenate([evenly(own, points, most) for own in members])
+        members = [np.flatnonzero(codes[standing] == code) for code in range(classes)]
+    for rows, squared in squared_blocks(points, standing):
         means = np.full((len(squared), classes), np.inf)
         for code, own in enumerate(members):
             distances = np.sort(_smallest(squared[:, own], KIN), axis=1)
@@ -169,14 +185,24 @@ def _smallest(squared: FloatArray, count: int) -> FloatArray:
     return np.partition(squared, count - 1, axis=1)[:, :count]
 
 
-def squared_blocks(points: FloatArray) -> Iterator[tuple[slice, FloatArray]]:
-    """Squared distances of a slice of rows to all rows at a time, infinite to themselves."""
+def evenly(rows: npt.NDArray[np.integer], points: FloatArray, most: int) -> npt.NDArray[np.integer]:
+    """At most so many of some rows of ``points``, by what they hold and not by where they stand; rising."""
+    order = rows[canonical_order(points[rows])]
+    count = min(most, len(rows))
+    return np.sort(order[np.arange(count) * len(rows) // count])
+
+
+def squared_blocks(points: FloatArray, others: IntArray | None = None) -> Iterator[tuple[slice, FloatArray]]:
+    """Squared distances of a slice of rows to all rows, or to some ``others``, at a time, infinite to themselves."""
     centred = points - points.mean(axis=0)
     norms = np.einsum("ij,ij->i", centred, centred)
-    step = max(1, _BLOCK // len(points))
+    there, their_norms = (centred, norms) if others is None else (centred[others], norms[others])
+    columns = np.arange(len(points)) if others is None else others
+    step = max(1, _BLOCK // len(columns))
     for start in range(0, len(points), step):
         rows = slice(start, min(start + step, len(points)))
-        squared = norms[rows, None] + norms - 2 * centred[rows] @ centred.T
+        squared = norms[rows, None] + their_norms - 2 * centred[rows] @ there.T
         np.maximum(squared, 0, out=squared)
-        squared[np.arange(len(squared)), np.arange(rows.start, rows.stop)] = np.inf
+        own = np.flatnonzero((columns >= rows.start) & (columns < rows.stop))
+        squared[columns[own] - rows.start, own] = np.inf
         yield rows, squared

@@ -51,6 +51,7 @@ from shapeviz_report.search.bins import (
     shuffle_labels,
 )
 from shapeviz_report.search.certainty import deal_folds
+from shapeviz_report.search.space import stratified_sample
 from shapeviz_report.types import (
     BinScores,
     BinSearch,
@@ -77,6 +78,12 @@ SUBSETS_A_TASK = 16
 RATINGS_A_TASK = 64
 """Subsets whose retrieval a worker rates before it reports back: each takes 2 to 150 milliseconds, by the number of
 shapes, against up to 32 MB of distances that are sent along."""
+
+SCORED = 5000
+"""Most shapes by which the bins of a class are scored: 110 MB of values a class."""
+
+MOST_SENT = 2**28
+"""Bytes of values that a question sends to another machine; with more it is answered on this one."""
 
 SHUFFLES = 2
 """Folds that also meet labels dealt out at random. With labels without meaning the search takes twice the time, and two
@@ -122,7 +129,8 @@ def find_clusters(
 ) -> Clusters | None:
     """Groups of the shapes by their features alone, with names."""
     key = CLUSTER.key(scaled.shape, sha256(scaled.tobytes()).hexdigest(), config.seed)
-    partition = run.all(CLUSTER, {"all": Task.of(key, scaled, config.seed)})["all"]
+    here = scaled.nbytes > MOST_SENT
+    partition = run.all(CLUSTER, {"all": Task.of(key, scaled, config.seed)}, here=here)["all"]
     if partition is None:
         return None
     preset = PRESETS[config.preset]
@@ -164,7 +172,7 @@ def project_all(
         def done(_: str, cpu_seconds: float) -> None:
             step(cpu_seconds)
 
-        found: dict[str, FloatArray] = run.answer(PROJECT, own, done)
+        found: dict[str, FloatArray] = run.answer(PROJECT, own, done, here=values.nbytes > MOST_SENT)
         as_map = replace(SEARCH, failing=PROJECT.failing)
         for method, made in run.answer(as_map, of_search, done).items():
             found[method] = np.empty((len(values), 2))
@@ -195,7 +203,7 @@ def lay_out_best(
     content = sha256(values.tobytes()).hexdigest()
     key = PROJECT.key(search.method, values.shape, content, config.seed)
     task = Task.of(key, search.method, values, config.seed)
-    xy = run.all(PROJECT, {search.method: task})[search.method]
+    xy = run.all(PROJECT, {search.method: task}, here=values.nbytes > MOST_SENT)[search.method]
     return align(Projection(search.method, best, config.seed, xy, None), like), values
 
 
@@ -260,13 +268,32 @@ def score_all(run: Runner, compared: FloatArray, labels: Sequence[str | None], s
     content = sha256(compared.tobytes()).hexdigest()
     tasks = {}
     for name in classes:
-        members = [row for row, label in enumerate(labels) if label == name]
-        others = [row for row, label in enumerate(labels) if label not in (name, None)]
-        key = SCORE.key(compared.shape, content, members, others, seed)
-        tasks[name] = Task.of(key, compared, members, others, seed)
+        members, others = contestants(labels, name, seed)
+        rows = [*members, *others]
+
+        def arguments(rows: list[int] = rows, count: int = len(members)) -> tuple[Any, ...]:
+            return compared[rows], range(count), range(count, len(rows)), seed
+
+        tasks[name] = Task(SCORE.key(compared.shape, content, members, others, seed), arguments)
     found = run.all(SCORE, tasks)
     values = np.stack([found[name] for name in classes], axis=1)
     return BinScores(tuple(scorer.name for scorer in ALL_SCORERS), tuple(classes), values)
+
+
+def contestants(labels: Sequence[str | None], name: str, seed: int) -> tuple[list[int], list[int]]:
+    """The rows of a class and of the rest by which its bins are scored: all, or ``SCORED`` where there are more.
+
+    Of these at most a tenth are of the class, or more where the rest leaves room; of the rest every class has its
+    share.
+    """
+    members = [row for row, label in enumerate(labels) if label == name]
+    others = [row for row, label in enumerate(labels) if label not in (name, None)]
+    if len(members) + len(others) <= SCORED:
+        return members, others
+    count = min(len(members), max(SCORED // 10, SCORED - len(others)))
+    chosen = stratified_sample([name] * len(members), count, seed)
+    rest = stratified_sample([labels[row] for row in others], SCORED - count, seed)
+    return [members[place] for place in chosen], [others[place] for place in rest]
 
 
 def search_all_bins(

@@ -207,13 +207,18 @@ class Runner:
         # What is far off does not send what only stands between, such as the prepared mesh.
         return given, links, needed if self.executor.near else missing
 
-    def all(self, stage: Stage[R], tasks: Mapping[Name, Task]) -> dict[Name, R]:
+    def all(self, stage: Stage[R], tasks: Mapping[Name, Task], *, here: bool = False) -> dict[Name, R]:
         """The results of a stage for all tasks, each by its name; one that fails ends the build."""
         with self.clock.stage(stage.name, stage.doing, len(tasks)) as step:
-            return self.answer(stage, tasks, lambda _, cpu_seconds: step(cpu_seconds))
+            return self.answer(stage, tasks, lambda _, cpu_seconds: step(cpu_seconds), here=here)
 
     def answer(
-        self, stage: Stage[R], tasks: Mapping[Name, Task], step: Callable[[Name, float], None]
+        self,
+        stage: Stage[R],
+        tasks: Mapping[Name, Task],
+        step: Callable[[Name, float], None],
+        *,
+        here: bool = False,
     ) -> dict[Name, R]:
         """The results of some of a stage's tasks; one that fails ends the build.
 
@@ -223,6 +228,8 @@ class Runner:
         tasks : mapping of names to Task
         step : callable
             Told of each task that is done, with the CPU seconds spent on it.
+        here : bool
+            Whether it is done on this machine, for what it takes is too large to travel.
 
         Returns
         -------
@@ -242,7 +249,11 @@ class Runner:
         def drop(name: Name, reason: str, _: float) -> None:
             raise DatabaseError(stage.failing.format(task=name, reason=reason))
 
-        self.find(stage, tasks, tasks.__getitem__, take, drop)
+        if here and not self.executor.near:
+            with open_workers(self._config, self._config.worker_count) as executor:
+                self.find(stage, tasks, tasks.__getitem__, take, drop, executor)
+        else:
+            self.find(stage, tasks, tasks.__getitem__, take, drop)
         return {name: found[name] for name in tasks}
 
     def find(
@@ -252,6 +263,7 @@ class Runner:
         plan: Callable[[Name], Task],
         take: Callable[[Name, str, bytes, float], None],
         drop: Callable[[Name, str, float], None],
+        executor: Executor | None = None,
     ) -> None:
         """Find results in the cache or have them computed and kept, in any order.
 
@@ -266,6 +278,8 @@ class Runner:
             Gets each name, key, result and CPU seconds spent on it.
         drop : callable
             Gets each name that has no result, the reason, and the CPU seconds spent on it.
+        executor : Executor, optional
+            Another than that of the build.
         """
         sent: list[tuple[Name, str]] = []
 
@@ -293,7 +307,7 @@ class Runner:
                 del task
                 yield arguments.pop()
 
-        for outcome in self.executor.run(stage.compute, open_tasks(), stage.patience):
+        for outcome in (executor or self.executor).run(stage.compute, open_tasks(), stage.patience):
             name, key = sent[outcome.index]
             if outcome.reason is None:
                 self._cache.store(stage.folder, key, outcome.value)

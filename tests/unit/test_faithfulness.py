@@ -166,3 +166,21 @@ def test_few_shapes(points) -> None:
     )
     assert two.stress == pytest.approx(0, abs=1e-7)
     assert rate_distances(np.zeros((1, 1)), points[:1, :2], 10) is None
+
+
+def test_of_many_shapes_some_are_asked(monkeypatch) -> None:
+    random = np.random.default_rng(4)
+    points = np.repeat(random.normal(size=(30, 8)) * 2, 60, axis=0) + random.normal(size=(1800, 8))
+    maps = {"a": points[:, :2], "b": random.random((1800, 2))}
+    exact = rate_maps(points, maps, 10)
+    monkeypatch.setattr(faithfulness, "EXACT_LIMIT", 1000)
+    monkeypatch.setattr(faithfulness, "RANKED", 600)
+    found = rate_maps(points, maps, 10)
+    for name in maps:
+        assert found[name].kept == pytest.approx(exact[name].kept, abs=1e-12)
+        assert (found[name].false, found[name].missing) == (None, None)
+        for measure in ("trustworthiness", "continuity", "stress", "random_stress", "random", "chance"):
+            assert getattr(found[name], measure) == pytest.approx(getattr(exact[name], measure), abs=0.01), (
+                measure
+            )
+        assert found[name].shepard.height == pytest.approx(exact[name].shepard.height, rel=0.1)

@@ -105,3 +105,18 @@ def test_similar_classes_stand_beside_each_other():
     order = order_classes(points, codes)
     assert sorted(order) == [0, 1, 2, 3]
     assert abs(order.index(0) - order.index(1)) == 1
+
+
+def test_of_many_shapes_some_stand_for_their_class(monkeypatch):
+    points, codes = clouds(400, seed=3)
+    exact = find_fits(points, codes)
+    monkeypatch.setattr(neighbours, "EXACT_LIMIT", 1000)
+    monkeypatch.setattr(neighbours, "FITTED", 800)
+    found = find_fits(points, codes)
+    # Of fewer, the nearest are farther off, in all classes alike.
+    assert np.corrcoef(found.fit, exact.fit)[0, 1] > 0.97
+    assert (found.rival == exact.rival).mean() > 0.97
+    assert np.abs(found.fit - exact.fit).mean() < 0.08
+    order = np.random.default_rng(0).permutation(len(points))
+    again = find_fits(points[order], codes[order])
+    assert again.fit == pytest.approx(found.fit[order])
