@@ -42,7 +42,7 @@ async function main() {
     facts,
     new Surroundings(database, state, { links, pointing: new Pointing(database), go }),
   ];
-  for (const view of views) view.render();
+  const told = Promise.all(views.map((view) => view.render()));
   state.listen((changed) => {
     if (!changed.has("shape")) return;
     announce(state.get("shape") === null ? "No such shape" : database.names[state.get("shape")]);
@@ -59,6 +59,8 @@ async function main() {
   let byFeatures = {};
   watchTables(() => shapeTables(database, state, { facts, ...byFeatures }));
   const load = async () => {
+    // The largest data of a site: what is known of the shape comes before them.
+    await told;
     byFeatures = await showFeatures(database, state, { links, portrait });
   };
   // A bin or a shape beside it that the address names is to be seen at once.

@@ -1,6 +1,7 @@
 // Where a shape lies on a map, its nearest neighbours there, and what they say of it.
 
-import { element } from "../base/dom.js";
+import { element, pause } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 import { toldAs } from "../base/snapshot.js";
 import { pageAddress } from "../base/place.js";
 import { styleColor } from "../base/theme.js";
@@ -48,6 +49,7 @@ export class Surroundings {
     });
     pointing.watch(surface, this.plot, go);
     state.listen((changed) => {
+      if (changed.has("theme")) this.#looks.clear();
       if (["shape", "method"].some((name) => changed.has(name))) this.render();
       else if (changed.has("theme")) this.plot.draw();
     });
@@ -80,7 +82,7 @@ export class Surroundings {
     const method = state.get("method");
     const near = database.neighbours(shape, method);
     this.near = new Set(near);
-    this.plot.show(database.methods[method]);
+    this.#draw(shape, method);
     const own = database.groups[shape];
     /** @param {number} other */
     const stranger = (other) => own >= 0 && database.groups[other] !== own;
@@ -94,6 +96,17 @@ export class Surroundings {
         near.some(stranger) ? `Underlined: of another ${kind(database)}. ` : "",
         element("a", { class: "on-screen", href: this.#overview(shape) }, "Open on the Overview"),
       );
+  }
+
+  /**
+   * A drawing of very many shapes takes long: what is said of this one comes first.
+   * @param {number} shape
+   * @param {number} method
+   */
+  async #draw(shape, method) {
+    if (this.database.count > MANY) await pause();
+    if (this.state.get("shape") === shape && this.state.get("method") === method)
+      this.plot.show(this.database.methods[method]);
   }
 
   /** @param {number} shape */
@@ -152,12 +165,15 @@ export class Surroundings {
     ];
   }
 
+  /** @type {Map<number, { path: string, color: string }>} of the classes, in the theme in use */
+  #looks = new Map();
+
   /** @param {number} index */
   #mark(index) {
     const { database, state } = this;
     const [shape, many] = [state.get("shape"), database.count > MANY];
     const group = database.groups[index];
-    const look = { path: database.symbol(group), color: database.color(group) };
+    const look = entry(this.#looks, group, () => ({ path: database.symbol(group), color: database.color(group) }));
     if (index === shape) return { ...look, radius: 6, alpha: 1 };
     if (this.near.has(index)) return { ...look, radius: many ? 4 : 4.5, alpha: 1 };
     const own = shape !== null && group === database.groups[shape] && database.separable;
