@@ -3,9 +3,7 @@
     python -m benchmarks.generated OUT [--shapes 100000] [--classes 60] [--features Gc,Agd,...] [--seed 0]
 
 Rows of features are a prototype a class and noise; maps, their quality, facts and columns are dealt out as plausible
-ones would be. There are no models and no searches. Of more than 10,000 shapes what the writer finds by going through
-all pairs of them is dealt out too: the nearest shapes and the fits of the Compare page, and the example of the
-Workbench. Prints what each part took, and what each part of the site weighs.
+ones would be. There are no models and no searches. Prints what each part took, and what each part of the site weighs.
 """
 
 from __future__ import annotations
@@ -18,7 +16,6 @@ from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from unittest.mock import patch
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFilter
@@ -26,10 +23,8 @@ from scipy.spatial import KDTree
 
 from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import BINS
-from shapeviz_report.neighbours import RELATED, Fits, find_nearest
+from shapeviz_report.neighbours import RELATED, find_nearest
 from shapeviz_report.order import classes_of
-from shapeviz_report.pages import compare, workbench
-from shapeviz_report.pages.base import MOST_IN_FULL
 from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.quality import NEIGHBOURS, hit_range
 from shapeviz_report.separation import rate_separation
@@ -42,7 +37,6 @@ from shapeviz_report.types import (
     Faithfulness,
     FeatureTable,
     FloatArray,
-    IntArray,
     Match,
     Projection,
     Quality,
@@ -350,28 +344,6 @@ def _timed(what: str) -> Iterator[None]:
     print(f"{what}: {time.perf_counter() - started:.1f} s, peak {peak:.0f} MiB", flush=True)
 
 
-@contextmanager
-def _without_pairs(count: int) -> Iterator[None]:
-    """Spare the writer what grows with the square of the number of shapes, where these are very many."""
-    if count <= MOST_IN_FULL:
-        yield
-        return
-
-    def near(points: FloatArray, k: int) -> IntArray:
-        return find_nearest(np.ascontiguousarray(points[:, :2]), k)
-
-    def fits(points: FloatArray, codes: np.ndarray) -> Fits:
-        random = np.random.default_rng(0)
-        return Fits(random.uniform(-0.2, 1, len(points)), ((codes + 1) % (codes.max() + 1)).astype(np.int32))
-
-    with (
-        patch.object(compare, "find_nearest", near),
-        patch.object(compare, "find_fits", fits),
-        patch.object(workbench, "_example", lambda report, classes: None),
-    ):
-        yield
-
-
 def print_sizes(site: Path) -> None:
     """What each part of a site weighs: folders, and files of chunks and data on their own; numbered ones together."""
     sizes: Counter[str] = Counter()
@@ -403,7 +375,7 @@ def main() -> None:
     features = every if given.features == "all" else given.features.split(",")
     with _timed("report"):
         report = make_report(given.shapes, given.classes, features, given.seed)
-    with _timed("site"), _without_pairs(given.shapes):
+    with _timed("site"):
         write_site(report, given.out)
     print_sizes(given.out)
 

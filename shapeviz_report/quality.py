@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 from scipy.sparse import csr_matrix
+from scipy.spatial import KDTree
 
 from shapeviz_report.order import classes_of, natural
 from shapeviz_report.types import FloatArray, HitRange, Quality
@@ -20,6 +21,12 @@ PERMUTATIONS = 1000
 
 TIE = 1e-9
 """Distances that differ by less than this fraction are equal."""
+
+MOST_PAIRED = 4000
+"""Points of a map whose distances are all computed; of more, those to some candidates."""
+
+SPARE = 16
+"""Candidates beside the nearest: those that tie for the last places are among them nearly always."""
 
 
 def score(xy: FloatArray, labels: Sequence[str | None], *, k: int = NEIGHBOURS, seed: int = 0) -> Quality:
@@ -207,21 +214,48 @@ def neighbour_weights(points: FloatArray, k: int | npt.NDArray[np.integer]) -> c
     count = len(points)
     wanted = np.broadcast_to(k, count)
     rows, columns, values = [], [], []
+    left = np.arange(count)
+    if points.shape[1] == 2 and count > MOST_PAIRED:
+        near = KDTree(points).query(points, min(int(wanted.max()) + SPARE, count))[1]
+        squared = _squared(points, points[near])
+        squared[near == left[:, None]] = np.inf
+        # Whose last candidate ties with the k-th may have others that tie.
+        whole = squared.max(axis=1, where=np.isfinite(squared), initial=0) > kth_smallest(squared, wanted)[
+            :, 0
+        ] * (1 + TIE)
+        left = np.flatnonzero(~whole)
+        place, row, column = _weigh(squared[whole], wanted[whole])
+        rows.append(np.flatnonzero(whole)[row])
+        columns.append(near[whole][row, column])
+        values.append(place)
     chunk = max(1, 4_000_000 // count)
-    for start in range(0, count, chunk):
-        block = points[start : start + chunk]
-        squared = np.zeros((len(block), count))
-        for dimension in range(points.shape[1]):
-            squared += (block[:, dimension, None] - points[None, :, dimension]) ** 2
-        squared[np.arange(len(block)), np.arange(start, start + len(block))] = np.inf
-        asked = wanted[start : start + chunk]
-        places = share_places(squared, asked)
-        row, column = np.nonzero(places)
-        rows.append(row + start)
+    for start in range(0, len(left), chunk):
+        block = left[start : start + chunk]
+        squared = _squared(points[block], points[None])
+        squared[np.arange(len(block)), block] = np.inf
+        place, row, column = _weigh(squared, wanted[block])
+        rows.append(block[row])
         columns.append(column)
-        values.append(places[row, column] / asked[row])
+        values.append(place)
     entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
     return csr_matrix(entries, shape=(count, count))
+
+
+def _squared(points: FloatArray, others: FloatArray) -> FloatArray:
+    """Squared distances of (m, d) points to (m or 1, n, d) others; (m, n)."""
+    squared = np.zeros(np.broadcast_shapes((len(points), 1), others.shape[:2]))
+    for dimension in range(points.shape[1]):
+        squared += (points[:, dimension, None] - others[..., dimension]) ** 2
+    return squared
+
+
+def _weigh(
+    squared: FloatArray, wanted: npt.NDArray[np.integer]
+) -> tuple[FloatArray, npt.NDArray[np.intp], npt.NDArray[np.intp]]:
+    """The weights that are not zero, with their rows and columns."""
+    places = share_places(squared, wanted)
+    row, column = np.nonzero(places)
+    return places[row, column] / wanted[row], row, column
 
 
 def neighbourhood_hits(weights: csr_matrix, codes: np.ndarray) -> FloatArray:

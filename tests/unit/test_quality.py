@@ -6,8 +6,16 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.sparse import csr_matrix
 
-from shapeviz_report.quality import hit_range, neighbour_weights, score, share_of_range
+from shapeviz_report.quality import (
+    MOST_PAIRED,
+    hit_range,
+    neighbour_weights,
+    score,
+    share_of_range,
+    share_places,
+)
 from shapeviz_report.types import HitRange
 
 
@@ -88,6 +96,23 @@ def test_weights_add_up() -> None:
     weights = neighbour_weights(points, 7)
     assert np.asarray(weights.sum(axis=1)).ravel() == pytest.approx(1)
     assert (weights.diagonal() == 0).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["scattered", "on a grid", "in heaps"])
+def test_weights_on_a_large_map_are_those_of_all_distances(kind) -> None:
+    count = MOST_PAIRED + 96
+    random = np.random.default_rng(0)
+    points = {
+        "scattered": random.normal(size=(count, 2)),
+        "on a grid": np.stack(np.divmod(np.arange(count), 64), axis=1).astype(float),
+        "in heaps": random.normal(size=(count // 64, 2))[np.arange(count) % (count // 64)],
+    }[kind]
+    squared = ((points[:, None] - points[None]) ** 2).sum(axis=2)
+    np.fill_diagonal(squared, np.inf)
+    weights = neighbour_weights(points, 10)
+    assert weights.shape == (count, count)
+    assert abs(weights - csr_matrix(share_places(squared, 10) / 10)).max() < 1e-12
 
 
 @pytest.mark.slow
