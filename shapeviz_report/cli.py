@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 from tqdm import tqdm
 
 from shapeviz_report import __version__
-from shapeviz_report.building.progress import TimeLeft, in_words
+from shapeviz_report.building.progress import Progress, QuietProgress, TimeLeft, in_words
 from shapeviz_report.cache import default_root
 from shapeviz_report.config import ENVIRONMENT_PREFIX, FILE_NAME, MACHINE, PUBLICATION, Config, load_config
 from shapeviz_report.ending import STOPPED, end_in_order, listen, listening
@@ -31,6 +31,7 @@ from shapeviz_report.pruning import DAY, Entry, choose_unused, list_entries, rem
 from shapeviz_report.types import Database, Failure, Report
 
 if TYPE_CHECKING:
+    from shapeviz_report.building.check import CheckResult
     from shapeviz_report.building.query import QueryResult
 
 EXIT_CODES = """\
@@ -52,6 +53,15 @@ DESCRIBING = (
     "scheduler", "cache",
 )  # fmt: skip
 """Options of a build that decide its features, and where they are computed."""
+
+GROUPS = {
+    "what is read": ("layout", "labeling", "external", "outside"),
+    "features and maps": ("preset", "edge_length", "bins", "search", "neighbours", "seed"),
+    "what the site shows": ("meshes", "single_file", "up", "thumbnail_size"),
+    "what the site says of the database": PUBLICATION,
+    "this machine": ("jobs", "scheduler", "time_limit", "memory_limit", "cache"),
+}
+"""How options stand in the help."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -116,6 +126,7 @@ def _parser() -> argparse.ArgumentParser:
 
     build = commands.add_parser(
         "build",
+        usage="shapeviz-report build [options] -o OUT DATABASE",
         help="build the site of a shape database",
         description="Build the site of a shape database. What was computed before and has not changed is reused.",
         epilog=f"Options may also stand in {FILE_NAME} in the database's folder, with _ for -, but for those of the\n"
@@ -126,10 +137,12 @@ def _parser() -> argparse.ArgumentParser:
     _add_database(build)
     _add_destination(build)
     _add_options(build, [f.name for f in dataclasses.fields(Config)])
+    _add_loudness(build)
     build.set_defaults(command=_build)
 
     demo = commands.add_parser(
         "demo",
+        usage="shapeviz-report demo [options] -o OUT",
         help="build a site of shapes that are generated on the spot",
         description="Generate the demo database, which needs no download, and build its site.",
         epilog=EXIT_CODES,
@@ -139,18 +152,22 @@ def _parser() -> argparse.ArgumentParser:
     _add_options(
         demo, ["preset", "bins", "search", "meshes", "single_file", "seed", "jobs", "scheduler", "cache"]
     )
+    _add_loudness(demo)
     demo.set_defaults(command=_demo)
 
     check = commands.add_parser(
         "check",
+        usage="shapeviz-report check [options] DATABASE",
         help="say what of a database would be read, and what is wrong with it",
         description="Read a database and every mesh of it without building anything. The exit code is 1 if any "
         "file cannot be used.",
     )
     _add_database(check)
-    check.add_argument(
+    told = check.add_mutually_exclusive_group()
+    told.add_argument(
         "--list", action="store_true", help="print the id of every shape, in order, and no more"
     )
+    told.add_argument("--json", action="store_true", help="print everything that was found as JSON")
     _add_options(
         check,
         [
@@ -166,10 +183,12 @@ def _parser() -> argparse.ArgumentParser:
             "cache",
         ],
     )
+    _add_loudness(check)
     check.set_defaults(command=_check)
 
     query = commands.add_parser(
         "query",
+        usage="shapeviz-report query [options] SITE MESH",
         help="find the shapes of a site that are most similar to a mesh",
         description="Find the shapes of a built site that are most similar to a mesh, which need not be among them, "
         "and say which features make them alike.",
@@ -194,10 +213,12 @@ def _parser() -> argparse.ArgumentParser:
     )
     query.add_argument("--json", action="store_true", help="print everything that was found as JSON")
     _add_options(query, QUERYING)
+    _add_loudness(query)
     query.set_defaults(command=_query)
 
     describe = commands.add_parser(
         "describe",
+        usage="shapeviz-report describe [options] -o FILE DATABASE",
         help="write the features of a shape database to a file",
         description="Measure a shape database and write its features to one file, a row a shape, for other programs: "
         "no pictures, maps or site. What was computed before and has not changed is reused.",
@@ -214,6 +235,7 @@ def _parser() -> argparse.ArgumentParser:
         help="FILE.parquet (needs pyarrow), FILE.csv, or FILE.npz for numpy; an earlier one is replaced",
     )
     _add_options(describe, DESCRIBING)
+    _add_loudness(describe)
     describe.set_defaults(command=_describe)
 
     plugins = commands.add_parser(
@@ -223,6 +245,17 @@ def _parser() -> argparse.ArgumentParser:
         "packages and their versions. The exit code is 1 if one of them cannot be used.",
     )
     plugins.set_defaults(command=_plugins)
+
+    completion = commands.add_parser(
+        "completion",
+        help="print what makes a shell complete commands and options",
+        description="Print a script that makes a shell complete the commands and options. It goes, for instance, into\n"
+        "~/.local/share/bash-completion/completions/shapeviz-report for bash, or into a file _shapeviz-report in a\n"
+        "folder of $fpath for zsh.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    completion.add_argument("shell", metavar="SHELL", choices=("bash", "zsh"), help="bash or zsh")
+    completion.set_defaults(command=_completion)
 
     cache = commands.add_parser(
         "cache",
@@ -279,28 +312,46 @@ def _add_destination(parser: argparse.ArgumentParser) -> None:
 
 def _add_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
     """A flag for each of these options, as :class:`Config` describes them, and one for a file of them."""
-    parser.add_argument(
+    fields = {option.name: option for option in dataclasses.fields(Config)}
+    for title, own in GROUPS.items():
+        chosen = [fields[name] for name in own if name in names]
+        if not chosen:
+            continue
+        section = parser.add_argument_group(title)
+        for option in chosen:
+            kind = str(option.type)
+            flag = "--" + option.name.replace("_", "-")
+            if kind == "bool":
+                section.add_argument(
+                    flag, action=argparse.BooleanOptionalAction, help=option.metadata["help"]
+                )
+                continue
+            section.add_argument(
+                flag,
+                metavar=option.metadata["metavar"],
+                help=option.metadata["help"]
+                + (f" ({option.default})" if type(option.default) in (int, float) else ""),
+                type=int if kind.startswith("int") else float if kind.startswith("float") else str,
+                action="append" if kind.startswith("tuple") else "store",
+            )
+    # after all others, which are of the machine
+    section.add_argument(
         "--config",
         metavar="FILE",
         type=Path,
         help="options from a TOML file of your own, which may hold any of them",
     )
-    for option in dataclasses.fields(Config):
-        if option.name not in names:
-            continue
-        kind = str(option.type)
-        flag = "--" + option.name.replace("_", "-")
-        if kind == "bool":
-            parser.add_argument(flag, action=argparse.BooleanOptionalAction, help=option.metadata["help"])
-            continue
-        parser.add_argument(
-            flag,
-            metavar=option.metadata["metavar"],
-            help=option.metadata["help"]
-            + (f" ({option.default})" if type(option.default) in (int, float) else ""),
-            type=int if kind.startswith("int") else float if kind.startswith("float") else str,
-            action="append" if kind.startswith("tuple") else "store",
-        )
+
+
+def _add_loudness(parser: argparse.ArgumentParser) -> None:
+    loudness = parser.add_mutually_exclusive_group()
+    loudness.add_argument("-q", "--quiet", action="store_true", help="say nothing but what goes wrong")
+    loudness.add_argument(
+        "-v",
+        "--verbose",
+        action="store_true",
+        help="say also which options hold, and how long everything took",
+    )
 
 
 def _given(options: argparse.Namespace) -> dict[str, Any]:
@@ -308,13 +359,30 @@ def _given(options: argparse.Namespace) -> dict[str, Any]:
     return {f.name: getattr(options, f.name, None) for f in dataclasses.fields(Config)}
 
 
+def _progress(options: argparse.Namespace, config: Config) -> Progress:
+    """How far a command is told to be; with ``--verbose`` after the options that hold."""
+    if options.quiet:
+        return QuietProgress()
+    if options.verbose:
+        logging.getLogger("shapeviz_report").setLevel(logging.DEBUG)
+        for option in dataclasses.fields(Config):
+            value = getattr(config, option.name)
+            if value != option.default:
+                _complain(f"{option.name} = {value}")
+        _complain(f"results are kept in {(config.cache or default_root()).absolute()}")
+        if config.scheduler is None:
+            _complain(f"computed by {_count(config.worker_count, 'process', 'processes')} of this machine")
+    return TerminalProgress(verbose=options.verbose)
+
+
 def _build(options: argparse.Namespace) -> int:
     from shapeviz_report.building.pipeline import build_report
 
     listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
-    report = build_report(options.database, options.output, config, TerminalProgress())
-    _print_summary(report, options.output)
+    report = build_report(options.database, options.output, config, _progress(options, config))
+    if not options.quiet:
+        _print_summary(report, options.output)
     return 0
 
 
@@ -322,16 +390,17 @@ def _demo(options: argparse.Namespace) -> int:
     from shapeviz_report.building.demo import build_demo
 
     listen(end_in_order)
-    report = build_demo(
-        options.output, load_config(None, _given(options), options.config), TerminalProgress()
-    )
-    _print_summary(report, options.output)
+    config = load_config(None, _given(options), options.config)
+    report = build_demo(options.output, config, _progress(options, config))
+    if not options.quiet:
+        _print_summary(report, options.output)
     return 0
 
 
 def _check(options: argparse.Namespace) -> int:
     from shapeviz_report.building.check import check_database
     from shapeviz_report.database import read_database
+    from shapeviz_report.writing.data import json_text
 
     listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
@@ -341,7 +410,49 @@ def _check(options: argparse.Namespace) -> int:
         )
         _say(*(shape.id for shape in database.shapes))
         return 0
-    result = check_database(options.database, config, TerminalProgress())
+    result = check_database(options.database, config, _progress(options, config))
+    if options.json:
+        _say(*json_text(_checked(result), indent=1).splitlines())
+    elif not options.quiet:
+        _print_check(result)
+    return 1 if result.failures else 0
+
+
+def _checked(result: CheckResult) -> dict[str, object]:
+    """What a check found, for programs."""
+    from shapeviz_report.building.runner import name_files
+
+    database = result.database
+    files = name_files(database)
+    return {
+        "database": database.name,
+        "root": str(database.root),
+        "layout": database.layout,
+        "labelings": {
+            labeling: Counter(s.labels[labeling] for s in database.shapes if labeling in s.labels)
+            for labeling in database.labelings
+        },
+        "shapes": [
+            {
+                "id": shape.id,
+                "name": shape.name,
+                "file": files[shape.id],
+                "labels": shape.labels,
+                "metadata": shape.metadata,
+                "usable": shape.id in result.repairs,
+                "repairs": result.repairs.get(shape.id, {}),
+            }
+            for shape in database.shapes
+        ],
+        "failures": [{"file": failure.path, "reason": failure.reason} for failure in result.failures],
+        "copies": [
+            {"first": copy.first, "second": copy.second, "match": copy.match.words} for copy in result.copies
+        ],
+        "warnings": list(database.warnings),
+    }
+
+
+def _print_check(result: CheckResult) -> None:
     usable = tuple(shape for shape in result.database.shapes if shape.id in result.repairs)
     _print_database(dataclasses.replace(result.database, shapes=usable))
     mended = Counter(what for repairs in result.repairs.values() for what in repairs)
@@ -356,7 +467,6 @@ def _check(options: argparse.Namespace) -> int:
     _print_failures(result.failures)
     if not result.failures:
         _say("", "All files can be used.")
-    return 1 if result.failures else 0
 
 
 def _describe(options: argparse.Namespace) -> int:
@@ -366,12 +476,13 @@ def _describe(options: argparse.Namespace) -> int:
     listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
     check_feature_file(options.output, options.database)
-    found = describe_database(options.database, config, TerminalProgress())
+    found = describe_database(options.database, config, _progress(options, config))
     write_feature_file(options.output, found.database, found.shapes, found.features, found.edges)
-    _print_failures(found.failures)
-    shapes = _count(len(found.shapes), "shape", "shapes")
-    columns = _count(len(found.features.columns), "feature value", "feature values")
-    _say("", f"{options.output}: {shapes}, {columns} each")
+    if not options.quiet:
+        _print_failures(found.failures)
+        shapes = _count(len(found.shapes), "shape", "shapes")
+        columns = _count(len(found.features.columns), "feature value", "feature values")
+        _say("", f"{options.output}: {shapes}, {columns} each")
     return 0
 
 
@@ -390,7 +501,7 @@ def _query(options: argparse.Namespace) -> int:
         cache=(config.cache or default_root()).absolute(),
         time_limit=config.time_limit,
         memory_limit=config.memory_bytes,
-        progress=TerminalProgress(),
+        progress=_progress(options, config),
     )
     if options.json:
         _say(*json_text(dataclasses.asdict(result), indent=1).splitlines())
@@ -447,6 +558,21 @@ def _plugins(options: argparse.Namespace) -> int:
     except PluginError as error:
         _complain("", *error.lines)
         return 1
+    return 0
+
+
+def _completion(options: argparse.Namespace) -> int:
+    import shtab
+
+    parser = _parser()
+    parsers = [parser]
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            parsers += action.choices.values()
+    for action in (action for one in parsers for action in one._actions):
+        if action.type is Path or action.metavar in ("FILE", "FOLDER"):
+            action.complete = shtab.FILE  # type: ignore[attr-defined]
+    _say(*shtab.complete(parser, shell=options.shell).splitlines())
     return 0
 
 
@@ -626,11 +752,28 @@ class _Patient:
 
 
 class TerminalProgress:
-    """A bar with the time left on a terminal; on anything else a line every half a minute."""
+    """A bar with the time left on a terminal; on anything else a line every half a minute.
+
+    Parameters
+    ----------
+    verbose : bool
+        Whether it is told how long every stage took.
+    """
+
+    def __init__(self, *, verbose: bool = False) -> None:
+        self._verbose = verbose
 
     @contextmanager
     def stage(self, doing: str, total: int) -> Iterator[Callable[[], None]]:
         """See :class:`shapeviz_report.building.progress.Progress`."""
+        begun = time.monotonic()
+        with self._told(doing, total) as advance:
+            yield advance
+        if self._verbose:
+            _complain(f"{doing}: {time.monotonic() - begun:.1f} s")
+
+    @contextmanager
+    def _told(self, doing: str, total: int) -> Iterator[Callable[[], None]]:
         if total == 0:
             _complain(doing)
             yield lambda: None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 import tarfile
@@ -12,6 +13,9 @@ from importlib import metadata
 from pathlib import Path
 
 import pytest
+import trove_classifiers
+import yaml
+from packaging.metadata import Metadata
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -74,6 +78,35 @@ def test_the_wheel_carries_its_licence_and_its_command(wheel: Path):
         names = {name.partition(".dist-info/")[2]: name for name in archive.namelist()}
         assert archive.read(names["licenses/LICENSE"]) == (ROOT / "LICENSE").read_bytes()
         assert b"shapeviz-report = shapeviz_report.cli:main" in archive.read(names["entry_points.txt"])
+
+
+def test_the_wheel_tells_that_it_has_types(wheel: Path):
+    assert "shapeviz_report/py.typed" in names_in(wheel)
+
+
+def test_the_index_takes_what_the_wheel_says_of_itself(wheel: Path):
+    with zipfile.ZipFile(wheel) as archive:
+        (name,) = (name for name in archive.namelist() if name.endswith(".dist-info/METADATA"))
+        found = Metadata.from_email(archive.read(name), validate=True)
+    assert found.description_content_type == "text/markdown"
+    assert found.license_expression == "MIT"
+    assert set(found.classifiers or ()) <= trove_classifiers.classifiers
+
+
+def test_the_citation_is_of_this_version():
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert citation["version"] == PROJECT["version"]
+    assert citation["title"] == PROJECT["name"]
+    assert citation["license"] == PROJECT["license"]
+    assert citation["keywords"] == PROJECT["keywords"]
+
+
+def test_the_image_installs_what_the_project_needs():
+    text = (ROOT / "Dockerfile").read_text(encoding="utf-8")
+    (python,) = re.findall(r"^FROM python:(3\.\d+)-", text, re.MULTILINE)
+    assert f"Programming Language :: Python :: {python}" in PROJECT["classifiers"]
+    (library,) = re.findall(r"apt_install,(lib\w+)", (ROOT / "Makefile").read_text(encoding="utf-8"))
+    assert f"--no-install-recommends {library} " in text
 
 
 def test_an_unpacked_wheel_finds_its_own_files(wheel: Path, tmp_path: Path):

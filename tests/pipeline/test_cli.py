@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -212,3 +215,40 @@ def test_a_mesh_outside_the_database_is_read_only_when_asked(tmp_path, capsys) -
 def _folder(path: Path) -> Path:
     path.mkdir(parents=True, exist_ok=True)
     return path
+
+
+def test_a_check_for_programs(database, cache, tmp_path) -> None:
+    shutil.copytree(database, tmp_path / "shapes")
+    (tmp_path / "shapes" / "box" / "9.off").touch()
+    done = run("check", tmp_path / "shapes", "--json", "--cache", cache, "--jobs", 1)
+    assert done.returncode == 1
+    found = json.loads(done.stdout)
+    assert (found["database"], found["layout"]) == ("shapes", "class-folders")
+    assert found["labelings"] == {"class": {"ball": 5, "box": 6, "ring": 5}}
+    assert found["failures"] == [{"file": "box/9.off", "reason": "the file is empty"}]
+    usable = {shape["id"]: shape["usable"] for shape in found["shapes"]}
+    assert len(usable) == 16
+    assert not usable["box/9"]
+    assert found["shapes"][0] == {
+        "id": "ball/0",
+        "name": "ball 0",
+        "file": "ball/0.off",
+        "labels": {"class": "ball"},
+        "metadata": {},
+        "usable": True,
+        "repairs": {},
+    }
+
+
+def test_how_much_is_said(database, cache, tmp_path) -> None:
+    quiet = run("check", database, "--quiet", "--cache", cache, "--jobs", 1)
+    assert (quiet.returncode, quiet.stdout, quiet.stderr) == (0, "", "")
+    loud = run("check", database, "--verbose", "--cache", cache, "--jobs", 1)
+    assert loud.returncode == 0
+    for said in ("jobs = 1\n", f"results are kept in {cache}\n", "computed by 1 process of this machine\n"):
+        assert said in loud.stderr
+    assert re.search(r"^Checking meshes: \d+\.\d s$", loud.stderr, re.MULTILINE)
+    (tmp_path / "empty").mkdir()
+    quiet = run("check", tmp_path / "empty", "--quiet")
+    assert quiet.returncode == 1
+    assert "No shapes were found" in quiet.stderr

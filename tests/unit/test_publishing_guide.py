@@ -14,6 +14,7 @@ from shapeviz_report.config import load_config
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "using"
 GUIDE = (DOCS / "publishing.md").read_text(encoding="utf-8")
 RECIPE = (DOCS / "publish.yml").read_text(encoding="utf-8")
+ACTION = yaml.safe_load((DOCS / "action.yml").read_text(encoding="utf-8"))
 COMMANDS = sorted(
     set(re.findall(r"(?:run: |- |^)(shapeviz-report (?:build|check) .+)$", GUIDE + RECIPE, re.MULTILINE))
 )
@@ -49,3 +50,19 @@ def test_the_recipe_builds_before_it_publishes_and_keeps_what_was_computed():
     (upload,) = [step for step in jobs["build"]["steps"] if "upload" in step.get("uses", "")]
     assert f"--cache {kept}" in builds[0]
     assert f"-o {upload['with']['path']}/" in builds[0]
+
+
+def test_the_action_checks_and_builds_what_it_is_given():
+    steps = ACTION["runs"]["steps"]
+    commands = [step["run"] for step in steps if step.get("run", "").startswith("shapeviz-report")]
+    assert [command.split()[1] for command in commands] == ["check", "build"]
+    for command in commands:
+        options = _parser().parse_args(shlex.split(command.replace(" $OPTIONS", ""))[1:])
+        assert options.cache == ".shapeviz-cache"
+    for step in steps:
+        assert "shell" in step or "uses" in step
+        # what a workflow is given stands in the environment, where a shell runs none of it
+        assert "${{" not in step.get("run", "")
+    named = set(re.findall(r"inputs\.([\w-]+)", (DOCS / "action.yml").read_text(encoding="utf-8")))
+    assert named == set(ACTION["inputs"])
+    assert ACTION["inputs"]["source"]["default"] == "shapeviz-report"
