@@ -94,7 +94,8 @@ class Config:
     )
     external: tuple[Path, ...] = _option(
         (),
-        "further features from FILE.npy, one row a shape in the order of `check --list`; may be repeated",
+        "further features: FILE.npy with one row a shape in the order of `check --list`, or FILE.npz or FILE.csv with "
+        "the ids that it prints; may be repeated",
         "FILE",
     )
     bins: Path | None = _option(

@@ -1,12 +1,9 @@
-"""From values at vertices to one row of features a shape (paper, 3.4); and features that are brought along."""
+"""From values at vertices to one row of features a shape (paper, 3.4)."""
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 from functools import cache
-from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 import numpy.typing as npt
@@ -14,15 +11,7 @@ import numpy.typing as npt
 from shapeviz_report.descriptors import Descriptor, Surface
 from shapeviz_report.descriptors.kernels.histograms import add_up
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
-from shapeviz_report.errors import ConfigError
-from shapeviz_report.files import read_regular
 from shapeviz_report.types import FeatureBlock, FloatArray, Mesh
-
-MOST_EXTERNAL_BYTES = 256 * 1024**2
-"""Size of the largest file of a user's own feature."""
-
-MOST_EXTERNAL_COLUMNS = 2000
-"""Columns of a user's own feature, each of which is scored and shown: as many as all of the descriptors have."""
 
 BINS = 10
 """Bins a dimension (paper, 3.4)."""
@@ -205,36 +194,4 @@ def measure(mesh: Mesh, dimensions: Sequence[int]) -> npt.NDArray[np.float32]:
         if own:
             values[own] = descriptor.compute(surface)[:, [dimensions[place] - start for place in own]].T
         start = end
-    return values
-
-
-def load_external(path: Path, shape_count: int) -> FloatArray:
-    """A user's own feature: (n, d) float64 values, one row a shape.
-
-    Raises
-    ------
-    ConfigError
-        The file is not a .npy array of that many rows of finite numbers.
-    """
-    try:
-        values = np.load(io.BytesIO(read_regular(path, MOST_EXTERNAL_BYTES)), allow_pickle=False)
-    except OSError as error:
-        raise ConfigError(f"the feature file {path} cannot be read: {error.strerror}") from error
-    except (ValueError, TypeError, OverflowError, MemoryError, EOFError, BadZipFile) as error:
-        raise ConfigError(f"the feature file {path} cannot be read: {error}") from error
-    if not isinstance(values, np.ndarray) or values.ndim not in (1, 2) or values.dtype.kind not in "fiub":
-        raise ConfigError(f"the feature file {path} must hold one array of numbers with one row a shape")
-    if len(values) != shape_count:
-        raise ConfigError(
-            f"the feature file {path} has {len(values)} rows, but the database has {shape_count} shapes; "
-            "`shapeviz-report check DATABASE --list` prints them in the order of the rows"
-        )
-    values = values.reshape(len(values), -1).astype(np.float64)
-    if values.shape[1] > MOST_EXTERNAL_COLUMNS:
-        raise ConfigError(
-            f"the feature file {path} has {values.shape[1]:,} columns, more than {MOST_EXTERNAL_COLUMNS:,}; keep those "
-            "that tell most"
-        )
-    if values.shape[1] == 0 or not np.isfinite(values).all():
-        raise ConfigError(f"the feature file {path} must hold finite numbers only")
     return values

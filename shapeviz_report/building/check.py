@@ -52,7 +52,7 @@ def check_database(database_path: Path, config: Config, progress: Progress | Non
     clock = Clock(progress or QuietProgress())
     with clock.stage("read", "Reading the database"):
         database = read_published(database_path, config, read_publication(config))
-        external = load_all_external(config.external, len(database.shapes))
+        external = load_all_external(config.external, database)
         if config.bins is not None:
             read_bins(config.bins, (*PRESETS[config.preset].blocks, *(block for block, _ in external)))
     failures = list(database.failures)

@@ -142,7 +142,7 @@ def describe_database(path: Path, config: Config, progress: Progress | None = No
     clock = Clock(progress)
     with clock.stage("read", "Reading the database"):
         database = read_published(path, config, read_publication(config))
-        external = load_all_external(config.external, len(database.shapes))
+        external = load_all_external(config.external, database)
     preset, failures = PRESETS[config.preset], list(database.failures)
     within = None if config.outside else database.root
     meshes = {s.id: partial(collect_files, s.path.absolute(), within) for s in database.shapes}

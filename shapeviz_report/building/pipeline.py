@@ -107,7 +107,7 @@ def build_report(
         publication = read_publication(config)
         database = read_published(database_path, config, publication)
         check_meshes(destination, database)
-        external = load_all_external(config.external, len(database.shapes))
+        external = load_all_external(config.external, database)
         preset = PRESETS[config.preset]
         blocks = (*preset.blocks, *(block for block, _ in external))
         bins = None if config.bins is None else read_bins(config.bins, blocks)

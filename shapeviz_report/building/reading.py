@@ -11,7 +11,8 @@ from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.config import Config
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.features import BLOCKS, load_external
+from shapeviz_report.external import load_external
+from shapeviz_report.features import BLOCKS
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.presets import GLOBAL_BLOCKS
 from shapeviz_report.publication import licence_warning
@@ -27,16 +28,17 @@ def read_published(path: Path, config: Config, publication: Publication) -> Data
     return database if warning is None else replace(database, warnings=(*database.warnings, warning))
 
 
-def load_all_external(paths: Sequence[Path], shape_count: int) -> list[tuple[FeatureBlock, FloatArray]]:
+def load_all_external(paths: Sequence[Path], database: Database) -> list[tuple[FeatureBlock, FloatArray]]:
     """Features from files of the owner's own, each a block of its name. Raises ``ConfigError``."""
     taken = {block.name for block in (*BLOCKS, *GLOBAL_BLOCKS)}
+    ids = [shape.id for shape in database.shapes]
     result = []
     for path in paths:
         name = path.stem
         if name in taken:
             raise ConfigError(f"there is already a feature named {name!r}; rename the file {path}")
         taken.add(name)
-        values = load_external(path, shape_count)
+        values = load_external(path, ids)
         result.append((FeatureBlock(name, values.shape[1], 1), values))
     return result
 

@@ -21,7 +21,8 @@ from shapeviz_report.config import Config, load_config
 from shapeviz_report.database import read_database
 from shapeviz_report.database.folder import MOST_WAYS
 from shapeviz_report.errors import ConfigError, DatabaseError, MeshError
-from shapeviz_report.features import BLOCKS, MOST_EXTERNAL_COLUMNS, load_external
+from shapeviz_report.external import MOST_EXTERNAL_COLUMNS, load_external
+from shapeviz_report.features import BLOCKS
 from shapeviz_report.mesh.read import collect_files, parse_mesh
 from shapeviz_report.mesh.readers.limits import MOST_CORNERS, MOST_JSON_BYTES
 from shapeviz_report.mesh.readers.polygons import PolygonMesh, triangulate
@@ -296,7 +297,7 @@ def npy(shape: str, kind: str = "'<f8'", data: bytes = bytes(24)) -> bytes:
 )
 def test_a_feature_file_that_is_none(tmp_path, content) -> None:
     (tmp_path / "own.npy").write_bytes(content)
-    assert "own.npy" in refused(load_external, tmp_path / "own.npy", 3)
+    assert "own.npy" in refused(load_external, tmp_path / "own.npy", ["a", "b", "c"])
 
 
 @pytest.mark.parametrize(

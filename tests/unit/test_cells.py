@@ -15,7 +15,7 @@ from shapeviz_report.bins import read_bins
 from shapeviz_report.cells import read_cell, write_cell
 from shapeviz_report.database import read_database
 from shapeviz_report.errors import ConfigError, DatabaseError
-from shapeviz_report.features import load_external
+from shapeviz_report.external import load_external
 from shapeviz_report.types import FeatureBlock
 from shapeviz_report.writing.data import data_files, read_site
 from shapeviz_report.writing.data.encoding import csv_text
@@ -59,7 +59,7 @@ def test_a_pipe_is_refused_wherever_a_file_is_read(tmp_path) -> None:
     with pytest.raises(ConfigError, match=said):
         read_bins(tmp_path / "bins.txt", ())
     with pytest.raises(ConfigError, match=said):
-        load_external(tmp_path / "values.npy", 1)
+        load_external(tmp_path / "values.npy", ["a"])
     for name in ("table.csv", "all.cla"):
         with pytest.raises(DatabaseError):
             read_database(tmp_path / name)

@@ -8,7 +8,6 @@ import trimesh
 from solids import ball, from_trimesh, lump, sheet, tube
 
 from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
-from shapeviz_report.errors import ConfigError
 from shapeviz_report.features import (
     BINS,
     BLOCKS,
@@ -17,7 +16,6 @@ from shapeviz_report.features import (
     describe,
     find_bins,
     fixed_edges,
-    load_external,
     measure,
     quantile_edges,
     sample_values,
@@ -187,32 +185,3 @@ def test_a_feature_without_differences_has_no_say() -> None:
         ("a", "b"), (FeatureBlock("x", 1, 1), FeatureBlock("y", 1, 1)), np.array([[5.0, 1], [5, 2]])
     )
     assert scale(features, PRESETS["default"]).tolist() == [[0, -1], [0, 1]]
-
-
-def test_external_features(tmp_path) -> None:
-    np.save(tmp_path / "depth.npy", np.arange(6, dtype=np.int16).reshape(3, 2))
-    assert load_external(tmp_path / "depth.npy", 3).tolist() == [[0, 1], [2, 3], [4, 5]]
-    np.save(tmp_path / "flat.npy", np.arange(3.0))
-    assert load_external(tmp_path / "flat.npy", 3).shape == (3, 1)
-
-
-@pytest.mark.parametrize(
-    ("content", "reason"),
-    [
-        (np.zeros((4, 2)), "4 rows, but the database has 3"),
-        (np.array([1.0, np.nan, 2]), "finite"),
-        (np.array(["a", "b", "c"]), "numbers"),
-        (np.array([{}, [], 0], dtype=object), "cannot be read"),
-        (np.zeros((3, 2, 2)), "one array"),
-        (np.zeros((3, 0)), "finite"),
-    ],
-)
-def test_external_features_that_do_not_fit(tmp_path, content, reason) -> None:
-    np.save(tmp_path / "x.npy", content, allow_pickle=True)
-    with pytest.raises(ConfigError, match=reason):
-        load_external(tmp_path / "x.npy", 3)
-
-
-def test_external_file_that_is_not_there(tmp_path) -> None:
-    with pytest.raises(ConfigError, match=r"x\.npy cannot be read"):
-        load_external(tmp_path / "x.npy", 3)

@@ -1,0 +1,110 @@
+"""Features that are brought along: by the order of the shapes, or by their ids."""
+
+from __future__ import annotations
+
+import csv
+import io
+import zipfile
+
+import numpy as np
+import pytest
+
+from shapeviz_report import external
+from shapeviz_report.errors import ConfigError
+from shapeviz_report.external import load_external
+
+IDS = ["ant/1", "ant/2", "cup/1"]
+
+
+def test_in_the_order_of_the_shapes(tmp_path) -> None:
+    np.save(tmp_path / "depth.npy", np.arange(6, dtype=np.int16).reshape(3, 2))
+    assert load_external(tmp_path / "depth.npy", IDS).tolist() == [[0, 1], [2, 3], [4, 5]]
+    np.save(tmp_path / "flat.npy", np.arange(3.0))
+    assert load_external(tmp_path / "flat.npy", IDS).shape == (3, 1)
+
+
+def test_by_ids_in_any_order_and_of_more_shapes(tmp_path) -> None:
+    rows = {"cup/1": [5, 6], "zebra": [7, 8], "ant/2": [3, 4], "ant/1": [1, 2]}
+    np.savez(tmp_path / "own.npz", shape_ids=list(rows), values=list(rows.values()))
+    with (tmp_path / "own.csv").open("w", newline="") as file:
+        table = csv.writer(file)
+        table.writerow(["class", "width", "id", "height", "metadata:year"])
+        table.writerows([["a", *row[:1], shape, *row[1:], "?"] for shape, row in rows.items()])
+    for name in ("own.npz", "own.csv"):
+        assert load_external(tmp_path / name, IDS).tolist() == [[1, 2], [3, 4], [5, 6]]
+
+
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [
+        (np.zeros((4, 2)), "4 rows, but the database has 3"),
+        (np.array([1.0, np.nan, 2]), "finite"),
+        (np.array(["a", "b", "c"]), "numbers"),
+        (np.array([{}, [], 0], dtype=object), "cannot be read"),
+        (np.zeros((3, 2, 2)), "one array"),
+        (np.zeros((3, 0)), "finite"),
+    ],
+)
+def test_arrays_that_do_not_fit(tmp_path, content, reason) -> None:
+    np.save(tmp_path / "x.npy", content, allow_pickle=True)
+    with pytest.raises(ConfigError, match=reason):
+        load_external(tmp_path / "x.npy", IDS)
+
+
+@pytest.mark.parametrize(
+    ("arrays", "reason"),
+    [
+        ({"values": np.zeros((3, 2))}, "it has no array 'shape_ids'"),
+        ({"shape_ids": IDS}, "it has no array 'values'"),
+        ({"shape_ids": IDS, "values": np.zeros((2, 2))}, "has 2 rows, but 3 ids of shapes"),
+        ({"shape_ids": IDS[:2], "values": np.zeros((2, 2))}, "no row for 1 of the 3 shapes.*such as 'cup/1'"),
+        ({"shape_ids": [*IDS, "ant/1"], "values": np.zeros(4)}, "two rows for the shape 'ant/1'"),
+        ({"shape_ids": IDS, "values": [np.inf] * 3}, "finite"),
+        ({"shape_ids": IDS, "values": np.array([1.0, "a", {}], object)}, "cannot be read"),
+    ],
+)
+def test_archives_that_do_not_fit(tmp_path, arrays, reason) -> None:
+    np.savez(tmp_path / "x.npz", **arrays)
+    with pytest.raises(ConfigError, match=reason):
+        load_external(tmp_path / "x.npz", IDS)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", "cannot be read"),
+        ("name,width\nant/1,1\n", "it has no column 'id'"),
+        ("id,width\nant/1,wide\n", "could not convert string to float"),
+        ("id,width\nant/1,1\nant/2,2,3\n", "row 3 has 3 cells, and the head 2"),
+        ("id,width\nant/1,1\nant/2,2\n", "no row for 1 of the 3 shapes"),
+        ("id,width\nant/1,nan\nant/2,2\ncup/1,1\n", "finite numbers only"),
+        ("id,class\nant/1,ant\nant/2,ant\ncup/1,cup\n", "finite numbers only"),
+        ('id,width\nant/1,"1', "cannot be read"),
+    ],
+)
+def test_tables_that_do_not_fit(tmp_path, text, reason) -> None:
+    (tmp_path / "x.csv").write_text(text)
+    with pytest.raises(ConfigError, match=reason):
+        load_external(tmp_path / "x.csv", IDS)
+
+
+def test_files_that_are_none(tmp_path) -> None:
+    for name, reason in (
+        ("x.npy", r"x\.npy cannot be read"),
+        ("x.txt", r"must end in \.npy, \.npz or \.csv"),
+    ):
+        with pytest.raises(ConfigError, match=reason):
+            load_external(tmp_path / name, IDS)
+    (tmp_path / "x.npz").write_bytes(b"PK\x03\x04")
+    with pytest.raises(ConfigError, match="cannot be read"):
+        load_external(tmp_path / "x.npz", IDS)
+
+
+def test_an_archive_that_unpacks_to_too_much(tmp_path, monkeypatch) -> None:
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("values.npy", bytes(2_000_000))
+    (tmp_path / "x.npz").write_bytes(packed.getvalue())
+    monkeypatch.setattr(external, "MOST_EXTERNAL_BYTES", 2**20)
+    with pytest.raises(ConfigError, match="it holds more than 1 MiB"):
+        load_external(tmp_path / "x.npz", IDS)
