@@ -85,7 +85,9 @@ def data_files(report: Report, version: str) -> Iterator[tuple[str, bytes]]:
 
 def _type_of_features(report: Report) -> type[np.floating]:
     """Three digits are enough of very many shapes, unless a feature that was brought along is too large for them."""
-    half = not is_in_full(report) and float(np.abs(report.features.values).max()) < np.finfo(np.float16).max
+    half = not is_in_full(report) and float(np.abs(report.features.values).max()) < float(
+        np.finfo(np.float16).max
+    )
     return np.float16 if half else np.float64
 
 
