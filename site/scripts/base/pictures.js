@@ -102,11 +102,14 @@ export function shownPicture(picture) {
  * Where pictures stand among all: those of a class beside each other, as galleries have them, in the order of the shapes.
  * @param {Int32Array} groups
  */
-function placesByClass(groups) {
-  const order = Uint32Array.from(groups.keys()).sort((a, b) => groups[a] - groups[b] || a - b);
-  const places = new Uint32Array(order.length);
-  for (const [place, index] of order.entries()) places[index] = place;
-  return places;
+export function placesByClass(groups) {
+  const next = new Uint32Array(groups.reduce((most, group) => Math.max(most, group), 0) + 2);
+  for (const group of groups) if (group + 2 < next.length) next[group + 2] += 1;
+  for (let place = 1; place < next.length; place += 1) next[place] += next[place - 1];
+  return Uint32Array.from(groups, (group) => {
+    next[group + 1] += 1;
+    return next[group + 1] - 1;
+  });
 }
 
 /**
