@@ -106,6 +106,22 @@ class Method(TypedDict):
     faith: Faith | None
 
 
+class SheetsOfMap(TypedDict):
+    """Shapes in the order of their pictures on the ``sheets``; each grid shows the first ``ends`` of them."""
+
+    rows: npt.NDArray[np.int32]
+    ends: list[int]
+    sheets: list[str]
+
+
+class Sheets(TypedDict):
+    """Small pictures for maps of very many shapes: grids by their cells on a side; ``across`` pictures on a sheet's."""
+
+    grids: list[int]
+    across: int
+    maps: dict[str, SheetsOfMap]
+
+
 class BestMap(Method):
     """The map of the best subset; its key names the features."""
 
@@ -788,6 +804,8 @@ class Chunks(TypedDict, total=False):
     ----------
     trust : dict of str to Trust
         Of each map of the chunk "overview", by its key.
+    sheets : Sheets
+        Empty where every shape has a picture of its own.
     best : BestMap
         Where the search laid out a sample.
     texts : list of str
@@ -806,6 +824,7 @@ class Chunks(TypedDict, total=False):
 
     overview: Overview
     trust: dict[str, Trust]
+    sheets: Sheets
     best: BestMap
     texts: list[str]
     clusters: Clusters | None

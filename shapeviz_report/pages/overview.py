@@ -28,11 +28,13 @@ from shapeviz_report.pages.chunks import (
     PicturePart,
     ShapeDetails,
     ShapeList,
+    Sheets,
     SubsetChoice,
     Trust,
 )
 from shapeviz_report.pages.chunks import Shepard as ShepardChunk
 from shapeviz_report.pages.fields import color_choices
+from shapeviz_report.pages.map_pictures import ACROSS, GRIDS, map_pictures, sheet_name
 from shapeviz_report.pages.separation import separation_chunk
 from shapeviz_report.render import ramp_codes
 from shapeviz_report.types import (
@@ -108,6 +110,7 @@ class OverviewPage:
             },
             "trust": {key: _trust(report.faithfulness.get(key)) for key in report.projections},
             "texts": [_text(report, row) for row in range(len(report.shapes))],
+            "sheets": _sheets(report),
             "clusters": clusters_chunk(report),
         }
         if report.best is not None:
@@ -205,6 +208,22 @@ def _trust(found: Faithfulness | None) -> Trust:
     if found is None or found.false is None or found.missing is None:
         return {"false": None, "missing": None}
     return {"false": share_steps(found.false), "missing": share_steps(found.missing)}
+
+
+def _sheets(report: Report) -> Sheets:
+    names = [thumbnail_name(thumbnail) for thumbnail in report.thumbnails]
+    return {
+        "grids": list(GRIDS),
+        "across": ACROSS,
+        "maps": {
+            key: {
+                "rows": pictures.rows.astype(np.int32),
+                "ends": list(pictures.ends),
+                "sheets": [sheet_name(rows, names) for rows in pictures.sheets()],
+            }
+            for key, pictures in map_pictures(report).items()
+        },
+    }
 
 
 def _shepard(found: Shepard) -> ShepardChunk:

@@ -37,6 +37,7 @@ from shapeviz_report.writing.rendering import (
     render_pages,
 )
 from shapeviz_report.writing.resources import site_folder
+from shapeviz_report.writing.sheets import write_sheets
 from shapeviz_report.writing.single_file import (
     Inline,
     base64_text,
@@ -122,6 +123,7 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
     for name, asset in assets.items():
         yield f"assets/{name}", asset
     yield from _thumbnails(report)
+    yield from write_sheets(report)
     yield from _paintings(report)
     yield "preview.png", preview.draw_preview(report)
     yield from _data(report)

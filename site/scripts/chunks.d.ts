@@ -54,6 +54,18 @@ declare namespace Chunk {
     chanceSpread: number | null;
     faith: Faith | null;
   }
+  /** Shapes in the order of their pictures on the `sheets`; each grid shows the first `ends` of them. */
+  interface SheetsOfMap {
+    rows: Int32Array;
+    ends: number[];
+    sheets: string[];
+  }
+  /** Small pictures for maps of very many shapes: grids by their cells on a side; `across` pictures on a sheet's. */
+  interface Sheets {
+    grids: number[];
+    across: number;
+    maps: Record<string, SheetsOfMap>;
+  }
   /** The map of the best subset; its key names the features. */
   interface BestMap {
     key: string;
@@ -530,6 +542,7 @@ declare namespace Chunk {
   interface Chunks {
     overview: Overview;
     trust: Record<string, Trust>;
+    sheets: Sheets;
     best: BestMap;
     texts: string[];
     clusters: Clusters | null;

@@ -4,6 +4,7 @@ import { chunk, part } from "../base/chunks.js";
 import { picturesOf } from "../base/pictures.js";
 import { reachOf } from "./hit-range.js";
 import { sharesOf } from "./shares.js";
+import { Sheets } from "./sheets.js";
 
 /** @import { Theme } from "../base/theme.js" */
 /** @import { Choice } from "./similarity.js" */
@@ -60,6 +61,14 @@ export class Database {
     for (const group of this.groups) this.sizes.set(group, (this.sizes.get(group) ?? 0) + 1);
     this.bounds = this.methods.map(bounds);
     this.revision = 0;
+    /** @type {Sheets | null} small pictures for maps, where there are very many shapes and they were fetched */
+    this.sheets = null;
+  }
+
+  /** Fetch the small pictures for maps, if there are any. */
+  async fetchSheets() {
+    const sheets = await chunk("sheets");
+    if (Object.keys(sheets.maps).length > 0) this.sheets ??= new Sheets(sheets, this.count);
   }
 
   /**

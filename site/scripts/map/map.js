@@ -43,6 +43,8 @@ const TIGHTEST = 28;
 const LARGEST_BESIDE = 60;
 /** The largest when zoomed in. */
 const CLOSEST = 200;
+/** The largest of those on sheets, which are small. */
+const CLOSEST_ON_SHEETS = 96;
 /** Where pictures stand at their exact places, they may cover each other by half. */
 const EXACT_APART = 0.5;
 /** So far from its edges a map shows what was out of view. */
@@ -137,6 +139,7 @@ export class MapView {
   /** Draw the map with the colours of the theme in use; called again when the theme changes. */
   async start() {
     this.theme = currentTheme();
+    if (crowded(this.database)) await this.database.fetchSheets();
     if (this.#onChart) await this.#startChart();
     this.started = true;
     this.settle();
@@ -268,7 +271,8 @@ export class MapView {
   }
 
   get pictureSize() {
-    return Math.min(this.#wholeSize * this.scene.camera().zoom ** 0.6, Math.max(CLOSEST, this.#wholeSize));
+    const closest = this.database.sheets ? CLOSEST_ON_SHEETS : CLOSEST;
+    return Math.min(this.#wholeSize * this.scene.camera().zoom ** 0.6, Math.max(closest, this.#wholeSize));
   }
 
   /** Size of a picture when the whole map is shown; from one map to another it changes as shapes go their way. */
@@ -526,7 +530,10 @@ export class MapView {
       // Every group has a picture before any has two.
       const middles = this.#middles();
       const first = [...middles].filter(near);
-      const rows = [...first, ...this.#scattered().filter((index) => near(index) && !middles.has(index))];
+      const rows = [
+        ...first,
+        ...this.#drawable(size / 2 / scale).filter((index) => near(index) && !middles.has(index)),
+      ];
       const places = [rows.map((index) => x[index] * scale), rows.map((index) => -y[index] * scale)];
       const naming = this.#naming;
       // Beside another map a shape is where it is on that one.
@@ -628,6 +635,15 @@ export class MapView {
   /** @type {AbortController | null} */
   #gliding = null;
 
+  /**
+   * The shapes whose pictures the map may show, in the order in which they come to one.
+   * @param {number} cell of so many units of the plane one is enough
+   */
+  #drawable(cell) {
+    const { sheets, methods } = this.database;
+    return sheets ? [...sheets.shapes(methods[this.scene.target].key, cell)] : this.#scattered();
+  }
+
   /** All shapes in an order that favours no class and is always the same, so that pictures stay when others come. */
   #scattered() {
     this.order ??= this.database.ids.map((_, index) => index).sort((a, b) => scatter(a) - scatter(b) || a - b);
@@ -656,7 +672,7 @@ export class MapView {
       const [left, top] = [bounds.x - width / scale / 2, bounds.y - height / scale / 2];
       /** @type {Mark[]} */
       const marks = [];
-      for (let index = 0; index < database.count; index += 1) {
+      for (const index of database.sheets?.shapes(database.methods[scene.target].key) ?? database.ids.keys()) {
         const group = naming.groupOf(index);
         const mark = { index, group, x: (x[index] - left) * scale, y: (y[index] - top) * scale };
         if (group >= 0 && (!crowded(database) || thinning.takes(mark.x, mark.y, group))) marks.push(mark);

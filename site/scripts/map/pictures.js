@@ -5,6 +5,7 @@ import { element } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 import { CHOSEN, FAINT } from "./scene.js";
 
+/** @import { Cut } from "../database/sheets.js" */
 /** @import { MapView } from "./map.js" */
 
 export class Pictures {
@@ -47,8 +48,24 @@ export class Pictures {
 
   /** @param {number} index */
   #picture(index) {
+    const { database, scene } = this.view;
+    const { sheets } = database;
+    if (sheets)
+      return element("div", { class: "pictured" }, cutOut(sheets.cut(database.methods[scene.target].key, index), sheets.across));
     const image = element("img", { alt: "", decoding: "async", draggable: "false" });
-    this.view.database.pictures.show(image, index);
+    database.pictures.show(image, index);
     return element("div", { class: "pictured" }, image);
   }
+}
+
+/**
+ * A picture of a sheet.
+ * @param {Cut} cut
+ * @param {number} across pictures on a side of the sheet
+ */
+function cutOut({ address, column, line }, across) {
+  const node = element("i");
+  const [x, y] = [column, line].map((place) => (100 * place) / (across - 1));
+  node.style.background = `url("${address}") ${x}% ${y}% / ${100 * across}%`;
+  return node;
 }
