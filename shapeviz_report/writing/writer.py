@@ -164,7 +164,9 @@ def whole_site(report: Report) -> bytes:
         ],
         files=[
             (path, media_type(path), base64_text(content))
-            for path, content in chain(assets.items(), _thumbnails(report), _paintings(report), data.items())
+            for path, content in chain(
+                assets.items(), _thumbnails(report), write_sheets(report), _paintings(report), data.items()
+            )
         ],
     )
     return encode(text)

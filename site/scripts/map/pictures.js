@@ -5,7 +5,7 @@ import { element } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 import { CHOSEN, FAINT } from "./scene.js";
 
-/** @import { Cut } from "../database/sheets.js" */
+/** @import { Sheets } from "../database/sheets.js" */
 /** @import { MapView } from "./map.js" */
 
 export class Pictures {
@@ -48,24 +48,29 @@ export class Pictures {
 
   /** @param {number} index */
   #picture(index) {
+    return element("div", { class: "pictured", "data-shape": index }, this.#image(index));
+  }
+
+  /** @param {number} index */
+  #image(index) {
     const { database, scene } = this.view;
-    const { sheets } = database;
-    if (sheets)
-      return element("div", { class: "pictured" }, cutOut(sheets.cut(database.methods[scene.target].key, index), sheets.across));
+    if (database.sheets) return cutOut(database.sheets, database.methods[scene.target].key, index);
     const image = element("img", { alt: "", decoding: "async", draggable: "false" });
     database.pictures.show(image, index);
-    return element("div", { class: "pictured" }, image);
+    return image;
   }
 }
 
 /**
  * A picture of a sheet.
- * @param {Cut} cut
- * @param {number} across pictures on a side of the sheet
+ * @param {Sheets} sheets
+ * @param {string} key of the map
+ * @param {number} index
  */
-function cutOut({ address, column, line }, across) {
+function cutOut(sheets, key, index) {
+  const { address, column, line } = sheets.cut(key, index);
+  const [x, y] = [column, line].map((place) => (100 * place) / (sheets.across - 1));
   const node = element("i");
-  const [x, y] = [column, line].map((place) => (100 * place) / (across - 1));
-  node.style.background = `url("${address}") ${x}% ${y}% / ${100 * across}%`;
+  node.style.background = `url("${address}") ${x}% ${y}% / ${100 * sheets.across}%`;
   return node;
 }
