@@ -9,5 +9,10 @@ const NONE = 65535;
  * @returns {(number | null)[]}
  */
 export function sharesOf(steps) {
-  return Array.from(steps, (step) => (step === NONE ? null : step / STEPS));
+  /** @type {(number | null)[]} */
+  const shares = new Array(steps.length);
+  // A loop: `Array.from` with a function takes ten times as long.
+  for (let index = 0; index < steps.length; index += 1)
+    shares[index] = steps[index] === NONE ? null : steps[index] / STEPS;
+  return shares;
 }

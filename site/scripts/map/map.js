@@ -50,7 +50,7 @@ const EXACT_APART = 0.5;
 /** So far from its edges a map shows what was out of view. */
 const INWARD = 0.2;
 /** So many pixels of a map hold a mark of each class at the most for what is found out about many. */
-const THINNED = 3;
+const THINNED = 5;
 /** On a smaller map there is no room for names. */
 const NAMED_WIDTH = 280;
 
