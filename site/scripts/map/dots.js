@@ -48,6 +48,23 @@ export class Dots {
   }
 
   draw() {
+    const { levels, layers } = this.#layers();
+    if (this.#marks instanceof Points) this.#drawPoints(this.#marks, levels, layers);
+    else this.#drawMarks(this.#marks, levels, layers);
+    this.pictures.draw();
+    this.#show(true);
+  }
+
+  /** The marks as an image, which is drawn without WebGL: what that has drawn cannot be read later. */
+  image() {
+    const { levels, layers } = this.#layers();
+    const marks = new Marks({});
+    this.#drawMarks(marks, levels, layers);
+    return marks.node.toDataURL();
+  }
+
+  /** How present each shape is that has a mark, and what is drawn of as present ones, from below. */
+  #layers() {
     const { view } = this;
     const radius = view.markRadius * (view.name === "thumbnail" ? AMONG_PICTURES : 1);
     const levels = view.scene.emphasis.map((level, index) => (view.pictured[index] ? HIDDEN : level));
@@ -56,10 +73,7 @@ export class Dots {
       radius: radius * (level === CHOSEN ? STANDING_OUT : 1),
       faint: level === FAINT,
     }));
-    if (this.#marks instanceof Points) this.#drawPoints(this.#marks, levels, layers);
-    else this.#drawMarks(this.#marks, levels, layers);
-    this.pictures.draw();
-    this.#show(true);
+    return { levels, layers };
   }
 
   /**

@@ -14,6 +14,9 @@ import { CHOSEN, FAINT, NORMAL } from "./scene.js";
 /** @type {Emphasis[]} */
 const LEVELS = [FAINT, NORMAL, CHOSEN];
 
+/** Marks of so many shapes at the most are shapes of a drawing. */
+const MOST_SHAPES = 10_000;
+
 /** A legend has rows of so many pixels, and as much beside a name as the mark before it takes. */
 const ROW = 20;
 const INDENT = 16;
@@ -25,6 +28,8 @@ const INDENT = 16;
 export function mapFigure(view, picture) {
   const { scene, width, height } = view;
   const placeOf = view.placing();
+  // Of very many marks each as its own shape, a drawing would be dozens of megabytes.
+  const dots = scene.x.length > MOST_SHAPES ? (view.dots?.image() ?? null) : null;
   const layers = LEVELS.map((level) => {
     // Pictures lie above the dots of what has no room for one.
     const pictures = svg("g");
@@ -32,7 +37,7 @@ export function mapFigure(view, picture) {
     for (let index = 0; index < scene.x.length; index += 1) {
       if (scene.emphasis[index] !== level) continue;
       const [x, y] = placeOf(index);
-      if (!(x > 0 && y > 0 && x < width && y < height)) continue;
+      if (!(x > 0 && y > 0 && x < width && y < height) || (dots !== null && !view.pictured[index])) continue;
       const mark = markOf(view, index, [x, y], picture);
       (mark.length > 1 ? pictures : layer).append(...mark);
     }
@@ -40,7 +45,13 @@ export function mapFigure(view, picture) {
     return layer;
   });
   return {
-    node: svg("svg", { viewBox: `0 0 ${width} ${height}` }, layers, namesOf(view, picture)),
+    node: svg(
+      "svg",
+      { viewBox: `0 0 ${width} ${height}` },
+      dots && svg("image", { width, height, href: dots }),
+      layers,
+      namesOf(view, picture),
+    ),
     below: legendOf(view, picture),
   };
 }

@@ -700,7 +700,23 @@ export class MapView {
     return this.#together.groups;
   }
 
+  /** @type {{ key: string, seen: unknown[], pictured: ArrayLike<number> } | null} what names were placed for */
+  #namedFor = null;
+
+  /** Place the names, unless they would find the same marks once more: a selection hides none. */
   #name() {
+    const { scene, database, pictured } = this;
+    const { scale, left, top } = this.lay();
+    const key = [this.name, scene.target, database.revision, this.width, this.height, scale, left, top].join(" ");
+    const seen = [this.state.get("hidden"), this.chosenColoring, this.shift];
+    const before = this.#namedFor;
+    this.#namedFor = { key, seen, pictured };
+    const same = before?.key === key && isEqual(before.seen, seen) && isEqual(before.pictured, pictured);
+    if (same && this.labels.anchors.size > 0) this.labels.follow(this.placing());
+    else this.#placeNames();
+  }
+
+  #placeNames() {
     const { coloring, width, height, pictured, markRadius } = this;
     const naming = this.#naming;
     this.labels.naming = naming;
@@ -726,11 +742,12 @@ export class MapView {
 }
 
 /**
- * @param {Float64Array} one
- * @param {Float64Array} other
+ * @param {ArrayLike<unknown>} one
+ * @param {ArrayLike<unknown>} other
  */
 function isEqual(one, other) {
-  return one.every((value, place) => value === other[place]);
+  for (let place = 0; place < one.length; place += 1) if (one[place] !== other[place]) return false;
+  return one.length === other.length;
 }
 
 /** @param {string} kind */

@@ -107,6 +107,7 @@ export class Scene {
       if (WEIGHED.some((name) => changed.has(name))) this.weigh();
       if ([camera, ...WEIGHED, "exact"].some((name) => changed.has(name))) this.draw();
       else if (RINGED.some((name) => changed.has(name))) for (const view of this.views) view.drawRings();
+      if (changed.has("brushing") && crowded(database)) this.draw();
     });
   }
 
@@ -128,8 +129,12 @@ export class Scene {
   /** @type {number | undefined} */
   #settling;
 
-  /** One map after the other, each in a frame of its own, so that no frame takes long. */
+  /**
+   * One map after the other, each in a frame of its own, so that no frame takes long; a crowd when its brush is let go,
+   * which may rest for long before.
+   */
   #settle() {
+    if (this.state.get("brushing") && crowded(this.database)) return;
     const views = [...this.views];
     const next = () => {
       views.shift()?.settle();

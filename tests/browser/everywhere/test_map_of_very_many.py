@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import base64
+import io
+import re
 from urllib.parse import parse_qs, urlsplit
 
 import numpy as np
 import pytest
+from PIL import Image
 from reports import colour_of
 from waiting import eventually
 
@@ -172,3 +175,27 @@ def test_an_address_holds_the_selection(visit, report, xy):
     window.until("() => document.querySelector('#tray.filled h2')")
     assert window.text("#tray h2") == "12\u202f000 shapes selected"
     assert "selected" in parse_qs(urlsplit(window.evaluate("() => location.href")).fragment)
+
+
+def test_a_saved_map_holds_its_marks_as_one_image(visit):
+    window = visit(SITE, "index.html#color=class")
+    window.evaluate(
+        """() => {
+            window.saved = null;
+            const create = URL.createObjectURL;
+            URL.createObjectURL = (blob) => {
+                if (blob.type === "image/svg+xml") blob.text().then((text) => (window.saved = text));
+                return create.call(URL, blob);
+            };
+            document.querySelector("figure[data-slot=large] .save-figure button").click();
+        }"""
+    )
+    text = window.until("() => window.saved")
+    [image] = re.findall(r"data:image/png;base64,([^\"]+)", text)
+    with Image.open(io.BytesIO(base64.b64decode(image))) as marks:
+        drawn = np.asarray(marks.convert("RGBA"))
+    # Of the two classes and of those without one.
+    opaque = drawn[drawn[..., 3] > 200][:, :3]
+    _, counts = np.unique(opaque // 16, axis=0, return_counts=True)
+    assert (counts > 10).sum() >= 3
+    assert text.count("<path") < 100
