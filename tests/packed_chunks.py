@@ -30,7 +30,7 @@ def read_script(script: Path) -> tuple[str, Any]:
 
 def unpack(kind: str, packed: bytes) -> Any:
     """What :func:`shapeviz_report.writing.packing.pack` packed."""
-    content = gzip.decompress(packed)
+    content = packed if kind == "stored" else gzip.decompress(packed)
     if kind == "bytes":
         return content
     if kind == "json":

@@ -16,31 +16,34 @@ from shapeviz_report.writing.data import json_text
 ALIGNMENT = 8
 
 
-def pack(value: object, level: int = 9) -> tuple[str, bytes]:
-    """The kind of a chunk and its gzipped content.
+def pack(value: object, *, compressed: bool = True) -> tuple[str, bytes]:
+    """The kind of a chunk and its content, gzipped.
 
     Parameters
     ----------
     value : object
         Bytes, or what JSON holds, in which arrays of numbers may stand anywhere but at the top.
-    level : int
-        Of the compression; 0 for what is compressed already.
+    compressed : bool
+        Whether to gzip it; what is compressed already, with arrays in it, only takes longer then.
 
     Returns
     -------
-    kind : {"bytes", "json", "columns"}
+    kind : {"bytes", "json", "columns", "stored"}
     content : bytes
-        Of ``columns``, JSON whose arrays follow it in little-endian bytes, which take less room and time than text: the
-        length of the JSON as uint32; at 8 the JSON, a ``value`` with nothing where its ``arrays`` belong, each with the
-        way to its place, its type, its length, and where it starts; from the next multiple of 8 on the arrays.
+        Of ``columns``, and of ``stored`` ones without gzip, JSON whose arrays follow it in little-endian bytes, which
+        take less room and time than text: the length of the JSON as uint32; at 8 the JSON, a ``value`` with nothing
+        where its ``arrays`` belong, each with the way to its place, its type, its length, and where it starts; from the
+        next multiple of 8 on the arrays.
     """
     if isinstance(value, bytes):
         kind, content = "bytes", value
     elif arrays := list(_arrays(value, ())):
         kind, content = "columns", _with_arrays(value, arrays)
+        if not compressed:
+            return "stored", content
     else:
         kind, content = "json", json_text(value).encode()
-    return kind, gzip.compress(content, compresslevel=level, mtime=0)
+    return kind, gzip.compress(content, compresslevel=9, mtime=0)
 
 
 def chunk_script(name: str, kind: str, packed: bytes) -> bytes:

@@ -183,7 +183,7 @@ def _packed_parts(
 
 
 def _pack_part(name: str, part: object) -> tuple[str, bytes]:
-    return pack(part, level=0 if name == "pictures" else 9)
+    return pack(part, compressed=name != "pictures")
 
 
 def _thumbnails(report: Report) -> Iterator[tuple[str, bytes]]:

@@ -3,8 +3,8 @@
 import { entry } from "./entry.js";
 
 /**
- * A chunk as it comes: gzipped, in base64. Columns are JSON with arrays of numbers in it.
- * @typedef {"json" | "columns" | "bytes"} Kind
+ * A chunk as it comes: gzipped, in base64. Columns are JSON with arrays of numbers in it; stored ones are not gzipped.
+ * @typedef {"json" | "columns" | "stored" | "bytes"} Kind
  * @typedef {{ kind: Kind, text: string }} Packed
  */
 
@@ -89,6 +89,7 @@ export function modelBytes(name) {
  */
 async function load(name, address) {
   const { kind, text } = standing(name) ?? (await received(name, address));
+  if (kind === "stored") return columnsOf(bytesOf(text).buffer);
   const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
   const response = new Response(stream);
   if (kind === "json") return response.json();

@@ -40,6 +40,12 @@ def test_arrays_come_back_where_they_were_and_of_their_type():
         np.testing.assert_array_equal(found, expected)
 
 
+def test_what_is_compressed_already_is_stored():
+    kind, packed = pack(COLUMNS, compressed=False)
+    assert kind == "stored"
+    np.testing.assert_array_equal(unpack(kind, packed)["columns"][0]["of"], COLUMNS["columns"][0]["of"])
+
+
 def test_the_same_data_are_the_same_bytes():
     assert pack(COLUMNS) == pack(COLUMNS)
 
