@@ -51,6 +51,8 @@ const EXACT_APART = 0.5;
 const INWARD = 0.2;
 /** So many pixels of a map hold a mark of each class at the most for what is found out about many. */
 const THINNED = 5;
+/** Of a crowd only so many groups are named, those that take most of the map in view: others come as one zooms in. */
+const MOST_NAMED = 80;
 /** On a smaller map there is no room for names. */
 const NAMED_WIDTH = 280;
 
@@ -735,10 +737,25 @@ export class MapView {
       if (thinning?.takes(x, y, group) === false && !pictured[index] && !standing.has(index)) return;
       points.push({ index, group, x, y, radius });
     });
+    if (thinning !== null) keepLargest(points, MOST_NAMED);
     const largest = points.reduce((most, { radius }) => Math.max(most, radius), 0);
     this.labels.place(points, width, height, largest);
     this.labels.follow(this.placing());
   }
+}
+
+/**
+ * Let all but the groups of most marks be nameless.
+ * @param {Mark[]} marks
+ * @param {number} most
+ */
+function keepLargest(marks, most) {
+  /** @type {Map<number, number>} */
+  const sizes = new Map();
+  for (const { group } of marks) sizes.set(group, (sizes.get(group) ?? 0) + 1);
+  const order = [...sizes.keys()].sort((a, b) => (sizes.get(b) ?? 0) - (sizes.get(a) ?? 0) || a - b);
+  const small = new Set(order.slice(most));
+  if (small.size > 0) for (const mark of marks) if (small.has(mark.group)) mark.group = -1;
 }
 
 /**

@@ -166,7 +166,7 @@ export class Points {
       gl.uniform1f(at("shown"), level);
       gl.uniform4fv(
         at("outline"),
-        radius < SMALLEST_OUTLINED ? [0, 0, 0, 0] : rgbaOf(outline).map((part) => part / 255),
+        radius < SMALLEST_OUTLINED ? [0, 0, 0, 0] : Array.from(rgbaOf(outline), (part) => part / 255),
       );
       gl.uniform1f(at("opacity"), faint ? 1 : FULL);
       gl.drawArrays(gl.POINTS, 0, this.count);
