@@ -13,15 +13,15 @@ CHECK := build/check-wheel
 .DEFAULT_GOAL := help
 
 .PHONY: demo
-demo: drawing-library $(INSTALLED) ## build the demo site in demo-site/
+demo: $(INSTALLED) ## build the demo site in demo-site/
 	$(BIN)/shapeviz-report demo -o demo-site
 
 .PHONY: test
-test: style browsers ## run every check and every test
+test: style drawing-library browsers ## run every check and every test
 	$(BIN)/pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder --durations 25
 
 .PHONY: check
-check: style ## the quick part of it: style, imports, types, scripts, and the unit and contract tests that are not slow
+check: style drawing-library ## the quick part of it: style, imports, types, scripts, and the unit and contract tests that are not slow
 	$(BIN)/pytest --numprocesses 2 --dist loadfile --durations 5 -m 'not slow' tests/unit tests/contract
 
 .PHONY: format
@@ -34,7 +34,7 @@ chunks: $(INSTALLED) ## tell the scripts the types of the site's data, after a c
 	$(BIN)/python tests/chunk_types.py
 
 .PHONY: style
-style: drawing-library $(INSTALLED) $(SCRIPT_TOOLS)
+style: $(INSTALLED) $(SCRIPT_TOOLS)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
@@ -46,7 +46,7 @@ wheel: $(INSTALLED) ## build the wheel and the source distribution in dist/
 	$(BIN)/hatchling build
 
 .PHONY: check-wheel
-check-wheel: drawing-library $(INSTALLED) ## install the wheel on its own and compare its site with the checkout's
+check-wheel: $(INSTALLED) ## install the wheel on its own and compare its site with the checkout's
 	rm -rf $(CHECK)
 	$(BIN)/hatchling build -t wheel -d $(CHECK)
 	$(PYTHON) -m venv $(CHECK)/venv

@@ -35,6 +35,7 @@ PUBLICATION = (
 )  # fmt: skip
 """Options that say how the site presents itself; no figure depends on them."""
 SEARCHES = ("tsne", "umap", "none")
+RENDERERS = ("osmesa", "zbuffer")
 ENVIRONMENT_PREFIX = "SHAPEVIZ_"
 
 
@@ -130,6 +131,12 @@ class Config:
         "axis of the files that points up in pictures, 'y' or 'z'; by default what the file says, else guessed",
         "AXIS",
     )
+    renderer: str | None = _machine_option(
+        None,
+        "what draws pictures: osmesa, a library of the system, or zbuffer, which needs none; by default osmesa where "
+        "it is",
+        "NAME",
+    )
     thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
     seed: int = _option(0, "seed of everything random", "N")
     time_limit: float = _machine_option(
@@ -156,6 +163,8 @@ class Config:
             raise ConfigError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset!r}")
         if self.search not in SEARCHES:
             raise ConfigError(f"search must be one of {', '.join(SEARCHES)}, not {self.search!r}")
+        if self.renderer not in (None, *RENDERERS):
+            raise ConfigError(f"renderer must be one of {', '.join(RENDERERS)}, not {self.renderer!r}")
         if self.up not in (None, "y", "z"):
             raise ConfigError(f"up must be y or z, not {self.up!r}")
         if self.scheduler is not None and self.jobs is not None:

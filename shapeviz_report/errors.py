@@ -33,7 +33,7 @@ class MeshError(ShapevizError):
 
 
 class RenderError(ShapevizError):
-    """Pictures cannot be made on this machine (OSMesa is missing, for instance)."""
+    """Pictures cannot be made on this machine as asked for (OSMesa is missing, for instance)."""
 
 
 class WorkerError(ShapevizError):

@@ -15,7 +15,6 @@ from shapeviz_report.cache import Cache, default_root, discard
 from shapeviz_report.config import Config
 from shapeviz_report.demo import catalogue
 from shapeviz_report.errors import CacheError, DatabaseError
-from shapeviz_report.render import check_renderer
 from shapeviz_report.staging import write_atomically
 from shapeviz_report.types import Report
 
@@ -24,7 +23,6 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
     """Generate the demo database below the cache and build its site; see
     :func:`~shapeviz_report.building.pipeline.build_report`."""
     check_places(destination, config, (config.cache or default_root()).absolute(), None)
-    check_renderer()
     progress = progress or QuietProgress()
     cache = Cache((config.cache or default_root()).absolute())
     root = cache.root / "demo" / f"{GENERATE.version}-{config.seed}"
@@ -33,7 +31,10 @@ def build_demo(destination: Path, config: Config, progress: Progress | None = No
     made = {task: content for task, content in kept.items() if content is not None}
     tasks = [task for task in shapes if task not in made]
     if tasks:
-        with open_executor(config) as executor, progress.stage(GENERATE.doing, len(tasks)) as advance:
+        with (
+            open_executor(config) as executor,
+            progress.stage(GENERATE.doing, len(tasks)) as advance,
+        ):
             for outcome in executor.run(GENERATE.compute, tasks):
                 task = tasks[outcome.index]
                 if outcome.reason is not None:

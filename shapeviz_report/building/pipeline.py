@@ -32,7 +32,7 @@ from shapeviz_report.building.questions import (
 )
 from shapeviz_report.building.reading import load_all_external, read_published
 from shapeviz_report.building.runner import Runner, name_files
-from shapeviz_report.building.workers import open_executor
+from shapeviz_report.building.workers import find_renderer, open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline
@@ -48,7 +48,6 @@ from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.publication import read_publication
 from shapeviz_report.quality import score
-from shapeviz_report.render import check_renderer
 from shapeviz_report.search import make_space
 from shapeviz_report.separation import rate_separation
 from shapeviz_report.types import (
@@ -101,7 +100,6 @@ def build_report(
     """
     root = (config.cache or default_root()).absolute()
     check_places(destination, config, root, database_path)
-    check_renderer()
     clock = Clock(progress or QuietProgress())
     with clock.stage("read", "Reading the database"):
         publication = read_publication(config)
@@ -114,7 +112,8 @@ def build_report(
     cache = Cache(root)
     failures = list(database.failures)
 
-    with open_executor(config) as executor:
+    renderer = find_renderer(config)
+    with open_executor(config, renderer) as executor:
         run = Runner(executor, clock, cache, name_files(database), failures, config)
         paths = {s.id: s.path.absolute() for s in database.shapes}
         within = None if config.outside else database.root
@@ -126,7 +125,7 @@ def build_report(
             chain.add(stages.FACTS, [stages.PREPARE])
             chain.add(stages.EXAMINE)
             chain.add(stages.VIEW, [stages.PREPARE], config.up)
-            chain.add(stages.RENDER, [stages.PREPARE, stages.VIEW], config.thumbnail_size)
+            chain.add(stages.RENDER, [stages.PREPARE, stages.VIEW], config.thumbnail_size, renderer)
             if edges is None:
                 chain.add(stages.SAMPLE, [stages.PREPARE], share)
             else:
@@ -212,7 +211,7 @@ def build_report(
 
             def plan_painting(shape: str, bins: tuple[tuple[int, int], ...]) -> Plan:
                 chain, files = plan(shape)
-                chain.add(stages.PAINT, [stages.PREPARE, stages.VIEW], edges, bins, PAINTING_SIZE)
+                chain.add(stages.PAINT, [stages.PREPARE, stages.VIEW], edges, bins, PAINTING_SIZE, renderer)
                 return chain, files
 
             paintings = paint_all(run, features, exemplars, plan_painting)
@@ -255,7 +254,7 @@ def build_report(
         edges=edges,
         projections=maps,
         failures=tuple(failures),
-        parameters=config.as_parameters(),
+        parameters=config.as_parameters() | {"renderer": renderer},
         versions={name: version(name) for name in ("shapeviz-report", *LIBRARIES)}
         | {plugin.package: plugin.version for plugin in find_plugins()}
         | {"python": platform.python_version()},

@@ -40,6 +40,7 @@ from shapeviz_report.neighbours import RELATED, find_related
 from shapeviz_report.projections import project
 from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.render import (
+    Renderer,
     choose_view,
     mark_colors,
     render_painted,
@@ -214,13 +215,18 @@ def view_shape(prepared: bytes, up: UpAxis | None) -> bytes:
     return _pack_array(choose_view(_unpack(prepared), up or read_facts(tell_facts(prepared)).up))
 
 
-def render_shape(prepared: bytes, view: bytes, size: int) -> bytes:
+def render_shape(prepared: bytes, view: bytes, size: int, renderer: Renderer) -> bytes:
     """The thumbnail of a prepared shape, as :func:`view_shape` found it: a WebP image of ``size`` x ``size`` pixels."""
-    return render_thumbnail(_unpack(prepared), read_array(view), size=size)
+    return render_thumbnail(_unpack(prepared), read_array(view), size=size, renderer=renderer)
 
 
 def paint_shape(
-    prepared: bytes, view: bytes, edges: FloatArray, bins: Sequence[tuple[int, int]], size: int
+    prepared: bytes,
+    view: bytes,
+    edges: FloatArray,
+    bins: Sequence[tuple[int, int]],
+    size: int,
+    renderer: Renderer,
 ) -> bytes:
     """Bins painted on a prepared shape, for :func:`read_paintings`.
 
@@ -234,6 +240,7 @@ def paint_shape(
         Dimension and bin, both from 0.
     size : int
         Of the pictures, in pixels.
+    renderer : Renderer
     """
     mesh = _unpack(prepared)
     dimensions = sorted({dimension for dimension, _ in bins})
@@ -241,7 +248,7 @@ def paint_shape(
     falls = find_bins(values, edges[dimensions])
     colorings = [value_colors(row, edges[dimension]) for row, dimension in zip(values, dimensions)]
     colorings += [mark_colors(falls[dimensions.index(dimension)] == place) for dimension, place in bins]
-    pictures = render_painted(mesh, read_array(view), colorings, size=size)
+    pictures = render_painted(mesh, read_array(view), colorings, size=size, renderer=renderer)
     by_dimension = dict(zip(dimensions, pictures))
     inside = pictures[len(dimensions) :]
     return _pack_arrays(

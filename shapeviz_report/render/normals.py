@@ -55,25 +55,61 @@ def split_at_creases(mesh: Mesh, crease_angle: float = CREASE_ANGLE) -> ShadedSu
     ShadedSurface
         Corners of one vertex whose normals agree are one shaded vertex.
     """
-    corners = mesh.vertices[mesh.faces]
-    edges = np.roll(corners, -1, axis=1) - corners
-    face_normals = np.cross(edges[:, 0], edges[:, 1])
-    lengths = np.linalg.norm(face_normals, axis=1)
-    has_area = lengths > 0.0
-    faces = np.ascontiguousarray(mesh.faces[has_area])
-    face_normals = face_normals[has_area] / lengths[has_area, None]
-
-    edges = edges[has_area]
-    edges /= np.linalg.norm(edges, axis=2, keepdims=True)
-    cosines = -np.einsum("fcx,fcx->fc", edges, np.roll(edges, 1, axis=1))
-    angles = np.arccos(np.clip(cosines, -1.0, 1.0))
-
-    by_vertex = np.argsort(faces.ravel(), kind="stable")
-    starts = np.searchsorted(faces.ravel()[by_vertex], np.arange(len(mesh.vertices) + 1))
+    faces, face_normals, angles = _measure_corners(mesh.vertices, mesh.faces)
+    by_vertex, starts = _corners_by_vertex(faces, len(mesh.vertices))
     source, normals, shaded_faces = _shade_corners(
         faces, face_normals, angles, by_vertex, starts, np.cos(crease_angle)
     )
     return ShadedSurface(source, mesh.vertices[source], normals, shaded_faces)
+
+
+@kernel(error_model="numpy")
+def _measure_corners(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, FloatArray, FloatArray]:
+    """The faces with an area, their unit normals, and the angle at each of their corners."""
+    kept = np.empty_like(faces)
+    normals, angles = np.empty((len(faces), 3)), np.empty((len(faces), 3))
+    edges, lengths = np.empty((3, 3)), np.empty(3)
+    count = 0
+    for face in faces:
+        for corner in range(3):
+            here, there = vertices[face[corner]], vertices[face[(corner + 1) % 3]]
+            for axis in range(3):
+                edges[corner, axis] = there[axis] - here[axis]
+            lengths[corner] = np.sqrt(edges[corner, 0] ** 2 + edges[corner, 1] ** 2 + edges[corner, 2] ** 2)
+        x = edges[0, 1] * edges[1, 2] - edges[0, 2] * edges[1, 1]
+        y = edges[0, 2] * edges[1, 0] - edges[0, 0] * edges[1, 2]
+        z = edges[0, 0] * edges[1, 1] - edges[0, 1] * edges[1, 0]
+        area = np.sqrt(x * x + y * y + z * z)
+        if not area > 0.0:
+            continue
+        kept[count] = face
+        normals[count, 0], normals[count, 1], normals[count, 2] = x / area, y / area, z / area
+        for corner in range(3):
+            before = (corner + 2) % 3
+            cosine = -(
+                edges[corner, 0] * edges[before, 0]
+                + edges[corner, 1] * edges[before, 1]
+                + edges[corner, 2] * edges[before, 2]
+            ) / (lengths[corner] * lengths[before])
+            angles[count, corner] = np.arccos(min(1.0, max(-1.0, cosine)))
+        count += 1
+    return kept[:count].copy(), normals[:count].copy(), angles[:count].copy()
+
+
+@kernel()
+def _corners_by_vertex(faces: IntArray, vertices: int) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Every corner, by its vertex and then by its number; and where those of each vertex begin."""
+    starts = np.zeros(vertices + 1, np.int64)
+    corners = faces.ravel()
+    for vertex in corners:
+        starts[vertex + 1] += 1
+    starts = np.cumsum(starts)
+    place = starts.copy()
+    found = np.empty(len(corners), np.int64)
+    for corner in range(len(corners)):
+        found[place[corners[corner]]] = corner
+        place[corners[corner]] += 1
+    return found, starts
 
 
 @kernel()

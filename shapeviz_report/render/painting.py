@@ -9,7 +9,7 @@ import numpy as np
 from shapeviz_report.render.camera import frame
 from shapeviz_report.render.normals import split_at_creases
 from shapeviz_report.render.ramp import ramp_colors
-from shapeviz_report.render.rasteriser import rasterise
+from shapeviz_report.render.rasteriser import Renderer, rasterise
 from shapeviz_report.render.shading import CLAY, shade
 from shapeviz_report.render.thumbnail import SUPERSAMPLING, encode_webp
 from shapeviz_report.types import FloatArray, Mesh
@@ -53,7 +53,12 @@ def mark_colors(inside: FloatArray) -> FloatArray:
 
 
 def render_painted(
-    mesh: Mesh, view: FloatArray, colorings: Sequence[FloatArray], *, size: int = 320
+    mesh: Mesh,
+    view: FloatArray,
+    colorings: Sequence[FloatArray],
+    *,
+    size: int = 320,
+    renderer: Renderer = "osmesa",
 ) -> list[bytes]:
     """Draw a shape as its thumbnail shows it, once with each of several sets of colours on its vertices, on nothing.
 
@@ -67,6 +72,8 @@ def render_painted(
         Linear reflectance of every vertex, in [0, 1].
     size : int
         Width and height in pixels.
+    renderer : {"osmesa", "zbuffer"}
+        As for :func:`shapeviz_report.render.render_thumbnail`.
 
     Returns
     -------
@@ -81,9 +88,9 @@ def render_painted(
     surface = split_at_creases(mesh)
     camera = frame(surface.positions, view, size * SUPERSAMPLING)
     normals = (surface.normals @ camera.rotation.T + 1.0) / 2.0
-    buffers = rasterise(surface.positions, surface.faces, normals, camera)
+    buffers = rasterise(surface.positions, surface.faces, normals, camera, renderer)
     pictures = []
     for colors in colorings:
-        albedo = rasterise(surface.positions, surface.faces, colors[surface.source], camera).values
+        albedo = rasterise(surface.positions, surface.faces, colors[surface.source], camera, renderer).values
         pictures.append(encode_webp(shade(buffers.depth, buffers.values * 2.0 - 1.0, albedo, camera)))
     return pictures

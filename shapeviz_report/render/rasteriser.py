@@ -1,35 +1,26 @@
-"""Which surface each pixel sees: the one module that talks to pyrender.
+"""Which surface each pixel sees, by whatever draws on this machine.
 
-pyrender draws, in software through OSMesa, what is nearest to the camera together with a value of it.
-Light and colour are computed from those buffers in :mod:`shapeviz_report.render.shading`: that lights both
-sides of a surface, and takes half the time of the graphics library's own shaders, which run in software as
-well.
+Light and colour are computed from that in :mod:`shapeviz_report.render.shading`, which lights both sides of a surface.
+So a renderer is asked for depth and a value a pixel alone, and all give the same pictures but for pixels at edges.
 """
 
 from __future__ import annotations
 
-import atexit
-import ctypes
-import functools
-import os
 from dataclasses import dataclass
-from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.errors import RenderError
+from shapeviz_report.render import gl, zbuffer
 from shapeviz_report.render.camera import Camera
 from shapeviz_report.types import FloatArray, IntArray
 
-if TYPE_CHECKING:
-    from pyrender import OffscreenRenderer
+Renderer = Literal["osmesa", "zbuffer"]
 
-_REMEDY = (
-    "Pictures are drawn in software with OSMesa. Install it (Debian and Ubuntu: apt install libosmesa6) "
-    "and run this again."
-)
+RENDERERS: tuple[Renderer, ...] = ("osmesa", "zbuffer")
+"""What may draw, in the order in which they are tried: pyrender by OSMesa, and a depth buffer of our own, which needs
+no library of the system."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +32,7 @@ class Buffers:
     depth : (h, w) float32 array
         Distance along the camera's axis; 0 where there is nothing.
     values : (h, w, 3) float32 array
-        The vertex values interpolated over the nearest surface, in steps of 1/255. Only defined where
+        The vertex values interpolated over the nearest surface, in steps of 1/255 by pyrender. Only defined where
         ``depth`` is positive.
     """
 
@@ -49,18 +40,21 @@ class Buffers:
     values: npt.NDArray[np.float32]
 
 
-def check_renderer() -> None:
-    """Make sure that this process can draw.
+def check_renderer(renderer: Renderer) -> None:
+    """Make sure that this process can draw with a renderer.
 
     Raises
     ------
     RenderError
-        If OSMesa is missing or gives no context, with what to install.
+        If its library is missing or gives no context, with what to install.
     """
-    _open_renderer(1).delete()
+    if renderer != "zbuffer":
+        gl.check()
 
 
-def rasterise(positions: FloatArray, faces: IntArray, values: FloatArray, camera: Camera) -> Buffers:
+def rasterise(
+    positions: FloatArray, faces: IntArray, values: FloatArray, camera: Camera, renderer: Renderer
+) -> Buffers:
     """Draw a mesh without light.
 
     Parameters
@@ -71,64 +65,13 @@ def rasterise(positions: FloatArray, faces: IntArray, values: FloatArray, camera
     values : (n, 3) float64 array
         One value a vertex, in [0, 1].
     camera : Camera
+    renderer : Renderer
 
     Raises
     ------
     RenderError
         As :func:`check_renderer`.
     """
-    renderer = _renderer(camera.size)
-    pyrender = _import_pyrender()
-    scene = pyrender.Scene(bg_color=(0.0, 0.0, 0.0, 0.0))
-    primitive = pyrender.Primitive(
-        positions=positions.astype(np.float32),
-        indices=faces.astype(np.uint32),
-        color_0=np.column_stack([values, np.ones(len(values))]).astype(np.float32),
-        material=pyrender.MetallicRoughnessMaterial(baseColorFactor=(1.0, 1.0, 1.0, 1.0), doubleSided=True),
-    )
-    scene.add(pyrender.Mesh([primitive]))
-    scene.add(
-        pyrender.IntrinsicsCamera(
-            fx=camera.focal_length,
-            fy=camera.focal_length,
-            cx=camera.centre[0],
-            cy=camera.centre[1],
-            znear=camera.near,
-            zfar=camera.far,
-        ),
-        pose=camera.pose,
-    )
-    colour, depth = renderer.render(scene, pyrender.RenderFlags.FLAT)
-    return Buffers(depth, colour.astype(np.float32) / np.float32(255.0))
-
-
-@functools.cache
-def _import_pyrender() -> ModuleType:
-    # PyOpenGL picks its library when it is first imported, so the choice comes before that. pyrender takes a
-    # second to import: not before there is something to draw.
-    os.environ["PYOPENGL_PLATFORM"] = "osmesa"
-    try:
-        import pyrender
-        from OpenGL.platform import PLATFORM
-    except (ImportError, AttributeError) as error:  # PyOpenGL goes on with None for a library it did not find
-        raise RenderError(f"The library libOSMesa cannot be loaded. {_REMEDY}") from error
-    # pyrender keeps its compiled shaders by the current context, which PyOpenGL 3.1 gives as a new pointer object
-    # every time. As an address it is the same each time; otherwise every picture compiles, and keeps, its own.
-    PLATFORM.GetCurrentContext.restype = ctypes.c_void_p
-    return pyrender
-
-
-def _open_renderer(size: int) -> OffscreenRenderer:
-    pyrender = _import_pyrender()
-    try:
-        return pyrender.OffscreenRenderer(size, size)
-    except Exception as error:  # whatever the graphics library raises, there is no picture
-        raise RenderError(f"OSMesa cannot draw on this machine ({error!r}). {_REMEDY}") from error
-
-
-@functools.cache
-def _renderer(size: int) -> OffscreenRenderer:
-    """The one renderer of this process and size: to make it takes far longer than a picture."""
-    renderer = _open_renderer(size)
-    atexit.register(renderer.delete)
-    return renderer
+    if renderer == "zbuffer":
+        return Buffers(*zbuffer.draw(positions, faces, values, camera))
+    return Buffers(*gl.draw(positions, faces, values, camera))

@@ -11,7 +11,7 @@ from PIL import Image
 from shapeviz_report.compilation import kernel
 from shapeviz_report.render.camera import frame
 from shapeviz_report.render.normals import split_at_creases
-from shapeviz_report.render.rasteriser import rasterise
+from shapeviz_report.render.rasteriser import Renderer, rasterise
 from shapeviz_report.render.shading import CLAY, shade
 from shapeviz_report.types import FloatArray, Mesh
 
@@ -23,7 +23,19 @@ SUPERSAMPLING = 2
 _TENT = np.array([1 / 8, 3 / 8, 3 / 8, 1 / 8], np.float32)
 
 
-def render_thumbnail(mesh: Mesh, view: FloatArray, *, size: int = 320) -> bytes:
+def _encode_srgb() -> npt.NDArray[np.uint8]:
+    """IEC 61966-2-1 in steps of 1/255, of 2**16 steps of linear light: finer than the darkest step."""
+    linear = np.arange(2**16) / (2**16 - 1)
+    curved = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    return np.round(255 * curved).astype(np.uint8)
+
+
+_SRGB = _encode_srgb()
+
+
+def render_thumbnail(
+    mesh: Mesh, view: FloatArray, *, size: int = 320, renderer: Renderer = "osmesa"
+) -> bytes:
     """Draw a shape on nothing.
 
     The same mesh and view give the same bytes, in any process.
@@ -36,6 +48,8 @@ def render_thumbnail(mesh: Mesh, view: FloatArray, *, size: int = 320) -> bytes:
         As :func:`shapeviz_report.render.choose_view` finds it.
     size : int
         Width and height in pixels.
+    renderer : {"osmesa", "zbuffer"}
+        As :data:`~shapeviz_report.render.rasteriser.RENDERERS` has them; each gives bytes of its own.
 
     Returns
     -------
@@ -50,7 +64,7 @@ def render_thumbnail(mesh: Mesh, view: FloatArray, *, size: int = 320) -> bytes:
     surface = split_at_creases(mesh)
     camera = frame(surface.positions, view, size * SUPERSAMPLING)
     camera_normals = surface.normals @ camera.rotation.T
-    buffers = rasterise(surface.positions, surface.faces, (camera_normals + 1.0) / 2.0, camera)
+    buffers = rasterise(surface.positions, surface.faces, (camera_normals + 1.0) / 2.0, camera, renderer)
     albedo = np.broadcast_to(np.array(CLAY, np.float32), buffers.values.shape)
     return encode_webp(shade(buffers.depth, buffers.values * 2.0 - 1.0, albedo, camera))
 
@@ -66,14 +80,16 @@ def encode_webp(picture: npt.NDArray[np.float32]) -> bytes:
     picture : (h, w, 4) float32 array
         As :func:`shapeviz_report.render.shading.shade` gives it.
     """
-    pixels = _reduce(picture, _TENT)
+    pixels = _reduce(picture, _TENT, _SRGB)
     file = io.BytesIO()
     Image.fromarray(pixels, "RGBA").save(file, "WEBP", quality=WEBP_QUALITY, method=WEBP_METHOD)
     return file.getvalue()
 
 
 @kernel()
-def _reduce(picture: npt.NDArray[np.float32], weights: npt.NDArray[np.float32]) -> npt.NDArray[np.uint8]:
+def _reduce(
+    picture: npt.NDArray[np.float32], weights: npt.NDArray[np.float32], encoded: npt.NDArray[np.uint8]
+) -> npt.NDArray[np.uint8]:
     """Halve a picture and encode it in sRGB; every colour counts as much as it covers."""
     height, width = picture.shape[0] // 2, picture.shape[1] // 2
     pixels = np.zeros((height, width, 4), np.uint8)
@@ -89,15 +105,9 @@ def _reduce(picture: npt.NDArray[np.float32], weights: npt.NDArray[np.float32]) 
                         blue += weight * picture[2 * row - 1 + i, 2 * column - 1 + j, 2]
                         coverage += weight
             if coverage > 0.0:
-                pixels[row, column, 0] = _encode_srgb(red / coverage)
-                pixels[row, column, 1] = _encode_srgb(green / coverage)
-                pixels[row, column, 2] = _encode_srgb(blue / coverage)
+                scale = (len(encoded) - 1) / coverage
+                pixels[row, column, 0] = encoded[round(min(red * scale, len(encoded) - 1.0))]
+                pixels[row, column, 1] = encoded[round(min(green * scale, len(encoded) - 1.0))]
+                pixels[row, column, 2] = encoded[round(min(blue * scale, len(encoded) - 1.0))]
                 pixels[row, column, 3] = round(255.0 * coverage)
     return pixels
-
-
-@kernel()
-def _encode_srgb(linear: float) -> int:
-    """IEC 61966-2-1, in steps of 1/255."""
-    encoded = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1.0 / 2.4) - 0.055
-    return round(255.0 * min(encoded, 1.0))

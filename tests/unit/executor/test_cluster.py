@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import time
+from functools import partial
 
 import pytest
 from cluster import lack_something, running_cluster
@@ -53,7 +54,9 @@ def test_a_worker_that_lacks_something_is_refused(address) -> None:
 
 
 def test_a_worker_that_can_draw_takes_part(address) -> None:
-    with DaskExecutor(address, 60, None, platform.python_version, check_renderer) as executor:
+    with DaskExecutor(
+        address, 60, None, platform.python_version, partial(check_renderer, "osmesa")
+    ) as executor:
         assert [outcome.value for outcome in executor.run(divmod, [(7, 2)])] == [(3, 1)]
 
 

@@ -9,9 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from solids import ball, lump, tube
 
 from shapeviz_report.render import check_renderer
 from shapeviz_report.render.camera import frame
+from shapeviz_report.render.normals import split_at_creases
 from shapeviz_report.render.rasteriser import rasterise
 
 SQUARE = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float64)
@@ -28,11 +30,15 @@ def run_python(code: str, **environment: str) -> subprocess.CompletedProcess[str
     )
 
 
+RENDERERS = pytest.mark.parametrize("renderer", ["osmesa", "zbuffer"])
+
+
+@RENDERERS
 @pytest.mark.parametrize("faces", [TWO_TRIANGLES, TWO_TRIANGLES[:, ::-1]], ids=["front", "back"])
-def test_a_square_is_drawn_from_either_side_with_its_values_in_place(faces: np.ndarray):
+def test_a_square_is_drawn_from_either_side_with_its_values_in_place(faces: np.ndarray, renderer: str):
     values = (SQUARE + 1.0) / 2.0 * [1.0, 1.0, 0.0]
     camera = frame(SQUARE, np.eye(3), 100)
-    buffers = rasterise(SQUARE, faces, values, camera)
+    buffers = rasterise(SQUARE, faces, values, camera, renderer)
     distance = camera.eye[2]
     np.testing.assert_allclose(buffers.depth[5:95, 5:95], distance, rtol=1e-4)
     assert (buffers.depth[:3] == 0).all()
@@ -42,14 +48,34 @@ def test_a_square_is_drawn_from_either_side_with_its_values_in_place(faces: np.n
     np.testing.assert_allclose(buffers.values[5:95, 50, 1], 1.0 - along[5:95], atol=0.01)
 
 
-def test_the_nearer_surface_hides_the_farther():
+@RENDERERS
+def test_the_nearer_surface_hides_the_farther(renderer: str):
     behind = SQUARE - [0, 0, 0.5]
     positions = np.vstack([SQUARE * 0.5, behind])
     faces = np.vstack([TWO_TRIANGLES, TWO_TRIANGLES + 4]).astype(np.int32)
     values = np.repeat([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], 4, axis=0)
-    buffers = rasterise(positions, faces, values, frame(positions, np.eye(3), 60))
+    buffers = rasterise(positions, faces, values, frame(positions, np.eye(3), 60), renderer)
     np.testing.assert_allclose(buffers.values[30, 30], [1, 0, 0])
     np.testing.assert_allclose(buffers.values[5, 30], [0, 0, 1])
+
+
+@pytest.mark.parametrize("mesh", [ball(3), lump(), tube()], ids=["ball", "lump", "tube"])
+def test_all_renderers_see_the_same_but_for_pixels_at_edges(mesh):
+    surface = split_at_creases(mesh)
+    turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
+    camera = frame(surface.positions, turn, 200)
+    values = (surface.normals + 1.0) / 2.0
+    one, other = (
+        rasterise(surface.positions, surface.faces, values, camera, renderer)
+        for renderer in ("osmesa", "zbuffer")
+    )
+    there = one.depth > 0
+    assert there.mean() > 0.1
+    assert (there != (other.depth > 0)).sum() <= 0.002 * there.sum()
+    both = there & (other.depth > 0)
+    # A fold may be seen or hidden in the middle of a pixel.
+    assert np.quantile(np.abs(one.depth - other.depth)[both], 0.995) < 2e-3
+    assert np.quantile(np.abs(one.values - other.values)[both], 0.99) < 0.01
 
 
 @pytest.mark.slow
@@ -66,7 +92,7 @@ square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0]], float)
 camera = frame(square, np.eye(3), 64)
 def draw(times):
     for _ in range(times):
-        rasterise(square, np.array([[0, 1, 2]], np.int32), (square + 1) / 2, camera)
+        rasterise(square, np.array([[0, 1, 2]], np.int32), (square + 1) / 2, camera, "osmesa")
 draw(20)
 before = resident()
 draw(60)
@@ -85,9 +111,9 @@ def test_importing_the_package_does_not_load_the_graphics_library():
 
 @pytest.mark.slow
 def test_a_machine_with_osmesa_passes_the_check_and_ends_quietly():
-    check_renderer()
+    check_renderer("osmesa")
     result = run_python(
-        "from shapeviz_report.render import check_renderer; check_renderer(); check_renderer()"
+        "from shapeviz_report.render import check_renderer; check_renderer('osmesa'); check_renderer('osmesa')"
     )
     assert (result.returncode, result.stdout, result.stderr) == (0, "", "")
 
@@ -102,7 +128,7 @@ from shapeviz_report.errors import RenderError
 from shapeviz_report.render import check_renderer
 for _ in range(2):
     try:
-        check_renderer()
+        check_renderer('osmesa')
     except RenderError as error:
         print(error)
 """

@@ -80,7 +80,7 @@ def test_the_positions_that_light_is_computed_at_are_where_the_rasteriser_drew()
     normal /= np.linalg.norm(normal)
     camera = frame(tilted, np.eye(3), SIZE)
     faces = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
-    buffers = rasterise(tilted, faces, np.tile((normal + 1) / 2, (4, 1)), camera)
+    buffers = rasterise(tilted, faces, np.tile((normal + 1) / 2, (4, 1)), camera, "osmesa")
     albedo = np.full((SIZE, SIZE, 3), 0.5, np.float32)
     picture = shade(buffers.depth, buffers.values * 2 - 1, albedo, camera)
     inside = picture[10:-10, 10:-10, :3]
