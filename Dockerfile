@@ -6,12 +6,6 @@
 # Add `--user "$(id -u):$(id -g)"` on Linux, so that the files are yours.
 FROM python:3.12-slim-bookworm
 
-# The release that the image begins with decides the version.
-# hadolint ignore=DL3008
-RUN apt-get update \
-    && apt-get install --yes --no-install-recommends libosmesa6 \
-    && rm -rf /var/lib/apt/lists/*
-
 COPY . /source
 # What is compiled on the first use is kept in the image.
 RUN pip install --no-cache-dir --constraint /source/constraints.txt "/source[parquet]" \

@@ -57,7 +57,7 @@ DESCRIBING = (
 GROUPS = {
     "what is read": ("layout", "labeling", "external", "outside"),
     "features and maps": ("preset", "edge_length", "bins", "search", "neighbours", "seed"),
-    "what the site shows": ("meshes", "single_file", "up", "thumbnail_size"),
+    "what the site shows": ("meshes", "single_file", "up", "thumbnail_size", "renderer"),
     "what the site says of the database": PUBLICATION,
     "this machine": ("jobs", "scheduler", "time_limit", "memory_limit", "cache"),
 }
