@@ -207,6 +207,7 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
             "catalogue.jsonld",
             ("every shape" if full else "the database") + " for search engines and catalogues, by schema.org",
         ),
+        ("croissant.json", "what the columns of these tables hold, for loaders of data sets"),
         *(
             (f"projection-{method}.csv", f"coordinates of the {METHODS[method].title} map")
             for method in report.projections

@@ -38,7 +38,7 @@ _SCRIPTS = "|".join(re.escape(page.name) for page in PAGES)
 _NAME = re.compile(
     rf"{_PAGES}|preview\.png|assets/(first|shared|vega|{_SCRIPTS}|chunk-[\w-]+)\.js"
     r"|assets/(style\.css|icon\.svg|vega-licenses\.txt|logo\.(svg|png|webp))"
-    rf"|data/({DATA_NAMES}|files\.json|catalogue\.jsonld)"
+    rf"|data/({DATA_NAMES}|files\.json|catalogue\.jsonld|croissant\.json)"
     r"|chunks/[a-z]+-\d+\.js"
     r"|models/[0-9a-f]{20}\.js|(paintings|sheets|thumbnails)/[0-9a-f]{20}\.webp"
 )

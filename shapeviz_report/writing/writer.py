@@ -22,6 +22,7 @@ from shapeviz_report.staging import write_atomically
 from shapeviz_report.types import Report
 from shapeviz_report.writing import preview
 from shapeviz_report.writing.assets import collect_assets, join_scripts, join_styles, pack_chunks
+from shapeviz_report.writing.croissant import croissant
 from shapeviz_report.writing.data import data_files
 from shapeviz_report.writing.destination import check_destination
 from shapeviz_report.writing.joiner import join
@@ -207,6 +208,9 @@ def _held_paintings(report: Report) -> bytes:
 
 
 def _data(report: Report) -> Iterator[tuple[str, bytes]]:
+    hashes = {}
     for name, content in data_files(report, version("shapeviz-report")):
+        hashes[name] = sha256(content).hexdigest()
         yield f"data/{name}", content
     yield "data/catalogue.jsonld", catalogue(report, describe(report))
+    yield "data/croissant.json", croissant(report, describe(report), hashes)

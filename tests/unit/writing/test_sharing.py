@@ -101,6 +101,28 @@ def test_every_shape_is_a_schema_org_model(site, report):
         assert model["@id"].startswith(f"{URL}shape.html#id=class")
 
 
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore")
+def test_loaders_of_data_sets_read_the_tables(tmp_path):
+    import mlcroissant
+
+    report = make_report(["ant", None], 3, metadata={"Height, in m": "1.5", "__proto__": "</script>"})
+    write_site(report, tmp_path)
+    loaded = mlcroissant.Dataset(tmp_path / "data" / "croissant.json")
+    assert not loaded.metadata.ctx.issues.errors
+    rows = list(loaded.records("shapes"))
+    assert [row["shapes/id"].decode() for row in rows] == [shape.id for shape in report.shapes]
+    for row, facts, label in zip(rows, report.facts, report.labels, strict=True):
+        assert row["shapes/faces"] == facts.faces
+        assert row["shapes/deviation"] == pytest.approx(facts.deviation)
+        assert (row["shapes/class"] or b"").decode() == (label or "")
+        assert b"</script>" in row.values()
+    places = list(loaded.records("projection-tsne"))
+    for axis, letter in enumerate("xy"):
+        found = [row[f"projection-tsne/{letter}"] for row in places]
+        assert found == pytest.approx(report.projections["tsne"][0].xy[:, axis].tolist())
+
+
 def test_without_an_address_the_catalogue_is_relative_to_its_folder(tmp_path):
     write_site(make_report(["ant"], 3, metadata={"Licence": "CC0", "author": "A. B."}), tmp_path)
     text = (tmp_path / "data" / "catalogue.jsonld").read_text(encoding="utf-8")
