@@ -40,6 +40,7 @@ from shapeviz_report.projections import PAIRWISE_LIMIT, align, squared_distances
 from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.quality import hit_range
 from shapeviz_report.retrieval import query_classes, rate_chance
+from shapeviz_report.scorers import MOST_SCORED
 from shapeviz_report.scorers.registry import ALL_SCORERS
 from shapeviz_report.search import SearchSpace, SubsetMaps, planned_runs, search_features
 from shapeviz_report.search.bins import (
@@ -78,9 +79,6 @@ SUBSETS_A_TASK = 16
 RATINGS_A_TASK = 64
 """Subsets whose retrieval a worker rates before it reports back: each takes 2 to 150 milliseconds, by the number of
 shapes, against up to 32 MB of distances that are sent along."""
-
-SCORED = 5000
-"""Most shapes by which the bins of a class are scored: 110 MB of values a class."""
 
 MOST_SENT = 2**28
 """Bytes of values that a question sends to another machine; with more it is answered on this one."""
@@ -281,18 +279,18 @@ def score_all(run: Runner, compared: FloatArray, labels: Sequence[str | None], s
 
 
 def contestants(labels: Sequence[str | None], name: str, seed: int) -> tuple[list[int], list[int]]:
-    """The rows of a class and of the rest by which its bins are scored: all, or ``SCORED`` where there are more.
+    """The rows of a class and of the rest by which its bins are scored: all, or ``MOST_SCORED`` where there are more.
 
     Of these at most a tenth are of the class, or more where the rest leaves room; of the rest every class has its
     share.
     """
     members = [row for row, label in enumerate(labels) if label == name]
     others = [row for row, label in enumerate(labels) if label not in (name, None)]
-    if len(members) + len(others) <= SCORED:
+    if len(members) + len(others) <= MOST_SCORED:
         return members, others
-    count = min(len(members), max(SCORED // 10, SCORED - len(others)))
+    count = min(len(members), max(MOST_SCORED // 10, MOST_SCORED - len(others)))
     chosen = stratified_sample([name] * len(members), count, seed)
-    rest = stratified_sample([labels[row] for row in others], SCORED - count, seed)
+    rest = stratified_sample([labels[row] for row in others], MOST_SCORED - count, seed)
     return [members[place] for place in chosen], [others[place] for place in rest]
 
 

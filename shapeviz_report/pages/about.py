@@ -5,10 +5,14 @@ from __future__ import annotations
 import json
 from collections import Counter
 
-from shapeviz_report.pages.base import MEASURED, METHODS, PageContent, class_names, is_in_full
+from shapeviz_report.faithfulness import RANKED
+from shapeviz_report.neighbours import FITTED
+from shapeviz_report.pages.base import MEASURED, METHODS, PageContent, class_names, grouped, is_in_full
 from shapeviz_report.presets import PRESETS
+from shapeviz_report.projections.kernels.nearest import EXACT_LIMIT
 from shapeviz_report.publication import has_licence, licence_warning
 from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
+from shapeviz_report.scorers import MOST_SCORED
 from shapeviz_report.search.certainty import choosing_pays
 from shapeviz_report.types import BinSearch, FeatureSearch, Report
 
@@ -41,6 +45,7 @@ class AboutPage:
                 ],
                 **_use(report),
                 "projections": _projections(report),
+                "samples": _samples(report),
                 "bins": next(iter(report.projections.values()))[0].bins,
                 "balanced": PRESETS[str(report.parameters["preset"])].balanced,
                 "searched": report.search is not None,
@@ -116,6 +121,23 @@ def _projections(report: Report) -> list[dict[str, object]]:
         }
         for method, (projection, quality) in report.projections.items()
     ]
+
+
+def _samples(report: Report) -> list[str]:
+    """Sentences on what does not come from all shapes, for there are too many."""
+    said = []
+    if len(report.shapes) > EXACT_LIMIT:
+        said += [
+            "The nearest of each shape by its features were found by descent over a graph, which misses about one in a "
+            "thousand.",
+            f"Trustworthiness, continuity and stress are those of {grouped(RANKED)} shapes among all others, and a "
+            f"shape’s fit to its class compares it with {grouped(FITTED)} that stand for their classes.",
+        ]
+    if report.scores is not None and len(report.shapes) > MOST_SCORED:
+        said.append(
+            f"The bins of each class were scored by {grouped(MOST_SCORED)} shapes of it and of the others."
+        )
+    return said
 
 
 def _clusters(report: Report) -> dict[str, object] | None:

@@ -13,6 +13,9 @@ from shapeviz_report.order import classes_of
 from shapeviz_report.scorers.base import Scorer
 from shapeviz_report.types import FloatArray
 
+MOST_SCORED = 5000
+"""Most shapes by which a build scores the bins of a class: 110 MB of values."""
+
 
 @dataclass(frozen=True)
 class Contest:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
-from shapeviz_report.building.questions import SCORED, contestants
+from shapeviz_report.building.questions import contestants
+from shapeviz_report.scorers import MOST_SCORED
 
 
 def test_all_shapes_take_part_where_they_are_few() -> None:
@@ -20,7 +21,7 @@ def test_of_many_shapes_a_share_of_every_class_takes_part() -> None:
         members, others = contestants(labels, name, 0)
         assert {labels[row] for row in members} == {name}
         assert len(members) == own
-        assert len({*members, *others}) == SCORED
+        assert len({*members, *others}) == MOST_SCORED
         counts = Counter(labels[row] for row in others)
         assert name not in counts
         assert None not in counts
@@ -30,4 +31,4 @@ def test_of_many_shapes_a_share_of_every_class_takes_part() -> None:
 
 def test_a_class_that_is_nearly_all_is_not_cut_short() -> None:
     members, others = contestants(["ant"] * 9000 + ["bird"] * 10, "ant", 0)
-    assert (len(members), len(others)) == (SCORED - 10, 10)
+    assert (len(members), len(others)) == (MOST_SCORED - 10, 10)

@@ -116,3 +116,13 @@ def test_repairs_are_summed_up_over_the_meshes():
     context = AboutPage().content(replace(report, facts=facts)).context
     assert context["repairs"] == [("vertices welded", 2, 7), ("empty faces dropped", 1, 1)]
     assert (context["repaired"], context["open"]) == (2, 1)
+
+
+def test_what_comes_from_samples_is_said(monkeypatch, tmp_path):
+    report = make_report(["ant", "bird"], 8)
+    assert AboutPage().content(report).context["samples"] == []
+    monkeypatch.setattr(about, "EXACT_LIMIT", 10)
+    write_site(report, tmp_path)
+    text = (tmp_path / "about.html").read_text(encoding="utf-8")
+    assert "those of 2\u202f000 shapes among all others" in text
+    assert "4\u202f000 that stand for their classes" in text
