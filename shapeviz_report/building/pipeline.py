@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import platform
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -61,6 +62,9 @@ from shapeviz_report.types import (
     group_copies,
 )
 from shapeviz_report.writing import ShownReport, write_site
+from shapeviz_report.writing.hosts import note
+
+logger = logging.getLogger(__name__)
 
 CLUSTERS = "clusters"
 """What the labeling is called that stands in for labels."""
@@ -105,6 +109,9 @@ def build_report(
         publication = read_publication(config)
         database = read_published(database_path, config, publication)
         check_meshes(destination, database)
+        heavy = note(len(database.shapes), config.thumbnail_size, models=config.meshes)
+        if heavy is not None and not config.single_file:
+            logger.warning("Note: %s", heavy)
         external = load_all_external(config.external, database)
         preset = PRESETS[config.preset]
         blocks = (*preset.blocks, *(block for block, _ in external))

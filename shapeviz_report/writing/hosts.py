@@ -1,0 +1,120 @@
+"""What a site will weigh, before anything is computed, and which hosts would not take it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from shapeviz_report.models import MANY
+from shapeviz_report.pages.base import MOST_IN_FULL
+
+
+@dataclass(frozen=True)
+class Weight:
+    """What a site weighs, about.
+
+    Attributes
+    ----------
+    bytes, models : int
+        In all, and of that the 3D models.
+    files, folder : int
+        In all, and most in one folder.
+    largest : int
+        Bytes of the largest file.
+    """
+
+    bytes: int
+    models: int
+    files: int
+    folder: int
+    largest: int
+
+
+@dataclass(frozen=True)
+class Host:
+    """What a host of static sites takes at most; None where it names no limit."""
+
+    name: str
+    bytes: int | None = None
+    files: int | None = None
+    folder: int | None = None
+    largest: int | None = None
+
+
+HOSTS = (
+    Host("GitHub Pages", bytes=10**9, largest=100 * 2**20),
+    Host("GitLab Pages", bytes=10**9),
+    Host("Cloudflare Pages", files=20_000, largest=25 * 2**20),
+    Host("Hugging Face", folder=10_000),
+)
+"""As their documentation says, for plans that cost nothing."""
+
+BASE, BASE_FILES = 8_000_000, 200
+"""Bytes and files of a site beside those of its shapes."""
+
+MODEL, MODEL_OF_MANY, FEATURES, FACTS = 80_000, 27_000, 14_000, 1_500
+"""Bytes of a shape: its 3D model, its features for download and for the browser, what is known of it. Of more shapes
+than are written in full, features take half."""
+
+PICTURE, PICTURE_SIZE, PICTURE_POWER = 6_000, 320, 1.6
+"""Bytes of a thumbnail of so many pixels, and the power of its size with which they grow."""
+
+
+def weigh(shapes: int, thumbnail_size: int, *, models: bool) -> Weight:
+    """What a site of so many shapes will weigh, by those that were measured: to a third, of odd meshes to a half."""
+    many = shapes > MOST_IN_FULL
+    picture = PICTURE * (thumbnail_size / PICTURE_SIZE) ** PICTURE_POWER
+    # Once as files, and once more in parts for the browser; of very many the parts alone.
+    pictures = int(shapes * picture * (4 / 3 if many else 7 / 3))
+    features = shapes * FEATURES // (2 if many else 1)
+    of_models = shapes * (MODEL if shapes <= MANY else MODEL_OF_MANY) if models else 0
+    singles = (shapes if models else 0, 0 if many else shapes)
+    parts = shapes // 32 + shapes // 200
+    return Weight(
+        bytes=BASE + pictures + features + shapes * FACTS + of_models,
+        models=of_models,
+        files=BASE_FILES + sum(singles) + parts,
+        folder=max(*singles, parts),
+        largest=max(2_000_000, features * 3 // 4),
+    )
+
+
+def refusals(weight: Weight) -> list[str]:
+    """The hosts that would not take a site, each with its limit, in words."""
+    said = []
+    for host in HOSTS:
+        limits = (
+            (host.bytes, weight.bytes, "{} in all"),
+            (host.largest, weight.largest, "{} a file"),
+            (host.files, weight.files, "{} files"),
+            (host.folder, weight.folder, "{} files a folder"),
+        )
+        broken = [
+            words.format(f"{limit:,}" if "files" in words else in_words(limit))
+            for limit, found, words in limits
+            if limit is not None and found > limit
+        ]
+        if broken:
+            said.append(f"{host.name} ({', '.join(broken)})")
+    return said
+
+
+def in_words(size: int) -> str:
+    """A number of bytes as one would say it."""
+    if size % 2**20 == 0:
+        return f"{size // 2**20} MiB"
+    return f"{size / 1e9:.1f} GB" if size >= 1e9 else f"{size / 1e6:.0f} MB"
+
+
+def note(shapes: int, thumbnail_size: int, *, models: bool) -> str | None:
+    """A sentence for who builds a site that some hosts would not take; None for one that all take."""
+    weight = weigh(shapes, thumbnail_size, models=models)
+    refusing = refusals(weight)
+    if not refusing:
+        return None
+    text = (
+        f"the site will weigh about {in_words(weight.bytes)} in {weight.files:,} files, more than these hosts take: "
+        f"{'; '.join(refusing)}."
+    )
+    if weight.models:
+        text += f" Of that, 3D models are {in_words(weight.models)}, which --no-meshes leaves out."
+    return text
