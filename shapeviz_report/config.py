@@ -187,7 +187,10 @@ class Config:
     @property
     def worker_count(self) -> int:
         """Number of worker processes: as asked for, or as many as this process may use cores."""
-        return self.jobs or len(os.sched_getaffinity(0))
+        if self.jobs is not None:
+            return self.jobs
+        # macOS and Windows do not say on which cores a process may run.
+        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
     @property
     def memory_bytes(self) -> int | None:

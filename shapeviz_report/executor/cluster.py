@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import queue
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import suppress
@@ -123,9 +124,12 @@ class DaskExecutor:
             while True:
                 room = TASKS_A_THREAD * self._threads() - len(running)
                 for index, task in islice(waiting, max(0, room)):
-                    future = self._client.submit(
-                        _run_there, self._expected, limits, function, task, pure=False
-                    )
+                    with warnings.catch_warnings():
+                        # Dask would have what is large scattered beforehand, where it is lost with a worker.
+                        warnings.filterwarnings("ignore", message="Sending large graph")
+                        future = self._client.submit(
+                            _run_there, self._expected, limits, function, task, pure=False
+                        )
                     running[future] = index
                     future.add_done_callback(done.put)
                 if not running:
