@@ -181,7 +181,8 @@ class Runner:
     ) -> tuple[Any, ...] | None:
         """The arguments of :func:`work_through` for what is wanted and not found; None where nothing is to be done."""
         missing = {stage.folder for stage in wanted} - found.keys()
-        if not missing or any(_refuses(stage, found.get(stage.folder)) for stage in wanted):
+        # Only the first may tell why, so that the words do not depend on what another command has kept.
+        if not missing or _refuses(wanted[0], found.get(wanted[0].folder)):
             return None
         given: dict[str, Any] = {}
         needed = set(missing)

@@ -194,6 +194,21 @@ def children_of(parent: int) -> list[int]:
     return found
 
 
+def test_a_check_before_a_build_changes_nothing_that_is_said(tmp_path) -> None:
+    database = write_database(tmp_path / "mixed", per_class=1)
+    (database / "box" / "text.obj").write_text("this is not a mesh\n")
+    (database / "box" / "flat.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n")
+    fresh, checked = tmp_path / "fresh", tmp_path / "checked"
+    shapeviz_report.check(database, cache=checked)
+    said = [
+        shapeviz_report.build(database, tmp_path / f"site-{cache.name}", cache=cache, **OPTIONS).failures
+        for cache in (fresh, checked)
+    ]
+    assert said[0] == said[1]
+    assert {failure.stage for failure in said[0]} == {"prepare"}
+    assert all(len(failure.reason) > 10 for failure in said[0])
+
+
 def test_strange_files_are_reported_and_stop_nothing(tmp_path, cache) -> None:
     database = write_database(tmp_path / "mixed", per_class=2)
     odd = database / "box"
