@@ -664,8 +664,17 @@ class FoundSet(TypedDict):
 
 
 class Workbench(TypedDict):
-    """The bins but for their values; ``bins`` are the columns that the maps of the site are made from, or all."""
+    """The bins but for their values.
 
+    Attributes
+    ----------
+    sample : (m,) int32 array, or None
+        The shapes whose values the chunk "bins" holds, rising; None for all.
+    bins : list of int, or None
+        The columns that the maps of the site are made from; None for all.
+    """
+
+    sample: npt.NDArray[np.int32] | None
     features: list[Feature]
     called: list[str]
     sentences: list[str]
@@ -813,7 +822,8 @@ class Chunks(TypedDict, total=False):
     neighbours : bytes
         Of each of the ``spaces`` of a comparison, the nearest shapes of every shape; little-endian uint32.
     bins : bytes
-        The compared values, column after column, in 65,535 steps from ``low`` to ``high`` of the feature; uint16.
+        The compared values, column after column, in 65,535 steps from ``low`` to ``high`` of the feature; uint16. Of
+        the shapes of ``Workbench.sample`` where there are too many for a browser.
     scores : bytes
         The score of every scorer, class and column in 65,535 steps; uint16.
     engine : str

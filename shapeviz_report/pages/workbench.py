@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from shapeviz_report import charts, quality
-from shapeviz_report.pages.base import MEASURED, PageContent, bins_of, class_names, feature_marks
+from shapeviz_report.pages.base import (
+    MEASURED,
+    PageContent,
+    bins_of,
+    class_codes,
+    class_names,
+    feature_marks,
+    is_in_full,
+)
 from shapeviz_report.pages.bins import SCORE_DECIMALS, all_features, mean_over_folds
 from shapeviz_report.pages.chunks import (
     Chunks,
@@ -17,11 +27,12 @@ from shapeviz_report.pages.chunks import (
     Workbench,
 )
 from shapeviz_report.pages.fields import color_choices
+from shapeviz_report.pages.sampling import sample_rows
 from shapeviz_report.presets import PRESETS, Preset, compared_values
 from shapeviz_report.scorers import SCORERS
 from shapeviz_report.scorers.registry import ALL_SCORERS
 from shapeviz_report.search.certainty import choosing_pays
-from shapeviz_report.types import BinSearch, FeatureBlock, FloatArray, Report
+from shapeviz_report.types import BinSearch, FeatureBlock, FeatureTable, FloatArray, IntArray, Report
 from shapeviz_report.wording import call_bins, explain_bins
 from shapeviz_report.wording.registry import all_global_wordings, all_wordings
 
@@ -40,10 +51,11 @@ class WorkbenchPage:
     def content(self, report: Report) -> PageContent:
         classes = class_names(report)
         preset = PRESETS[str(report.parameters["preset"])]
-        compared = compared_values(report.features, preset)
+        spans = _spans(report.features, preset)
+        sample = None if is_in_full(report) else sample_rows(class_codes(report))
         chunks: Chunks = {
-            "workbench": _workbench(report, preset, compared, classes),
-            "bins": _bins(report, compared),
+            "workbench": _workbench(report, preset, spans, sample, classes),
+            "bins": _bins(report.features, preset, spans, sample),
         }
         if report.scores is not None:
             chunks["scores"] = _steps(report.scores.values, 0.0, 1.0)
@@ -58,11 +70,18 @@ class WorkbenchPage:
         )
 
 
-def _workbench(report: Report, preset: Preset, compared: FloatArray, classes: tuple[str, ...]) -> Workbench:
+#: The lowest and the highest compared value of every feature, by its name.
+Spans = dict[str, tuple[float, float]]
+
+
+def _workbench(
+    report: Report, preset: Preset, spans: Spans, sample: IntArray | None, classes: tuple[str, ...]
+) -> Workbench:
     """All but the values: what the columns are, and what the page starts from."""
     projection, hits = next(iter(report.projections.values()))
     return {
-        "features": _features(report, compared),
+        "sample": sample,
+        "features": _features(report, spans),
         # In few plain words; empty for features that were brought along.
         "called": list(call_bins(report.features, report.edges)),
         "sentences": list(explain_bins(report.features, report.edges, by_area=preset.by_area)),
@@ -80,17 +99,16 @@ def _workbench(report: Report, preset: Preset, compared: FloatArray, classes: tu
     }
 
 
-def _features(report: Report, compared: FloatArray) -> list[Feature]:
+def _features(report: Report, spans: Spans) -> list[Feature]:
     """Every feature: its columns, its words, and between which values the chunk of bins is cut into steps."""
     hues = charts.feature_color_indices(len(report.features.blocks))
     features: list[Feature] = []
     for block, hue in zip(report.features.blocks, hues, strict=True):
-        columns = report.features.slice_of(block.name)
-        low, high = _span(compared[:, columns])
+        low, high = spans[block.name]
         features.append(
             {
                 "name": block.name,
-                "start": columns.start,
+                "start": report.features.slice_of(block.name).start,
                 "dimensions": block.dimensions,
                 "bins": block.bins,
                 "weight": block.weight,
@@ -130,17 +148,25 @@ def _words(block: FeatureBlock) -> FeatureWords:
     }
 
 
-def _span(values: FloatArray) -> tuple[float, float]:
-    return float(values.min()), float(values.max())
+def _spans(table: FeatureTable, preset: Preset) -> Spans:
+    # Compared values rise with those of the table, whose copy would be gigabytes of a large database.
+    extremes = np.stack([table.values.min(axis=0), table.values.max(axis=0)])
+    low, high = compared_values(replace(table, values=extremes), preset)
+    return {
+        block.name: (float(low[columns].min()), float(high[columns].max()))
+        for block in table.blocks
+        for columns in [table.slice_of(block.name)]
+    }
 
 
-def _bins(report: Report, compared: FloatArray) -> bytes:
-    """The compared values, column after column, each a number of steps between the ends of its feature."""
-    parts = []
-    for block in report.features.blocks:
-        values = compared[:, report.features.slice_of(block.name)]
-        parts.append(_steps(values.T, *_span(values)))
-    return b"".join(parts)
+def _bins(table: FeatureTable, preset: Preset, spans: Spans, sample: IntArray | None) -> bytes:
+    """The compared values of all shapes, or of a sample, column after column, each a number of steps between the ends of
+    its feature."""
+    values = table.values if sample is None else table.values[sample]
+    compared = compared_values(replace(table, values=values), preset)
+    return b"".join(
+        _steps(compared[:, table.slice_of(block.name)].T, *spans[block.name]) for block in table.blocks
+    )
 
 
 def _steps(values: np.ndarray, low: float, high: float) -> bytes:

@@ -432,8 +432,9 @@ declare namespace Chunk {
     shapes: number;
     pays: boolean;
   }
-  /** The bins but for their values; `bins` are the columns that the maps of the site are made from, or all. */
+  /** The bins but for their values. */
   interface Workbench {
+    sample: Int32Array | null;
     features: Feature[];
     called: string[];
     sentences: string[];

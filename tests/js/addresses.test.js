@@ -194,7 +194,7 @@ const PAGES = {
     [
       "",
       "hide=ant&features=FPFH+50%2520%2525%2520of%2520it&bins=FPFH%5B1%5D%3A2&map=umap&scorer=anova",
-      "class=bee&bins=&separate=ant&separate=bee&from=cup+%26+plate&together=&sample=&color=hit&select=ant%2F1",
+      "class=bee&bins=&separate=ant&separate=bee&from=cup+%26+plate&together=&color=hit&select=ant%2F1",
       "hide-unlabelled=&hide=ant&hide=bee&hide=cup+%26+plate&separate=&from=",
       "unlabelled=",
       "hide-unlabelled=",

@@ -69,7 +69,7 @@ const called = [
 ].flat();
 const sentences = called.map((_, column) => `What share of the surface lies where quantity ${column} is measured.`);
 const bins = new Bins(
-  /** @type {any} */ ({ features, called, sentences, marks: {}, scaling: "balanced" }),
+  /** @type {any} */ ({ features, called, sentences, marks: {}, scaling: "balanced", sample: null }),
   new Uint16Array([...Array(9).fill(0), 0x8000, 0]).buffer,
 );
 /** @param {string} text */

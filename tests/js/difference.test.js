@@ -51,7 +51,7 @@ function twoShapes() {
     ...sharesOf(solid, 1, 4).map(Math.sqrt),
   ]);
   const steps = new Uint16Array(rows[0].flatMap((_, column) => rows.map((row) => Math.round(STEPS * row[column]))));
-  const bins = new Bins({ features, scaling: "balanced", sentences: [], marks: {} }, steps.buffer);
+  const bins = new Bins({ features, scaling: "balanced", sentences: [], marks: {}, sample: null }, steps.buffer);
   return { bins, solids, similarity: new Similarity(bins) };
 }
 

@@ -11,7 +11,6 @@ const step = (bins, { hidden = [], features = [0, 1], taken = 0, ...manner } = {
   projection: "tsne",
   scorer: "rfe",
   separation: { from: null, against: null, each: true },
-  sample: false,
   taken,
   ...manner,
 });
@@ -25,7 +24,7 @@ test("a step says what it added before what it took away", () => {
   assert.deepEqual(changes(step([]), step([], { hidden: [4] })), [[-1, "class"]]);
   assert.deepEqual(changes(step([], { features: [0] }), step([])), [[1, "feature"]]);
   assert.deepEqual(changes(step([1]), step([1])), []);
-  assert.deepEqual(turns(step([1]), step([2], { projection: "umap", sample: true })), ["other map", "a sample"]);
+  assert.deepEqual(turns(step([1]), step([2], { projection: "umap", scorer: "anova" })), ["other map", "other scorer"]);
 });
 
 test("steps are alike by what they choose and how they look at it, in whatever order", () => {

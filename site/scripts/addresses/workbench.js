@@ -1,7 +1,6 @@
 // The work in the address: a link, and a reload, bring back the same maps and the same figures.
 
-import { Address, choice, flag } from "../base/address.js";
-import { MOST_SHAPES } from "../database/sample.js";
+import { Address, choice } from "../base/address.js";
 import { readShortNames, shortNames } from "./bin-names.js";
 import { classesNamed } from "./classes.js";
 import { coloredBy } from "./colors.js";
@@ -27,7 +26,6 @@ import { selected } from "./selected.js";
  * @property {string} projection
  * @property {string} scorer
  * @property {{ from: Set<number> | null, against: Set<number> | null, each: boolean }} separation
- * @property {boolean} sample
  * @property {string} color what it says: `class`, `hit`, or the key of a field or a bin
  * @property {any} step of the history
  * @property {ShapeMap | null} originalMap
@@ -60,7 +58,6 @@ export const EVERY_CLASS = Object.freeze({ from: null, against: null, each: true
  */
 export function workAddress(database, data) {
   const method = PROJECTIONS.includes(data.method) ? data.method : PROJECTIONS[0];
-  const samples = database.count > MOST_SHAPES ? flag : choice([]);
   return new Address([
     { name: "hidden", ...classesInUse(database), place: true, words: "the classes" },
     { names: ["features", "bins"], ...binsInUse(data), place: true, words: "features and bins" },
@@ -77,7 +74,6 @@ export function workAddress(database, data) {
       words: "the scorer",
     },
     { name: "separation", ...separation(database), place: true, words: "the question" },
-    { name: "sample", key: "sample", kind: samples, standard: false, place: true },
     coloredBy(database),
     selected(database),
     LINES,

@@ -28,7 +28,7 @@ import { lookUp } from "./missing.js";
 
 /** Parameters that mean the same on every page that has them: they go along from page to page, past those that do not. */
 const COMMON =
-  /^(map|features|bins|find|color|hide|hide-unlabelled|class|unlabelled|scorer|separate|from|together|sample|select|selected|[ab](-select(ed)?)?|(is|lacks|range)\..+)$/;
+  /^(map|features|bins|find|color|hide|hide-unlabelled|class|unlabelled|scorer|separate|from|together|select|selected|[ab](-select(ed)?)?|(is|lacks|range)\..+)$/;
 
 /**
  * What of an address goes along to other pages.

@@ -34,7 +34,10 @@ export class Bins {
     this.#words = new BinWords(this);
     this.count = this.names.length;
     this.steps = new Uint16Array(bytes);
+    /** How many shapes it knows: all, or those of a sample. */
     this.rows = this.steps.length / this.count;
+    this.sample = data.sample;
+    this.#rowOf = data.sample && rowsOf(data.sample);
     this.#featureOf = Int32Array.from(
       this.features.flatMap(({ dimensions, bins }, index) => Array(dimensions * bins).fill(index)),
     );
@@ -42,6 +45,24 @@ export class Bins {
 
   /** @type {Int32Array} */
   #featureOf;
+  /** @type {Int32Array | null} */
+  #rowOf;
+
+  /**
+   * The row of `steps` that a shape has; -1 where it is not of the sample.
+   * @param {number} shape
+   */
+  rowOf(shape) {
+    return this.#rowOf === null ? shape : (this.#rowOf[shape] ?? -1);
+  }
+
+  /**
+   * The shape of a row of `steps`.
+   * @param {number} row
+   */
+  shapeOf(row) {
+    return this.sample === null ? row : this.sample[row];
+  }
 
   /**
    * The index of the feature that a column belongs to.
@@ -93,12 +114,22 @@ export class Bins {
   }
 
   /**
-   * The compared value of a shape: the square root of its share of the surface where features are balanced.
+   * The compared value of a shape: the square root of its share of the surface where features are balanced; no number where
+   * it is not of the sample.
    * @param {number} column
-   * @param {number} row
+   * @param {number} shape
    */
-  value(column, row) {
-    return this.#valueAt(column, this.steps[column * this.rows + row]);
+  value(column, shape) {
+    return this.#valueAt(column, this.#stepOf(column, shape));
+  }
+
+  /**
+   * @param {number} column
+   * @param {number} shape
+   */
+  #stepOf(column, shape) {
+    const row = this.rowOf(shape);
+    return row < 0 ? NaN : this.steps[column * this.rows + row];
   }
 
   /**
@@ -120,11 +151,13 @@ export class Bins {
   }
 
   /**
-   * The compared values of all shapes in one column.
+   * The compared values in one column, of all shapes or of the sample.
    * @param {number} column
    */
   column(column) {
-    return Float32Array.from({ length: this.rows }, (_, row) => this.value(column, row));
+    return Float32Array.from({ length: this.rows }, (_, row) =>
+      this.#valueAt(column, this.steps[column * this.rows + row]),
+    );
   }
 
   /** All compared values, column after column, as the engine wants them. */
@@ -139,12 +172,12 @@ export class Bins {
 
   /**
    * What a reader can picture: the share of a shape's surface, or of its pairs of places, that falls into a bin, in
-   * [0, 1]; else the value itself.
+   * [0, 1]; else the value itself; no number where it is not of the sample.
    * @param {number} column
-   * @param {number} row
+   * @param {number} shape
    */
-  share(column, row) {
-    return this.shareAt(column, this.steps[column * this.rows + row]);
+  share(column, shape) {
+    return this.shareAt(column, this.#stepOf(column, shape));
   }
 
   /**
@@ -265,6 +298,16 @@ export class Bins {
   colorOf(feature) {
     return this.marks[currentTheme()].features[this.features[feature].hue];
   }
+}
+
+/**
+ * The place of every shape in a sample, -1 for one that is not of it; up to the last that is.
+ * @param {Int32Array} sample rising
+ */
+function rowsOf(sample) {
+  const places = new Int32Array(/** @type {number} */ (sample.at(-1)) + 1).fill(-1);
+  for (const [row, shape] of sample.entries()) places[shape] = row;
+  return places;
 }
 
 /**

@@ -27,6 +27,7 @@ import { Sheets } from "./sheets.js";
  * @property {number | null} chance
  * @property {number | null} chanceSpread
  * @property {Faith | null} [faith] how far it shows who is like whom
+ * @property {Int32Array} [sample] the shapes that it was measured on, rising, where these are not all that have a place
  * @property {Choice} [compares] what it is made from, where this is not its features, or those of all maps of the site
  * @property {() => Promise<void>} [know] fetches what it shows of the neighbours of each shape
  *
@@ -169,11 +170,15 @@ export class Database {
    * @param {number} methodIndex
    */
   #findNeighbours(index, methodIndex) {
-    const { x, y, neighbours } = this.methods[methodIndex];
+    const { x, y, neighbours, sample, compares } = this.methods[methodIndex];
+    // What lies beside the shapes of a sample was put there: it says nothing of who is near.
+    const among = (compares && sample) ?? null;
     // The nearest so far, nearest first: few, where a sort would go over all shapes.
     /** @type {{ other: number, distance: number }[]} */
     const found = [];
-    for (let other = 0; other < x.length; other += 1) {
+    const { length } = among ?? x;
+    for (let number = 0; number < length; number += 1) {
+      const other = among === null ? number : among[number];
       const distance = (x[other] - x[index]) ** 2 + (y[other] - y[index]) ** 2;
       if (other === index || !Number.isFinite(distance)) continue;
       if (found.length === neighbours && distance >= found[neighbours - 1].distance) continue;

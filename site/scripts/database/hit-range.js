@@ -37,15 +37,21 @@ export function hitRange(groups, k) {
 const ranges = new WeakMap();
 
 /**
- * The range of a map as the Database has them; of the shapes that have a place on it.
+ * The range of a map as the Database has them; of the shapes that it was measured on.
  * @param {Database} database
  * @param {ShapeMap} map
  */
 export function rangeOf(database, map) {
-  return entry(ranges, map, () => {
-    const groups = database.groups.filter((_, index) => !Number.isNaN(map.x[index]));
-    return hitRange(groups, map.neighbours);
-  });
+  return entry(ranges, map, () => hitRange(measuredGroups(database, map), map.neighbours));
+}
+
+/**
+ * The classes of those shapes: of its sample, or of all that have a place on it.
+ * @param {Database} database
+ * @param {ShapeMap} map
+ */
+function measuredGroups({ groups }, { sample, x }) {
+  return sample ? sample.map((shape) => groups[shape]) : groups.filter((_, index) => !Number.isNaN(x[index]));
 }
 
 /**
@@ -55,7 +61,7 @@ export function rangeOf(database, map) {
  * @param {ShapeMap} map
  */
 export function nothingTold(database, map) {
-  const groups = database.groups.filter((_, index) => !Number.isNaN(map.x[index]));
+  const groups = measuredGroups(database, map);
   const { highest, highestOfClass, chanceOfClass } = rangeOf(database, map);
   if (highest === null) return null;
   if (highestOfClass.size === 1) return "All labelled shapes are of one class, which no map can mix with another.";

@@ -6,7 +6,8 @@ import { entry } from "../base/entry.js";
 export const MOST_SHAPES = 3000;
 
 /**
- * As many of `rows` as a browser can take, each class in proportion and none left out; rising.
+ * As many of `rows` as a browser can take, rising; to the letter as `sample_rows` of shapeviz_report/pages/sampling.py,
+ * which says how they are chosen.
  * @template {number[] | Int32Array} Rows
  * @param {Rows} rows
  * @param {ArrayLike<number>} groups
@@ -15,17 +16,14 @@ export const MOST_SHAPES = 3000;
  */
 export function sampled(rows, groups, most = MOST_SHAPES) {
   if (rows.length <= most) return rows;
-  /** @type {Map<number, number[]>} */
+  /** @type {Map<number, { row: number, place: number }[]>} */
   const members = new Map();
-  for (const row of rows) {
-    entry(members, groups[row], () => []).push(row);
-  }
-  const taken = [...members.values()].flatMap((own) =>
-    own
-      .sort((a, b) => scattered(a) - scattered(b))
-      .slice(0, Math.max(Math.floor((own.length * most) / rows.length), 1)),
+  for (const row of rows) entry(members, groups[row], () => []).push({ row, place: scattered(row) });
+  const ranked = [...members.values()].flatMap((own) =>
+    own.sort((a, b) => a.place - b.place).map((member, number) => ({ ...member, rank: number / own.length })),
   );
-  return Int32Array.from(taken).sort();
+  ranked.sort((a, b) => a.rank - b.rank || a.place - b.place);
+  return Int32Array.from(ranked.slice(0, most), ({ row }) => row).sort();
 }
 
 /**

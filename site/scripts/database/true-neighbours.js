@@ -77,7 +77,11 @@ export class TrueNeighbours {
     const choice = map.compares ?? {
       features: [...bins.features.keys()].filter((feature) => map.features.includes(bins.features[feature].name)),
     };
-    return similarity.nearest(index, choice, map.neighbours, (other) => !Number.isNaN(map.x[other]));
+    const row = bins.rowOf(index);
+    if (row < 0) return null;
+    return similarity
+      .nearest(row, choice, map.neighbours, (other) => !Number.isNaN(map.x[bins.shapeOf(other)]))
+      .map((other) => bins.shapeOf(other));
   }
 
   /**

@@ -17,17 +17,13 @@ import { turned } from "./turned.js";
 /** @import { Separation } from "./separation.js" */
 
 /**
- * What is asked of: what is in use, all shapes or a sample of them.
- * @typedef {Use & { sample: boolean }} Asked
- * @typedef {Pick<Asked, "hidden" | "sample">} AskedShapes
- *
  * Places of all shapes while a map is being made.
  * @typedef {(x: number[], y: number[]) => void} Partial
  *
  * Runs a task of the engines; those of scores take turns with several.
  * @typedef {(name: string, parameters: object, report?: Listener, number?: number) => Promise<any>} Run
  *
- * @typedef {{ method: string, rows: ArrayLike<number> & Iterable<number>, columns: Int32Array, by: "features" | "bins" }} Layout
+ * @typedef {{ method: string, shapes: Int32Array, columns: Int32Array, by: "features" | "bins" }} Layout
  */
 
 const SCORE_STEPS = 65535;
@@ -94,24 +90,35 @@ export class Answers {
   }
 
   /**
-   * The shapes of the classes in use, or of a large database a sample of them.
-   * @param {AskedShapes} asked
+   * The shapes of the classes in use.
+   * @param {Pick<Use, "hidden">} use
    */
-  rows({ hidden, sample }) {
+  inUse({ hidden }) {
     const { groups } = this.database;
-    const rows = Int32Array.from(groups.keys()).filter((row) => !hidden.has(groups[row]));
-    return sample ? sampled(rows, groups) : rows;
+    return Int32Array.from(groups.keys()).filter((shape) => !hidden.has(groups[shape]));
+  }
+
+  /**
+   * Those of which maps and scores are made: all, or where they are too many a sample, each class in proportion.
+   * @param {Pick<Use, "hidden">} use
+   * @returns {Int32Array}
+   */
+  shapes({ hidden }) {
+    const { groups } = this.database;
+    const { sample } = this.bins;
+    const known = sample?.filter((shape) => !hidden.has(groups[shape])) ?? this.inUse({ hidden });
+    return /** @type {Int32Array} */ (sampled(known, groups));
   }
 
   /**
    * Whether a map of all shapes that answers the question travels with the site.
    * @param {"original" | "refined"} which
    * @param {string} projection
-   * @param {Asked} asked
+   * @param {Use} use
    */
-  hasMap(which, projection, { hidden, sample, features, bins }) {
+  hasMap(which, projection, { hidden, features, bins }) {
     const { database, data } = this;
-    if (hidden.size > 0 || sample) return false;
+    if (hidden.size > 0) return false;
     if (which === "refined") return isSame(bins, data.bins);
     if (features.size === data.features.length && data.bins === null) return true;
     const { subsets } = database.data;
@@ -131,26 +138,31 @@ export class Answers {
   /**
    * The map of the classes in use under the features in use.
    * @param {string} projection
-   * @param {Asked} step
+   * @param {Use} step
    * @param {Listener} report
    * @param {Partial} partial
    * @returns {Job<ShapeMap>}
    */
   original(projection, step, report, partial) {
     /** @type {Layout} */
-    const asked = { method: projection, rows: this.rows(step), columns: this.columns(step.features), by: "features" };
+    const asked = {
+      method: projection,
+      shapes: this.shapes(step),
+      columns: this.columns(step.features),
+      by: "features",
+    };
     return this.#chain(async (run) => {
       const offline = this.hasMap("original", projection, step)
         ? await this.#offlineMap(projection, step.features)
         : null;
-      return offline ?? this.#layout(run, asked, report, partial);
+      return offline === null ? this.#layout(run, asked, report, partial) : this.#comparable(run, offline, step);
     });
   }
 
   /**
    * The map of the classes in use under the chosen bins.
    * @param {string} projection
-   * @param {Asked} step
+   * @param {Use} step
    * @param {Listener} report
    * @param {Partial} partial
    * @returns {Job<ShapeMap>}
@@ -158,11 +170,12 @@ export class Answers {
   refined(projection, step, report, partial) {
     const columns = Int32Array.from(step.bins).sort();
     /** @type {Layout} */
-    const asked = { method: projection, rows: this.rows(step), columns, by: "bins" };
+    const asked = { method: projection, shapes: this.shapes(step), columns, by: "bins" };
     const offline = this.hasMap("refined", projection, step) ? this.#siteMap(projection) : null;
-    return this.#chain(
-      async (run) =>
-        offline ?? (await this.#foundMap(run, projection, step)) ?? this.#layout(run, asked, report, partial),
+    return this.#chain(async (run) =>
+      offline === null
+        ? ((await this.#foundMap(run, projection, step)) ?? this.#layout(run, asked, report, partial))
+        : this.#comparable(run, offline, step),
     );
   }
 
@@ -170,7 +183,7 @@ export class Answers {
    * A few bins that keep the classes in use apart, and their map: those that the build found where it searched for the
    * same classes, else those that a search among the best of the scored bins finds now.
    * @param {string} projection
-   * @param {Asked} step
+   * @param {Use} step
    * @param {ArrayLike<number>} ranking columns, best first
    * @param {Listener} report
    * @returns {Job<{ columns: number[], map: ShapeMap }>}
@@ -180,7 +193,12 @@ export class Answers {
     return this.#chain(async (run) => {
       const columns = known?.bins ?? (await this.#grow(run, step, ranking, report));
       /** @type {Layout} */
-      const asked = { method: projection, rows: this.rows(step), columns: Int32Array.from(columns).sort(), by: "bins" };
+      const asked = {
+        method: projection,
+        shapes: this.shapes(step),
+        columns: Int32Array.from(columns).sort(),
+        by: "bins",
+      };
       const chosen = { ...step, bins: new Set(columns) };
       const map = (await this.#foundMap(run, projection, chosen)) ?? (await this.#layout(run, asked, report, () => {}));
       return { columns, map };
@@ -189,11 +207,11 @@ export class Answers {
 
   /**
    * The bins that the build found for the classes and features in use, unless they are chosen already.
-   * @param {Asked} step
+   * @param {Use} step
    */
-  foundBins({ hidden, features, bins, sample }) {
+  foundBins({ hidden, features, bins }) {
     const { found } = this.data;
-    if (found === null || hidden.size > 0 || sample || features.size < this.bins.features.length) return null;
+    if (found === null || hidden.size > 0 || features.size < this.bins.features.length) return null;
     return isSame(bins, found.bins) ? null : found;
   }
 
@@ -202,12 +220,12 @@ export class Answers {
    * differently, and reach another NH than was told. Null for others.
    * @param {Run} run
    * @param {string} projection
-   * @param {Asked} step
+   * @param {Use} step
    */
   async #foundMap(run, projection, step) {
     const { data, database } = this;
     const { found } = data;
-    if (found === null || projection !== FOUND_BY || step.hidden.size > 0 || step.sample) return null;
+    if (found === null || projection !== FOUND_BY || step.hidden.size > 0) return null;
     if (!isSame(step.bins, found.bins)) return null;
     const selection = await chunk("selection");
     const last = selection.path.at(-1);
@@ -215,33 +233,29 @@ export class Answers {
     const base = this.#siteMap(projection);
     const map = mapOf(last, selection, database.count);
     const { x, y } = base === null ? map : turned(map, base);
-    const rows = this.rows(step);
-    const xy = Float64Array.from(
-      { length: 2 * rows.length },
-      (_, place) => (place % 2 === 0 ? x : y)[rows[place >> 1]],
-    );
+    const shapes = this.shapes(step);
     // Told is what the unrounded map reaches.
     const columns = Int32Array.from(found.bins).sort();
     return {
-      ...(await this.#measured(run, { method: projection, rows, columns, by: "bins" }, xy)),
+      ...(await this.#measured(run, { method: projection, shapes, columns, by: "bins" }, placesOf({ x, y }, shapes))),
       hitOfAll: found.nh,
     };
   }
 
   /**
    * @param {Run} run
-   * @param {Asked} step
+   * @param {Use} step
    * @param {ArrayLike<number>} ranking
    * @param {Listener} report
    * @returns {Promise<number[]>}
    */
   async #grow(run, step, ranking, report) {
     const { groups } = this.database;
-    const rows = Int32Array.from(sampled(this.rows(step), groups, SEARCHED_SHAPES));
+    const shapes = sampled(this.shapes(step), groups, SEARCHED_SHAPES);
     const task = {
-      rows,
+      rows: this.#rows(shapes),
       columns: Int32Array.from(ranking).slice(0, SEARCHED_BINS),
-      groups: Int32Array.from(rows, (row) => groups[row]),
+      groups: Int32Array.from(shapes, (shape) => groups[shape]),
       k: this.data.neighbours,
       limit: FOUND_BINS,
     };
@@ -252,7 +266,7 @@ export class Answers {
    * Whether a question for scores can be answered: not every scorer runs in the browser.
    * @param {string} scorer
    * @param {Separation} separation
-   * @param {Asked} step
+   * @param {Use} step
    */
   canScore(scorer, separation, { hidden, features }) {
     const live = this.data.scorers.some((known) => known.key === scorer && known.live);
@@ -263,7 +277,7 @@ export class Answers {
    * Relative scores of all columns; no numbers for those of features that are not in use.
    * @param {string} scorer
    * @param {Separation} separation
-   * @param {Asked} step
+   * @param {Use} step
    * @param {Listener} report
    * @returns {Job<Float64Array>}
    */
@@ -273,9 +287,9 @@ export class Answers {
     if (offline !== null) return { done: offline, cancel: () => {} };
     const columns = this.columns(features);
     const groups = this.groups(hidden);
-    const rows = this.rows(step);
+    const shapes = this.shapes(step);
     /** @param {number[]} chosen */
-    const rowsOf = (chosen) => rows.filter((row) => chosen.includes(this.database.groups[row]));
+    const rowsOf = (chosen) => this.#rows(shapes.filter((shape) => chosen.includes(this.database.groups[shape])));
     const asked = contests(separation, groups);
     const done = new Array(asked.length).fill(0);
     /**
@@ -295,7 +309,7 @@ export class Answers {
       const lane = async (engine) => {
         for (let number = next++; number < asked.length; number = next++) {
           const { positive, negative } = asked[number];
-          const key = JSON.stringify([scorer, step.sample, positive, negative, [...features].sort()]);
+          const key = JSON.stringify([scorer, positive, negative, [...features].sort()]);
           let scores = this.#contests.get(key);
           if (scores === undefined) {
             const contest = { positive: rowsOf(positive), negative: rowsOf(negative) };
@@ -431,34 +445,39 @@ export class Answers {
    * @param {Partial} partial
    * @returns {Promise<ShapeMap>}
    */
-  async #layout(run, { method, rows, columns, by }, report, partial) {
+  async #layout(run, { method, shapes, columns, by }, report, partial) {
     const { database, data } = this;
     // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
     // and yet the same address gives the same map on any way there.
-    const base = this.#siteMap(method) ?? database.projections[0];
-    const start = Float32Array.from(
-      { length: 2 * rows.length },
-      (_, place) => (place % 2 === 0 ? base.x : base.y)[rows[place >> 1]],
-    );
+    const start = Float32Array.from(placesOf(this.#siteMap(method) ?? database.projections[0], shapes));
     /** @type {Listener} */
     const listen = (told) => {
       report({ progress: told.progress * 0.97 });
-      if (told.partial) partial(this.#spread(rows, told.partial.xy, 0), this.#spread(rows, told.partial.xy, 1));
+      if (told.partial) partial(this.#spread(shapes, told.partial.xy, 0), this.#spread(shapes, told.partial.xy, 1));
     };
-    const { xy } = await run("layout", { method, rows, columns, by, start, seed: data.seed }, listen);
-    return this.#measured(run, { method, rows, columns, by }, xy);
+    const task = { method, rows: this.#rows(shapes), columns, by, start, seed: data.seed };
+    const { xy } = await run("layout", task, listen);
+    return this.#measured(run, { method, shapes, columns, by }, xy);
+  }
+
+  /**
+   * The rows that shapes have in the engines' table.
+   * @param {ArrayLike<number>} shapes
+   */
+  #rows(shapes) {
+    return Int32Array.from(shapes, (shape) => this.bins.rowOf(shape));
   }
 
   /**
    * Places of all shapes, of which some have one.
-   * @param {ArrayLike<number>} rows
+   * @param {ArrayLike<number>} shapes
    * @param {ArrayLike<number>} xy
    * @param {0 | 1} part
    * @returns {number[]}
    */
-  #spread(rows, xy, part) {
+  #spread(shapes, xy, part) {
     const all = new Array(this.database.count).fill(NaN);
-    for (let index = 0; index < rows.length; index += 1) all[rows[index]] = xy[2 * index + part];
+    for (let index = 0; index < shapes.length; index += 1) all[shapes[index]] = xy[2 * index + part];
     return all;
   }
 
@@ -469,23 +488,16 @@ export class Answers {
    * @param {ArrayLike<number>} xy
    * @returns {Promise<ShapeMap>}
    */
-  async #measured(run, { method, rows, columns, by }, xy) {
-    const { database, data, bins } = this;
-    const groups = Int32Array.from(rows, (row) => database.groups[row]);
-    const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
-    // Neighbours of one class cannot disagree.
-    const several = new Set(groups.filter((group) => group >= 0)).size > 1;
+  async #measured(run, { method, shapes, columns, by }, xy) {
+    const { data, bins } = this;
     return {
       key: "live",
       ...(this.titles.get(method) ?? { title: method }),
       features: [],
-      x: this.#spread(rows, xy, 0),
-      y: this.#spread(rows, xy, 1),
-      hit: this.#onAll(rows, hit),
-      neighbours: Math.min(data.neighbours, rows.length - 1),
-      hitOfClass: database.classes.map((_, group) => (several ? known(hitOfClass[group]) : null)),
-      hitOfAll: several ? known(hitOfAll) : null,
-      chance: several ? chance(groups) : null,
+      x: this.#spread(shapes, xy, 0),
+      y: this.#spread(shapes, xy, 1),
+      neighbours: Math.min(data.neighbours, shapes.length - 1),
+      ...(await this.#hits(run, shapes, xy)),
       chanceSpread: null,
       compares:
         by === "bins"
@@ -495,27 +507,59 @@ export class Answers {
   }
 
   /**
+   * A map of the site with neighbourhood hits that can be set beside those of a map that is made here: where that is of a
+   * sample, they are of the same.
+   * @param {Run} run
+   * @param {ShapeMap} map
+   * @param {Use} step
+   * @returns {Promise<ShapeMap>}
+   */
+  async #comparable(run, map, step) {
+    const sample = this.shapes(step);
+    if (sample.length === this.inUse(step).length) return map;
+    return { ...map, sample, ...(await this.#hits(run, sample, placesOf(map, sample))) };
+  }
+
+  /**
+   * The neighbourhood hits of some shapes by their places.
+   * @param {Run} run
+   * @param {Int32Array} shapes
+   * @param {ArrayLike<number>} xy
+   * @returns {Promise<Pick<ShapeMap, "hit" | "hitOfClass" | "hitOfAll" | "chance">>}
+   */
+  async #hits(run, shapes, xy) {
+    const { database, data } = this;
+    const groups = shapes.map((shape) => database.groups[shape]);
+    const { hit, hitOfClass, hitOfAll } = await run("hit", { xy, groups, k: data.neighbours });
+    // Neighbours of one class cannot disagree.
+    const several = new Set(groups.filter((group) => group >= 0)).size > 1;
+    return {
+      hit: this.#onAll(shapes, hit),
+      hitOfClass: database.classes.map((_, group) => (several ? known(hitOfClass[group]) : null)),
+      hitOfAll: several ? known(hitOfAll) : null,
+      chance: several ? chance(groups) : null,
+    };
+  }
+
+  /**
    * How far a map that was made here shows who is like whom by what it is made from.
    * @param {ShapeMap} map
    * @param {Listener} report
    * @returns {Job<Faith>}
    */
-  faith({ x, y, compares, neighbours }, report) {
-    const rows = Int32Array.from(this.database.groups.keys()).filter((row) => !Number.isNaN(x[row]));
-    const xy = Float64Array.from(
-      { length: 2 * rows.length },
-      (_, place) => (place % 2 === 0 ? x : y)[rows[place >> 1]],
-    );
+  faith({ x, y, sample, compares, neighbours }, report) {
+    const shapes = sample ?? Int32Array.from(this.database.groups.keys()).filter((shape) => !Number.isNaN(x[shape]));
+    const xy = placesOf({ x, y }, shapes);
     const { columns, features } = /** @type {Choice} */ (compares);
     const asked = columns
       ? { columns: Int32Array.from(columns), by: "bins" }
       : { columns: this.columns(new Set(features)), by: "features" };
     return this.#chain(async (run) => {
-      const found = await run("faith", { rows, xy, ...asked, k: neighbours }, report);
+      const found = await run("faith", { rows: this.#rows(shapes), xy, ...asked, k: neighbours }, report);
       return {
-        kept: this.#onAll(rows, found.kept),
-        false: this.#onAll(rows, found.false),
-        missing: this.#onAll(rows, found.missing),
+        kept: this.#onAll(shapes, found.kept),
+        false: this.#onAll(shapes, found.false),
+        missing: this.#onAll(shapes, found.missing),
         mean: found.mean,
         chance: found.chance,
         trustworthiness: known(found.trustworthiness),
@@ -529,13 +573,13 @@ export class Answers {
 
   /**
    * What is known of some shapes, as of all; null where there is no number.
-   * @param {ArrayLike<number>} rows
+   * @param {ArrayLike<number>} shapes
    * @param {ArrayLike<number>} values
    * @returns {(number | null)[]}
    */
-  #onAll(rows, values) {
+  #onAll(shapes, values) {
     const all = new Array(this.database.count).fill(null);
-    for (let index = 0; index < rows.length; index += 1) all[rows[index]] = known(values[index]);
+    for (let index = 0; index < shapes.length; index += 1) all[shapes[index]] = known(values[index]);
     return all;
   }
 
@@ -564,6 +608,15 @@ export class Answers {
       },
     };
   }
+}
+
+/**
+ * Where some shapes are on a map, as the engines take places.
+ * @param {{ x: ArrayLike<number>, y: ArrayLike<number> }} map
+ * @param {Int32Array} shapes
+ */
+function placesOf({ x, y }, shapes) {
+  return Float64Array.from({ length: 2 * shapes.length }, (_, place) => (place % 2 === 0 ? x : y)[shapes[place >> 1]]);
 }
 
 /** @param {number | undefined} value */

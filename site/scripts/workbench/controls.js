@@ -1,8 +1,7 @@
 // The small controls: projection, what dragging does, scorer and separation; and the keys of the page.
 
 import { element } from "../base/dom.js";
-import { count, grouped } from "../base/words.js";
-import { MOST_SHAPES } from "../database/sample.js";
+import { count } from "../base/words.js";
 import { watchDragging } from "../map/dragging.js";
 import { contests, separationWords } from "./separation.js";
 
@@ -114,23 +113,18 @@ function missing({ from, against, each }, groups) {
 }
 
 /**
- * How many shapes the brush has so far, before the tray shows them; else whether the maps are those of a sample.
+ * How many shapes the brush has so far, before the tray shows them; else of how many the maps and scores are, if not of all.
  * @param {WorkState} state
  * @param {Desk} desk
  */
 function watchPicked(state, desk) {
   const node = document.getElementById("picked");
   const show = () => {
-    if (state.get("brushing")) node.textContent = `${count(state.get("selection").size, "shape")} selected`;
-    else if (!state.get("sample")) node.replaceChildren();
-    else {
-      node.replaceChildren(
-        element("span", {}, `A sample of ${grouped(MOST_SHAPES)} shapes at most`),
-        element("button", { type: "button", class: "plain", onclick: () => desk.use({ sample: false }) }, "All shapes"),
-      );
-    }
+    node.textContent = state.get("brushing")
+      ? `${count(state.get("selection").size, "shape")} selected`
+      : desk.sampleWords && `Computed on ${desk.sampleWords}`;
   };
-  state.listen((changed) => ["selection", "brushing", "sample"].some((name) => changed.has(name)) && show());
+  state.listen((changed) => ["selection", "brushing", "hidden"].some((name) => changed.has(name)) && show());
   show();
 }
 

@@ -3,9 +3,8 @@
 
 import { changeWords } from "../base/figures.js";
 import { walk, whereabouts } from "../base/place.js";
-import { figure } from "../base/words.js";
+import { count, figure, grouped } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
-import { MOST_SHAPES } from "../database/sample.js";
 import { Inquiry } from "../engine/inquiry.js";
 import { alike, History } from "./history.js";
 import { contests, separationWords } from "./separation.js";
@@ -163,13 +162,12 @@ export class Desk {
     const { state, answers } = this;
     const step = this.history.current;
     const before = this.reached ?? 0;
-    const asked = { ...step, sample: state.get("sample") };
     const projection = state.get("projection");
     const ranking = this.#ranked();
     const key = JSON.stringify([this.#mapKey("refined", step), sorted(step.features), ranking]);
     this.inquiries.offer.ask(
       key,
-      (report) => answers.choice(projection, asked, ranking, report),
+      (report) => answers.choice(projection, step, ranking, report),
       (/** @type {{ columns: number[], map: ShapeMap }} */ { columns, map }) => {
         if ((map.hitOfAll ?? 0) < before) {
           state.set({ refused: { before, reached: map.hitOfAll ?? 0, bins: columns.length } });
@@ -196,11 +194,11 @@ export class Desk {
    * The reader came to another place: by undo or redo, by the browser's own ways, or by an address written by hand.
    * @param {Work & Record<string, any>} found what the address holds
    */
-  arrive({ hidden, features, bins, scorer, separation, projection, sample, ...beside }) {
+  arrive({ hidden, features, bins, scorer, separation, projection, ...beside }) {
     const { history } = this;
     const { current } = history;
     this.state.set(beside);
-    history.arrive(this.#stepOf({ hidden, features, bins, scorer, separation, projection, sample }));
+    history.arrive(this.#stepOf({ hidden, features, bins, scorer, separation, projection }));
     if (history.current === current) return;
     const { taken: _taken, originalMap: _original, refinedMap: _refined, ...work } = history.current;
     this.state.set(work);
@@ -218,13 +216,22 @@ export class Desk {
       scorer: state.get("scorer"),
       separation: state.get("separation"),
       projection: state.get("projection"),
-      sample: state.get("sample"),
     };
   }
 
   /** @param {Work} work */
   #stepOf(work) {
     return { ...work, taken: whereabouts().steps, originalMap: null, refinedMap: null };
+  }
+
+  /** Of how many shapes in use maps and scores are made, in words; empty where of all. */
+  get sampleWords() {
+    const { answers } = this;
+    const [{ length: taken }, { length: all }] = [
+      answers.shapes(this.history.current),
+      answers.inUse(this.history.current),
+    ];
+    return taken < all ? `${grouped(taken)} of ${count(all, "shape")}, each class in proportion` : "";
   }
 
   // Questions
@@ -283,10 +290,7 @@ export class Desk {
     const inquiry = this.inquiries[which];
     const step = history.current;
     const projection = state.get("projection");
-    const asked = { ...step, sample: state.get("sample") };
-    const { length: shapes } = answers.rows(asked);
-    const large = shapes > MOST_SHAPES && !answers.hasMap(which, projection, asked);
-    if (shapes < FEWEST_SHAPES || large || (which === "refined" && step.bins.size === 0)) {
+    if (answers.shapes(step).length < FEWEST_SHAPES || (which === "refined" && step.bins.size === 0)) {
       inquiry.rest();
       this.inquiries[`${which}Faith`].rest();
       state.set({ [`${which}Map`]: null });
@@ -298,7 +302,7 @@ export class Desk {
     const start = (report) =>
       answers[which](
         projection,
-        asked,
+        step,
         report,
         (/** @type {ArrayLike<number>} */ x, /** @type {ArrayLike<number>} */ y) => {
           if (state.get(`${which}Status`).kind === "working") scene.stream(x, y);
@@ -344,7 +348,7 @@ export class Desk {
    */
   #mapKey(which, { hidden, features, bins }) {
     const members = which === "original" ? features : bins;
-    return [this.state.get("projection"), this.state.get("sample"), sorted(hidden), sorted(members)].join("|");
+    return [this.state.get("projection"), sorted(hidden), sorted(members)].join("|");
   }
 
   /**
@@ -386,11 +390,10 @@ export class Desk {
       state.set({ scores: null });
       return;
     }
-    const sample = state.get("sample");
-    const key = JSON.stringify([scorer, sample, asked, sorted(step.features)]);
+    const key = JSON.stringify([scorer, asked, sorted(step.features)]);
     this.inquiries.scores.ask(
       key,
-      (report) => answers.scores(scorer, separation, { ...step, sample }, report),
+      (report) => answers.scores(scorer, separation, step, report),
       (scores) => state.set({ scores }),
     );
   }
@@ -405,6 +408,7 @@ export class Desk {
         `classes: ${groups.length === database.classes.length ? "all" : groups.map((group) => database.className(group)).join(", ") || "none"}`,
       database.separable &&
         `scorer: ${state.get("scorer")}, separating ${separationWords(state.get("separation"), groups, database)}`,
+      this.sampleWords && `measured on ${this.sampleWords}`,
     ].filter(Boolean);
     return {
       chosen: state.get("bins"),

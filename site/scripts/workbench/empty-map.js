@@ -1,8 +1,7 @@
 // What stands in the place of a map that cannot be made.
 
 import { element } from "../base/dom.js";
-import { count, grouped } from "../base/words.js";
-import { MOST_SHAPES } from "../database/sample.js";
+import { count } from "../base/words.js";
 import { FEWEST_SHAPES } from "./desk.js";
 import { firstOffer, offering } from "./first-offer.js";
 
@@ -20,27 +19,12 @@ const BEST = 10;
  * @param {Desk} desk
  */
 export function emptyMap(which, state, answers, desk) {
-  const rows = answers.rows({ hidden: state.get("hidden"), sample: state.get("sample") }).length;
-  if (rows < FEWEST_SHAPES) {
+  if (answers.shapes({ hidden: state.get("hidden") }).length < FEWEST_SHAPES) {
     const words =
       answers.database.count < FEWEST_SHAPES
         ? `This database has ${count(answers.database.count, "shape")}; a map needs ${FEWEST_SHAPES}.`
         : "A map needs three shapes: take more classes into use.";
     return [element("p", {}, words)];
-  }
-  if (rows > MOST_SHAPES && (which === "original" || state.get("bins").size > 0)) {
-    return [
-      element(
-        "p",
-        {},
-        `A map of ${count(rows, "shape")} takes a browser long. A sample of ${grouped(MOST_SHAPES)}, each class in proportion, takes seconds; both maps are then of the sample, so that their NH can be compared.`,
-      ),
-      element(
-        "button",
-        { type: "button", class: "plain strong", id: "use-sample", onclick: () => desk.use({ sample: true }) },
-        "Use a sample",
-      ),
-    ];
   }
   if (which === "original") return [];
   const intended = "No bins are chosen yet. The refined map shows the same shapes, compared by chosen bins alone.";

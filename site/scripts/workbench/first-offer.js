@@ -22,8 +22,7 @@ export function firstOffer(intended, state, answers, desk) {
   const whole = desk.history.current.features.size === bins.features.length;
   const none = `No small set of bins does better than ${whole ? "all features" : "the features in use"} here`;
   const refused = state.get("refused");
-  const asked = { ...desk.history.current, sample: state.get("sample") };
-  const found = answers.foundBins(asked);
+  const found = answers.foundBins(desk.history.current);
   if (refused !== null)
     return [
       element(
@@ -34,7 +33,7 @@ export function firstOffer(intended, state, answers, desk) {
       ),
       ...instead(answers, desk),
     ];
-  const { length: shapes } = answers.rows(asked);
+  const { length: shapes } = answers.shapes(desk.history.current);
   if (found === null)
     return [
       element(

@@ -16,7 +16,6 @@
  * @property {string} scorer
  * @property {Separation} separation
  * @property {string} projection
- * @property {boolean} sample
  *
  * `taken` counts the reader's steps up to this one.
  * @typedef {Use & Manner} Work
@@ -136,6 +135,5 @@ export function turns(before, after) {
     before.projection !== after.projection && "other map",
     before.scorer !== after.scorer && "other scorer",
     !sameQuestion(before.separation, after.separation) && "other question",
-    before.sample !== after.sample && (after.sample ? "a sample" : "all shapes"),
   ].filter(Boolean);
 }
