@@ -6,17 +6,17 @@ import numpy as np
 
 from shapeviz_report.types import IntArray
 
-#: More shapes than this are too many for a map or a score while a reader waits, and their compared values are more than a
-#: page can hold. To the letter as ``MOST_SHAPES`` in ``database/sample.js``.
+#: More shapes than this are too many for a map or a score while a reader waits. To the letter as ``MOST_SHAPES`` in
+#: ``database/sample.js``.
 MOST_SAMPLED = 3000
 
 
 def sample_rows(groups: IntArray, most: int = MOST_SAMPLED) -> IntArray:
     """The rows of a sample, rising; to the letter as ``sampled`` in ``database/sample.js``.
 
-    The members of a class stand in an order that has nothing to do with where they stand in the database. The i-th of a
-    class of n, from 0, has the rank i / n, and those of the lowest ranks are taken: the first of each class, so that none
-    is left out as long as there are no more classes than places, and of each as many as its share.
+    The members of a class stand in an order that has nothing to do with where they stand in the database. The i-th of
+    a class of n, from 0, has the rank i / n, and those of the lowest ranks are taken: the first of each class, so that
+    none is left out as long as there are no more classes than places, and of each as many as its share.
 
     Parameters
     ----------

@@ -160,8 +160,8 @@ def _spans(table: FeatureTable, preset: Preset) -> Spans:
 
 
 def _bins(table: FeatureTable, preset: Preset, spans: Spans, sample: IntArray | None) -> bytes:
-    """The compared values of all shapes, or of a sample, column after column, each a number of steps between the ends of
-    its feature."""
+    """The compared values of all shapes, or of a sample, column after column, each a number of steps between the ends
+    of its feature."""
     values = table.values if sample is None else table.values[sample]
     compared = compared_values(replace(table, values=values), preset)
     return b"".join(
