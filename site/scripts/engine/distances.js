@@ -27,7 +27,7 @@ const NO_SPREAD = 1e-12;
 export function scaledPoints(table, rows, columns, by) {
   const width = columns.length;
   const points = { count: rows.length, width, values: new Float32Array(rows.length * width) };
-  const factors = table.scaling === "plain" ? new Float64Array(width).fill(1) : factorsOf(table, columns, by);
+  const factors = factorsOf(table, columns, by);
   for (let place = 0; place < width; place++) {
     const start = columns[place] * table.rows;
     for (let row = 0; row < rows.length; row++) {
@@ -38,11 +38,13 @@ export function scaledPoints(table, rows, columns, by) {
 }
 
 /**
+ * By what the values of each of the columns are multiplied there.
  * @param {FeatureValues} table
  * @param {Int32Array} columns
  * @param {"features" | "bins"} by
  */
-function factorsOf(table, columns, by) {
+export function factorsOf(table, columns, by) {
+  if (table.scaling === "plain") return new Float64Array(columns.length).fill(1);
   const variances = Float64Array.from(columns, (column) => variance(table, column));
   if (by === "features") {
     /** @type {Map<number, number>} */

@@ -1,5 +1,6 @@
 // The engine: scores bins, sets groups apart and lays out shapes in a worker, so that the page stays free.
 
+import { placeBeside } from "./beside.js";
 import { contrast } from "./contrast.js";
 import { measureFaith } from "./faith.js";
 import { grow } from "./growing.js";
@@ -8,4 +9,4 @@ import { layOut } from "./layout.js";
 import { serve } from "./loop.js";
 import { score } from "./scoring.js";
 
-serve({ contrast, faith: measureFaith, grow, hit: measureHit, layout: layOut, score });
+serve({ beside: placeBeside, contrast, faith: measureFaith, grow, hit: measureHit, layout: layOut, score });

@@ -1,0 +1,119 @@
+// Shapes that a map was not made of stand beside the one that is most like them.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { placeBeside, spread } from "../../site/scripts/engine/beside.js";
+import { Nearest } from "../../site/scripts/engine/nearest.js";
+
+/** Numbers from 0 to 1, the same with every run. */
+function numbers(seed) {
+  let state = seed;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+}
+
+function brute({ count, width, values }, point) {
+  let [row, least] = [0, Infinity];
+  for (let other = 0; other < count; other += 1) {
+    let sum = 0;
+    for (let place = 0; place < width; place += 1) sum += (values[other * width + place] - point[place]) ** 2;
+    if (sum < least) [row, least] = [other, sum];
+  }
+  return { row, squared: least };
+}
+
+for (const [name, count, width, grid] of [
+  ["in few dimensions", 400, 2, 0],
+  ["in many", 300, 30, 0],
+  ["with many that are equally near", 500, 3, 4],
+  ["where all are in one place", 40, 5, 1],
+  ["of one point", 1, 4, 0],
+])
+  test(`the nearest is found ${name}`, () => {
+    const next = numbers(count);
+    const value = () => (grid ? Math.floor(next() * grid) / grid : next() ** 3);
+    const points = { count, width, values: Float32Array.from({ length: count * width }, value) };
+    const nearest = new Nearest(points);
+    for (let asked = 0; asked < 200; asked += 1) {
+      const point = Float32Array.from({ length: width }, value);
+      assert.deepEqual(nearest.find(point), brute(points, point));
+    }
+    // Far from all as well, and where one of them is.
+    const away = new Float32Array(width).fill(-7);
+    assert.equal(nearest.find(away).row, brute(points, away).row);
+    assert.equal(nearest.find(points.values.slice(0, width)).squared, 0);
+  });
+
+test("few of many points in groups are looked at", () => {
+  const next = numbers(5);
+  const [count, width] = [2500, 8];
+  const clump = () => Math.floor(next() * 20);
+  const near = (group) => Float32Array.from({ length: width }, (_, place) => ((group * (place + 3)) % 7) + next() / 5);
+  const values = new Float32Array(count * width);
+  for (let row = 0; row < count; row += 1) values.set(near(clump()), row * width);
+  const nearest = new Nearest({ count, width, values });
+  nearest.work = 0;
+  for (let asked = 0; asked < 100; asked += 1) nearest.find(near(clump()));
+  assert.ok(nearest.work < (100 * count * width) / 4, `${nearest.work}`);
+});
+
+test("each stands beside the one of the map that it is most like, the most alike the nearest", () => {
+  const next = numbers(9);
+  const [count, further, width] = [60, 600, 4];
+  const table = {
+    rows: count,
+    columns: width,
+    values: Float32Array.from({ length: count * width }, next),
+    blocks: new Int32Array(width),
+    weights: [1],
+    scaling: "balanced",
+  };
+  const rows = Int32Array.from({ length: count }, (_, row) => row);
+  const columns = Int32Array.of(2, 0, 3);
+  const xy = Float32Array.from({ length: 2 * count }, () => 2 * next() - 1);
+  const steps = () => Uint8Array.from({ length: further }, () => 255 * next());
+  const others = Array.from(columns, () => ({ steps: steps(), low: 0, step: 1 / 255 }));
+  const task = { rows, columns, by: /** @type {const} */ ("bins"), xy, others };
+  const ends = placeBeside(table, task);
+  let step = ends.next();
+  while (!step.done) step = ends.next();
+  const placed = step.value.xy;
+
+  // What each is most like, by hand: columns divided by their spread over the table.
+  const deviation = Array.from(columns, (column) => {
+    const own = table.values.subarray(column * count, (column + 1) * count);
+    const mean = own.reduce((sum, value) => sum + value, 0) / count;
+    return Math.sqrt(own.reduce((sum, value) => sum + (value - mean) ** 2, 0) / count);
+  });
+  const distance = (other, row) =>
+    Math.hypot(
+      ...Array.from(
+        columns,
+        (column, place) => (table.values[column * count + row] - others[place].steps[other] / 255) / deviation[place],
+      ),
+    );
+  const away = (other, row) => Math.hypot(placed[2 * other] - xy[2 * row], placed[2 * other + 1] - xy[2 * row + 1]);
+  const smallest = (values) => values.indexOf(Math.min(...values));
+  const beside = Array.from({ length: further }, (_, other) =>
+    smallest(Array.from(rows, (row) => distance(other, row))),
+  );
+  for (let other = 0; other < further; other += 1)
+    assert.equal(smallest(Array.from(rows, (row) => away(other, row))), beside[other]);
+  for (const row of rows) {
+    const own = [...beside.keys()].filter((other) => beside[other] === row);
+    const byPlace = own.toSorted((a, b) => away(a, row) - away(b, row));
+    const byLikeness = own.toSorted((a, b) => distance(a, row) - distance(b, row));
+    assert.deepEqual(byPlace, byLikeness);
+  }
+});
+
+test("none hides another, also where shapes of the map do", () => {
+  const xy = Float32Array.of(0.1, 0.1, 0.1, 0.1, -0.5, 0.2);
+  const beside = Int32Array.from({ length: 90 }, (_, other) => other % 3);
+  const placed = spread(xy, beside, new Float64Array(90));
+  const places = new Set(Array.from(beside, (row, other) => `${row}: ${placed[2 * other]} ${placed[2 * other + 1]}`));
+  assert.equal(places.size, 90);
+  assert.ok(placed.every(Number.isFinite));
+});
