@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from shapeviz_report.building.check import CheckResult
     from shapeviz_report.building.describing import DescribedDatabase, DescribedMesh
     from shapeviz_report.building.query import QueryResult
+    from shapeviz_report.database import Listing
     from shapeviz_report.transformer import ShapeDescriptors
     from shapeviz_report.types import Report
 
@@ -63,13 +64,13 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def build(database: str | os.PathLike[str], destination: str | os.PathLike[str], **options: Any) -> Report:
+def build(database: Any, destination: str | os.PathLike[str], **options: Any) -> Report:
     """Build the site of a shape database.
 
     Parameters
     ----------
-    database : path
-        A folder of meshes, or a table of them.
+    database : path or data frame
+        A folder of meshes, or a table of them, which may be a data frame of pandas, Polars or pyarrow.
     destination : path
         Where the site goes.
     **options
@@ -89,7 +90,16 @@ def build(database: str | os.PathLike[str], destination: str | os.PathLike[str],
     from shapeviz_report.building.pipeline import build_report
     from shapeviz_report.config import load_config
 
-    return build_report(Path(database), Path(destination), load_config(Path(database), options))
+    source = _source(database)
+    return build_report(source, Path(destination), load_config(Path(source), options))
+
+
+def _source(database: Any) -> Path | Listing:
+    if isinstance(database, str | os.PathLike):
+        return Path(database)
+    from shapeviz_report.database import Listing
+
+    return Listing(database)
 
 
 def demo_site(destination: str | os.PathLike[str], **options: Any) -> Report:
@@ -100,12 +110,13 @@ def demo_site(destination: str | os.PathLike[str], **options: Any) -> Report:
     return build_demo(Path(destination), load_config(None, options))
 
 
-def check(database: str | os.PathLike[str], **options: Any) -> CheckResult:
+def check(database: Any, **options: Any) -> CheckResult:
     """Read a database and all its meshes without building anything; see :func:`build`."""
     from shapeviz_report.building.check import check_database
     from shapeviz_report.config import load_config
 
-    return check_database(Path(database), load_config(Path(database), options))
+    source = _source(database)
+    return check_database(source, load_config(Path(source), options))
 
 
 def describe(mesh: Any, **options: Any) -> DescribedMesh:
@@ -131,12 +142,13 @@ def describe(mesh: Any, **options: Any) -> DescribedMesh:
     return describe_mesh(mesh, load_config(None, {"jobs": 1, **options}))
 
 
-def describe_database(database: str | os.PathLike[str], **options: Any) -> DescribedDatabase:
+def describe_database(database: Any, **options: Any) -> DescribedDatabase:
     """The features of a shape database, without pictures, maps or a site; see :func:`build`."""
     from shapeviz_report.building import describing
     from shapeviz_report.config import load_config
 
-    return describing.describe_database(Path(database), load_config(Path(database), options))
+    source = _source(database)
+    return describing.describe_database(source, load_config(Path(source), options))
 
 
 def query(

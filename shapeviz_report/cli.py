@@ -57,7 +57,7 @@ DESCRIBING = (
 GROUPS = {
     "what is read": ("layout", "labeling", "external", "outside"),
     "features and maps": ("preset", "edge_length", "bins", "search", "neighbours", "seed"),
-    "what the site shows": ("meshes", "single_file", "up", "thumbnail_size", "renderer"),
+    "what the site holds": ("meshes", "parquet", "single_file", "up", "thumbnail_size", "renderer"),
     "what the site says of the database": PUBLICATION,
     "this machine": ("jobs", "scheduler", "time_limit", "memory_limit", "cache"),
 }
@@ -150,7 +150,19 @@ def _parser() -> argparse.ArgumentParser:
     )
     _add_destination(demo)
     _add_options(
-        demo, ["preset", "bins", "search", "meshes", "single_file", "seed", "jobs", "scheduler", "cache"]
+        demo,
+        [
+            "preset",
+            "bins",
+            "search",
+            "meshes",
+            "parquet",
+            "single_file",
+            "seed",
+            "jobs",
+            "scheduler",
+            "cache",
+        ],
     )
     _add_loudness(demo)
     demo.set_defaults(command=_demo)
@@ -294,7 +306,7 @@ def _add_database(parser: argparse.ArgumentParser) -> None:
         "database",
         metavar="DATABASE",
         type=Path,
-        help="a folder of meshes, a CSV or JSON table, or a .cla file",
+        help="a folder of meshes, a CSV, JSON or Parquet table, or a .cla file",
     )
 
 

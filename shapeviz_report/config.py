@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from shapeviz_report.arrow import require_pyarrow
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
 from shapeviz_report.places import refuse_no_path
@@ -95,8 +96,8 @@ class Config:
     )
     external: tuple[Path, ...] = _option(
         (),
-        "further features: FILE.npy with one row a shape in the order of `check --list`, or FILE.npz or FILE.csv with "
-        "the ids that it prints; may be repeated",
+        "further features: FILE.npy with one row a shape in the order of `check --list`, or FILE.npz, FILE.csv or "
+        "FILE.parquet with the ids that it prints; may be repeated",
         "FILE",
     )
     bins: Path | None = _option(
@@ -122,6 +123,10 @@ class Config:
     outside: bool = _machine_option(
         False,
         "also read meshes outside the database's folder, where links in it or rows of its table lead to some",
+    )
+    parquet: bool = _option(
+        False,
+        "also write the tables of shapes and of features as Parquet; needs the extra 'parquet'",
     )
     edge_length: float = _option(
         0.01, "edge length after remeshing, as a fraction of the shape's size", "FRACTION"
@@ -167,6 +172,8 @@ class Config:
             raise ConfigError(f"renderer must be one of {', '.join(RENDERERS)}, not {self.renderer!r}")
         if self.up not in (None, "y", "z"):
             raise ConfigError(f"up must be y or z, not {self.up!r}")
+        if self.parquet:
+            require_pyarrow("parquet = true", "or leave the option out: --no-parquet")
         if self.scheduler is not None and self.jobs is not None:
             raise ConfigError(
                 "jobs is the number of processes on this machine; with a scheduler there are none"

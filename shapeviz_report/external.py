@@ -8,13 +8,14 @@ import struct
 import zipfile
 import zlib
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from shapeviz_report.arrow import column_numbers, column_texts, read_parquet, require_pyarrow
 from shapeviz_report.cells import read_cell
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
@@ -37,7 +38,7 @@ def load_external(path: Path, ids: Sequence[str]) -> FloatArray:
     ----------
     path : Path
         An array ``.npy`` with the rows in the order of the shapes; or, with rows for more shapes and in any order, an
-        archive ``.npz`` of ``values`` and ``shape_ids``, or a table ``.csv`` with a column ``id``.
+        archive ``.npz`` of ``values`` and ``shape_ids``, or a table ``.csv`` or ``.parquet`` with a column ``id``.
     ids : sequence of str
         Of the shapes.
 
@@ -47,14 +48,16 @@ def load_external(path: Path, ids: Sequence[str]) -> FloatArray:
         The file is none of these, lacks a shape, or holds anything but finite numbers.
     """
     suffix = path.suffix.lower()
-    if suffix not in (".npy", ".npz", ".csv"):
-        raise ConfigError(f"the feature file {path} must end in .npy, .npz or .csv")
+    if suffix not in (".npy", *_READ):
+        raise ConfigError(f"the feature file {path} must end in .npy, {', '.join(_READ)}")
+    if suffix == ".parquet":
+        require_pyarrow(f"the feature file {path}", "or write it as .npz or .csv")
     try:
         content = read_regular(path, MOST_EXTERNAL_BYTES)
         if suffix == ".npy":
             values = np.load(io.BytesIO(content), allow_pickle=False)
         else:
-            rows, values = _read_archive(content) if suffix == ".npz" else _read_table(content)
+            rows, values = _READ[suffix](content)
     except OSError as error:
         raise ConfigError(f"the feature file {path} cannot be read: {error.strerror}") from error
     except (
@@ -125,3 +128,30 @@ def _read_table(content: bytes) -> tuple[list[str], npt.NDArray[np.float64]]:
     told = [place for place, name in enumerate(head) if place != key and not name.startswith(DESCRIBING)]
     values = np.array([[float(row[place]) for place in told] for row in rows], np.float64)
     return [read_cell(row[key]) for row in rows], values.reshape(len(rows), len(told))
+
+
+def _read_columns(content: bytes) -> tuple[list[str], npt.NDArray[np.float64]]:
+    """Ids and values of a Parquet table, whose columns may also be lists of as many numbers a shape."""
+    table = read_parquet(content, MOST_EXTERNAL_BYTES // 2, MOST_EXTERNAL_BYTES)
+    if table.column_names.count("id") != 1:
+        raise ValueError("it needs one column 'id' (the index of a data frame is one once it has this name)")
+    ids = column_texts(table["id"])
+    if ids is None:
+        raise ValueError("its column 'id' holds no text")
+    columns = [np.empty((len(ids), 0))]
+    for name, column in zip(table.column_names, table.columns):
+        if name == "id" or name.startswith(DESCRIBING):
+            continue
+        values = column_numbers(column)
+        if values is None:
+            raise ValueError(f"its column {name!r} holds neither numbers nor lists of as many numbers a row")
+        columns.append(values)
+    return ids, np.hstack(columns)
+
+
+_READ: dict[str, Callable[[bytes], tuple[list[str], npt.NDArray[Any]]]] = {
+    ".npz": _read_archive,
+    ".csv": _read_table,
+    ".parquet": _read_columns,
+}
+"""What reads rows with ids, by suffix."""

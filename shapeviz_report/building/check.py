@@ -18,6 +18,7 @@ from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline
+from shapeviz_report.database import Listing
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import read_publication
 from shapeviz_report.types import Copy, Database, Failure
@@ -45,13 +46,13 @@ class CheckResult:
     copies: tuple[Copy, ...] = ()
 
 
-def check_database(database_path: Path, config: Config, progress: Progress | None = None) -> CheckResult:
+def check_database(source: Path | Listing, config: Config, progress: Progress | None = None) -> CheckResult:
     """Read a database and every mesh of it, without building anything; what is found is kept in the cache."""
     root = (config.cache or default_root()).absolute()
-    check_cache(root, database_path)
+    check_cache(root, Path(source))
     clock = Clock(progress or QuietProgress())
     with clock.stage("read", "Reading the database"):
-        database = read_published(database_path, config, read_publication(config))
+        database = read_published(source, config, read_publication(config))
         external = load_all_external(config.external, database)
         if config.bins is not None:
             read_bins(config.bins, (*PRESETS[config.preset].blocks, *(block for block, _ in external)))

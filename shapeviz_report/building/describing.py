@@ -21,6 +21,7 @@ from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
+from shapeviz_report.database import Listing
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.errors import DatabaseError, MeshError
 from shapeviz_report.features import fixed_edges
@@ -130,7 +131,9 @@ def measure_mesh(
     return measured.facts[name], measured.rows[name]
 
 
-def describe_database(path: Path, config: Config, progress: Progress | None = None) -> DescribedDatabase:
+def describe_database(
+    source: Path | Listing, config: Config, progress: Progress | None = None
+) -> DescribedDatabase:
     """The features of a database, by the stages that they need and no others.
 
     Raises
@@ -141,18 +144,18 @@ def describe_database(path: Path, config: Config, progress: Progress | None = No
     progress = progress or QuietProgress()
     clock = Clock(progress)
     with clock.stage("read", "Reading the database"):
-        database = read_published(path, config, read_publication(config))
+        database = read_published(source, config, read_publication(config))
         external = load_all_external(config.external, database)
     preset, failures = PRESETS[config.preset], list(database.failures)
     within = None if config.outside else database.root
     meshes = {s.id: partial(collect_files, s.path.absolute(), within) for s in database.shapes}
-    with open_run(config, name_files(database), failures, progress, path) as run:
+    with open_run(config, name_files(database), failures, progress, Path(source)) as run:
         edges, kept = find_edges(run, meshes, preset, config.edge_length)
         rows = measure_meshes(run, kept, preset, edges, config.edge_length).rows
     places = [i for i, shape in enumerate(database.shapes) if shape.id in rows]
     shapes = tuple(database.shapes[i] for i in places)
     if not shapes:
-        raise DatabaseError(*nothing_usable(path, failures))
+        raise DatabaseError(*nothing_usable(Path(source), failures))
     features = FeatureTable(
         tuple(shape.id for shape in shapes),
         (*preset.blocks, *(block for block, _ in external)),

@@ -37,6 +37,7 @@ from shapeviz_report.building.workers import find_renderer, open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline
+from shapeviz_report.database import Listing
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.exemplars import choose_exemplars
@@ -79,14 +80,14 @@ LIBRARIES = (
 
 
 def build_report(
-    database_path: Path, destination: Path, config: Config, progress: Progress | None = None
+    source: Path | Listing, destination: Path, config: Config, progress: Progress | None = None
 ) -> Report:
     """Build the site of a shape database.
 
     Parameters
     ----------
-    database_path : Path
-        Folder or table; see ``docs/using/databases.md``.
+    source : Path or Listing
+        Folder, table or data frame; see ``docs/using/databases.md``.
     destination : Path
         Folder of the site: absent, empty, or a site of ours, which is replaced at once when all is done.
     config : Config
@@ -103,13 +104,13 @@ def build_report(
         Nothing could be built; an existing site is left as it is.
     """
     root = (config.cache or default_root()).absolute()
-    check_places(destination, config, root, database_path)
+    check_places(destination, config, root, Path(source))
     clock = Clock(progress or QuietProgress())
     with clock.stage("read", "Reading the database"):
         publication = read_publication(config)
-        database = read_published(database_path, config, publication)
+        database = read_published(source, config, publication)
         check_meshes(destination, database)
-        heavy = note(len(database.shapes), config.thumbnail_size, models=config.meshes)
+        heavy = note(len(database.shapes), config)
         if heavy is not None and not config.single_file:
             logger.warning("Note: %s", heavy)
         external = load_all_external(config.external, database)
@@ -178,7 +179,7 @@ def build_report(
             run.each("Measuring shapes", kept, described, plan, take)
         shapes = tuple(s for s in database.shapes if s.id in models)
         if not shapes:
-            raise DatabaseError(*nothing_usable(database_path, failures))
+            raise DatabaseError(*nothing_usable(Path(source), failures))
         copies = find_copies(run, paths, within, {s.id: outlines[s.id] for s in shapes})
         groups = group_copies(copies, [s.id for s in shapes])
         rows = [row[s.id] for s in shapes]
@@ -262,7 +263,10 @@ def build_report(
         projections=maps,
         failures=tuple(failures),
         parameters=config.as_parameters() | {"renderer": renderer},
-        versions={name: version(name) for name in ("shapeviz-report", *LIBRARIES)}
+        versions={
+            name: version(name)
+            for name in ("shapeviz-report", *LIBRARIES, *(("pyarrow",) if config.parquet else ()))
+        }
         | {plugin.package: plugin.version for plugin in find_plugins()}
         | {"python": platform.python_version()},
         seconds=clock.seconds,

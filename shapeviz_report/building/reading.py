@@ -9,7 +9,7 @@ from pathlib import Path
 from shapeviz_report.building import stages
 from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.config import Config
-from shapeviz_report.database import read_database
+from shapeviz_report.database import Listing, read_database
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.external import load_external
 from shapeviz_report.features import BLOCKS
@@ -19,10 +19,15 @@ from shapeviz_report.publication import licence_warning
 from shapeviz_report.types import Database, FeatureBlock, FloatArray, Publication
 
 
-def read_published(path: Path, config: Config, publication: Publication) -> Database:
+def read_published(source: Path | Listing, config: Config, publication: Publication) -> Database:
     """The database, with what its owner should know before it is published."""
     database = read_database(
-        path, layout=config.layout, labeling=config.labeling, name=config.title, outside=config.outside
+        source,
+        layout=config.layout,
+        labeling=config.labeling,
+        name=config.title,
+        outside=config.outside,
+        besides=config.external,
     )
     warning = licence_warning(publication, database.shapes)
     return database if warning is None else replace(database, warnings=(*database.warnings, warning))

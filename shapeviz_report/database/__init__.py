@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,30 +13,31 @@ from shapeviz_report.database.flat import FlatFolder
 from shapeviz_report.database.formats import MESH_FORMATS
 from shapeviz_report.database.modelnet import ModelNet
 from shapeviz_report.database.princeton import Princeton
-from shapeviz_report.database.table import TABLE_SUFFIXES, Table, passed_over
+from shapeviz_report.database.table import TABLE_SUFFIXES, Listing, Table, passed_over
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.types import Database
 
-__all__ = ["LAYOUTS", "MESH_FORMATS", "Layout", "read_database"]
+__all__ = ["LAYOUTS", "MESH_FORMATS", "Layout", "Listing", "read_database"]
 
 LAYOUTS: tuple[Layout, ...] = (Princeton(), Table(), ModelNet(), ClassFolders(), FlatFolder())
 """Ours, in the order in which they are tried: the first that recognises a database reads it."""
 
 
 def read_database(
-    path: Path,
+    source: Path | Listing,
     *,
     layout: str | None = None,
     labeling: str | None = None,
     name: str | None = None,
     outside: bool = True,
+    besides: Collection[Path] = (),
 ) -> Database:
     """Read a shape database.
 
     Parameters
     ----------
-    path : Path
-        A folder, a table, or a Princeton ``.cla`` file.
+    source : Path or Listing
+        A folder, a table, or a Princeton ``.cla`` file; or a data frame.
     layout : str, optional
         Name of one of ours or of a plug-in; by default the first that recognises the path.
     labeling : str, optional
@@ -45,6 +46,8 @@ def read_database(
         Title of the database; by default the name of its folder.
     outside : bool, optional
         Whether links in the database are followed to folders, tables and classifications that are not in it.
+    besides : collection of Path
+        Files in the folder that are no tables of shapes, whatever they look like.
 
     Returns
     -------
@@ -56,12 +59,17 @@ def read_database(
     DatabaseError
         If there is nothing to read at the path, or no such layout or labeling.
     """
-    path = Path(path)
-    if not os.path.exists(path):
+    path = Path(source)
+    if isinstance(source, Listing):
+        if layout not in (None, Table.name):
+            raise DatabaseError(f"A data frame has the layout '{Table.name}', not '{layout}'.")
+        database = Table().read_content(source.content, source.root / source.name, outside)
+    elif not os.path.exists(path):
         raise DatabaseError(f"There is no shape database at {path}: no such file or folder.")
-    database = _choose_layout(path, layout, outside).read(path, outside)
-    if database.layout != Table.name and path.is_dir():
-        database = replace(database, warnings=(*database.warnings, *passed_over(path, outside)))
+    else:
+        database = _choose_layout(path, layout, outside, besides).read(path, outside)
+        if database.layout != Table.name and path.is_dir():
+            database = replace(database, warnings=(*database.warnings, *passed_over(path, outside, besides)))
     if not database.shapes and not database.failures:
         raise DatabaseError(*_nothing_found(path))
     if labeling is not None:
@@ -81,8 +89,8 @@ def read_database(
     return replace(database, shapes=shapes, name=database.name if name is None else name)
 
 
-def _choose_layout(path: Path, name: str | None, outside: bool) -> Layout:
-    layouts = _all_layouts()
+def _choose_layout(path: Path, name: str | None, outside: bool, besides: Collection[Path]) -> Layout:
+    layouts = [Table(besides) if isinstance(layout, Table) else layout for layout in _all_layouts()]
     if name is not None:
         for layout in layouts:
             if layout.name == name:

@@ -9,21 +9,25 @@ import os
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import zip_longest
 from pathlib import Path
-from typing import TypeGuard
+from typing import TYPE_CHECKING, Any, TypeGuard
 
+from shapeviz_report.arrow import column_texts, frame_table, read_parquet, require_pyarrow
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import leads_outside, scan_folder
 from shapeviz_report.database.formats import MESH_FORMATS, is_read, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
-from shapeviz_report.errors import DatabaseError
+from shapeviz_report.errors import ConfigError, DatabaseError
 from shapeviz_report.files import read_regular
 from shapeviz_report.types import Database, Failure, ShapeEntry
+
+if TYPE_CHECKING:
+    import pyarrow
 
 FILE_COLUMN = "file"
 LABEL_COLUMN = "label"
@@ -46,9 +50,12 @@ NO_VALUES = frozenset({"NaN", "nan", "N/A", "n/a", "#N/A", "<NA>"})
 """Cells with which programs write that there is no value. A class may be called "none" or "null"."""
 DELIMITERS = (",", ";", "\t", "|")
 LINES_SUFFIXES = (".jsonl", ".ndjson")
-TABLE_SUFFIXES = (".csv", ".tsv", ".json", *LINES_SUFFIXES)
+PARQUET = ".parquet"
+TABLE_SUFFIXES = (".csv", ".tsv", ".json", *LINES_SUFFIXES, PARQUET)
 MOST_BYTES = 64 * 1024**2
 """Size of the largest table that is read."""
+MOST_UNPACKED = 256 * 1024**2
+"""Bytes that a Parquet table may unpack to."""
 MOST_CELLS = 5_000_000
 """Cells of a table, empty ones too: 50 for each of 100,000 shapes."""
 MOST_LETTERS = 131_072
@@ -61,6 +68,8 @@ _SECOND_OBJECT = re.compile(r"\s*\{.*\}[ \t\r]*\n\s*\{")
 """An object that ends on its line and another below, without a comma: JSON lines, whatever the file is called."""
 _COUNTED = re.compile(r"^0*(0|[1-9]\d*)(?:\.0+)?(\.[a-z]\w*)?$", re.ASCII)
 """A name that is a whole number, with or without a suffix."""
+_INDEX = re.compile(r"__index_level_\d+__")
+"""What the index of a data frame is called in a table when it has no name: mere numbers of rows."""
 _csv_reader = partial(csv.reader, skipinitialspace=True)
 
 
@@ -95,33 +104,93 @@ class Content:
     plain: bool
 
 
+class Listing:
+    """A data frame that lists meshes, in place of the path of a table. Its own path is the database's folder: the
+    deepest one that holds all files.
+
+    Parameters
+    ----------
+    frame : object
+        A data frame of pandas, Polars or pyarrow, with the columns of a table; paths start at the current folder.
+
+    Raises
+    ------
+    TypeError
+        It is no data frame.
+    ConfigError, DatabaseError
+        pyarrow is not installed; the frame cannot be understood.
+    """
+
+    name = "the data frame"
+
+    def __init__(self, frame: Any) -> None:
+        require_pyarrow("a data frame as a database", "or write it to a CSV table and give its path")
+        try:
+            found = frame_table(frame)
+        except ValueError as error:
+            raise DatabaseError(
+                f"The data frame cannot be read: {error}. Columns hold text, numbers or dates; paths as text."
+            ) from error
+        _check_cells(Path(self.name), found.num_rows * found.num_columns)
+        content = _column_rows(found, Path(self.name))
+        files = [os.path.abspath(row.file) for row in content.rows if row.file]
+        if not files:
+            raise DatabaseError("The data frame lists no files.")
+        try:
+            self.root = Path(os.path.commonpath([os.path.dirname(file) for file in files]))
+        except ValueError as error:
+            raise DatabaseError(
+                "The data frame lists files of several drives; they need a common folder."
+            ) from error
+        rows = [replace(row, file=os.path.abspath(row.file) if row.file else "") for row in content.rows]
+        self.content = replace(content, rows=rows)
+
+    def __fspath__(self) -> str:
+        return os.fspath(self.root)
+
+
 class OtherContentError(DatabaseError):
     """A table has neither a column of files nor one of classes: it is not about shapes at all."""
 
 
 class Table(Layout):
-    """A CSV or JSON table with a column ``file``, a column ``label``, and any further columns as metadata.
+    """A CSV, JSON or Parquet table with a column ``file``, a column ``label``, and any further columns as metadata.
 
     Cells of CSV may be separated by commas, semicolons, tabs or ``|``; JSON is a list of objects, alone or under a key
     of an object, or one object a line. Paths are relative to the table's folder. A metadata column is a labeling too
     where it is called so or plainly names groups: it has at least 2 and at most ``MOST_CLASSES`` different values, and
     on average ``FEWEST_SHAPES_A_CLASS`` shapes or more to a value.
+
+    Parameters
+    ----------
+    besides : collection of Path
+        Files that are known to be something else, as features with a row a shape are.
     """
 
     name = "table"
     description = (
-        "a CSV or JSON table with the columns file, label and any metadata, or the folder it lies in"
+        "a CSV, JSON or Parquet table with the columns file, label and any metadata, or the folder it lies in"
     )
+
+    def __init__(self, besides: Collection[Path] = ()) -> None:
+        self.besides = frozenset(os.path.realpath(path) for path in besides)
 
     def recognises(self, path: Path, outside: bool) -> bool:
         if path.is_dir():
-            return bool(_tables_in(path, outside))
+            return bool(_tables_in(path, outside, self.besides))
         return suffix_of(path.name) in TABLE_SUFFIXES
 
     def read(self, path: Path, outside: bool) -> Database:
-        table = _the_table(path, outside)
-        content = _read(table)
-        rows, warnings = content.rows, content.warnings
+        table = _the_table(path, outside, self.besides)
+        database = self.read_content(_read(table), table, outside)
+        if not path.is_dir():
+            return database
+        passed = passed_over(path, outside, (*self.besides, table))
+        return replace(database, warnings=(*database.warnings, *passed))
+
+    def read_content(self, content: Content, table: Path, outside: bool) -> Database:
+        """The database that a table lists, which lies, or would lie, at a path."""
+        rows, warnings = content.rows, list(content.warnings)
         if not rows:
             raise DatabaseError(f"The table {table} names columns, but lists no files.")
         root = table.parent
@@ -147,8 +216,6 @@ class Table(Layout):
             files = "1 mesh file" if left_out == 1 else f"{left_out} mesh files"
             verb = "is" if left_out == 1 else "are"
             warnings.append(f"{files} below {root} {verb} not in {table.name} and {verb} left out.")
-        if path.is_dir():
-            warnings += passed_over(path, outside, table)
         return Database(
             name=database_name(root),
             root=root,
@@ -172,10 +239,10 @@ class Table(Layout):
         )
 
 
-def _the_table(path: Path, outside: bool) -> Path:
+def _the_table(path: Path, outside: bool, besides: Collection[str]) -> Path:
     if not path.is_dir():
         return path
-    tables = _tables_in(path, outside)
+    tables = _tables_in(path, outside, besides)
     if len(tables) == 1:
         return tables[0]
     if tables:
@@ -188,15 +255,15 @@ def _the_table(path: Path, outside: bool) -> Path:
     )
 
 
-def _tables_in(folder: Path, outside: bool) -> list[Path]:
+def _tables_in(folder: Path, outside: bool, besides: Collection[str]) -> list[Path]:
     """The tables of a folder: those that list meshes that are there, else those that at least say that they do."""
-    judged = {table: _judge(table, outside) for table in _candidates(folder)}
+    judged = {table: _judge(table, outside) for table in _candidates(folder, besides)}
     found = [table for table, verdict in judged.items() if verdict.finds]
     return found or [table for table, verdict in judged.items() if verdict.plain]
 
 
-def passed_over(folder: Path, outside: bool, read: Path | None = None) -> list[str]:
-    """What to tell of the tables in a folder other than the one that was ``read``, if they look meant for it.
+def passed_over(folder: Path, outside: bool, used: Collection[str | Path]) -> list[str]:
+    """What to tell of the tables in a folder other than those that are ``used``, if they look meant for it.
 
     That is: they list meshes, have a column of classes, or have a slip, so that nobody can say what they are.
     Companions of meshes and tables of other things are passed over in silence.
@@ -207,8 +274,8 @@ def passed_over(folder: Path, outside: bool, read: Path | None = None) -> list[s
         return []
     judged = {
         table: _judge(table, outside)
-        for table in _candidates(folder)
-        if table.stem not in stems and table != read
+        for table in _candidates(folder, {os.path.realpath(path) for path in used})
+        if table.stem not in stems
     }
     return [
         f"{table.name} lies in the folder and is not used. {verdict.reason}"
@@ -262,7 +329,7 @@ def _judge(table: Path, outside: bool) -> Verdict:
     return Verdict(False, content.plain, "No mesh that its rows name is there." if tells else "")
 
 
-def _candidates(folder: Path) -> list[Path]:
+def _candidates(folder: Path, besides: Collection[str]) -> list[Path]:
     try:
         names = sorted(
             entry.name
@@ -271,7 +338,7 @@ def _candidates(folder: Path) -> list[Path]:
         )
     except OSError:
         return []
-    return [folder / name for name in names]
+    return [folder / name for name in names if os.path.realpath(folder / name) not in besides]
 
 
 def _read_text(table: Path) -> tuple[str, bool]:
@@ -282,11 +349,57 @@ def _read_text(table: Path) -> tuple[str, bool]:
 
 
 def _read(table: Path) -> Content:
+    if suffix_of(table.name) == PARQUET:
+        return _read_parquet(table)
     text, certain = _read_text(table)
     warnings = [] if certain else [f"{table.name} is not UTF-8; it was read as Windows-1252."]
     is_csv = suffix_of(table.name) in (".csv", ".tsv")
     rows, plain = _csv_rows(text, table) if is_csv else _json_rows(text, table)
     return Content(rows, warnings, plain)
+
+
+def _read_parquet(table: Path) -> Content:
+    try:
+        require_pyarrow(f"The table {table}", "or save it as CSV")
+        found = read_parquet(read_regular(table, MOST_BYTES), MOST_CELLS, MOST_UNPACKED)
+    except ConfigError as error:
+        raise DatabaseError(f"{error}.") from error
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise DatabaseError(f"The table {table} cannot be read: {reason}.") from error
+    return _column_rows(found, table)
+
+
+def _column_rows(found: pyarrow.Table, table: Path) -> Content:
+    """The rows of a table of columns with types."""
+    texts = {}
+    left_out = []
+    names = [name for name in found.column_names if not _INDEX.fullmatch(name)]
+    columns = _columns(names)
+    _check_names(columns, names, table)
+    for column, name in zip(columns, names):
+        cells = column_texts(found[name])
+        if cells is None:
+            left_out.append(name)
+        elif any(len(cell) > MOST_LETTERS for cell in cells):
+            raise DatabaseError(
+                f"The table {table} has a value longer than {MOST_LETTERS:,} letters in its column '{name}'."
+            )
+        else:
+            texts[column] = cells
+    warnings = []
+    if left_out:
+        warnings.append(
+            f"Columns of {table.name} hold lists or bytes and are left out: {', '.join(map(clean, left_out))}."
+        )
+    if FILE_COLUMN not in texts:
+        raise _no_files(names, " ".join([f"The table {table} has no column '{FILE_COLUMN}'.", *warnings]))
+    rows = [
+        _row(f"row {number}", dict(zip(texts, cells)))
+        for number, cells in enumerate(zip(*texts.values()), 1)
+        if any(cell.strip() for cell in cells)
+    ]
+    return Content(rows, warnings, FILE_COLUMN in map(_plain, names))
 
 
 def _no_files(names: Iterable[str], complaint: str) -> DatabaseError:

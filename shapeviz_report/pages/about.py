@@ -225,6 +225,14 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
         ("summary.json", "counts, failures, quality of every projection, times, versions, parameters"),
         ("shapes.csv", "one row a shape: labels, metadata, facts, neighbourhood hit, hash"),
         ("features.npz", "the feature table, for numpy" + ("" if full else ", with three digits")),
+        *(
+            (
+                ("shapes.parquet", "the table of shapes with the coordinates on all maps, as Parquet"),
+                ("features.parquet", "the feature table, as Parquet"),
+            )
+            if report.parameters.get("parquet")
+            else ()
+        ),
         (
             "catalogue.jsonld",
             ("every shape" if full else "the database") + " for search engines and catalogues, by schema.org",

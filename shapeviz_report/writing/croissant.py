@@ -4,10 +4,11 @@ the columns of its files (https://docs.mlcommons.org/croissant/docs/croissant-sp
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import PurePosixPath
 
 from shapeviz_report.types import Report
 from shapeviz_report.writing.data import json_text
-from shapeviz_report.writing.data.tables import shape_rows
+from shapeviz_report.writing.data.tables import column_type, shape_rows
 from shapeviz_report.writing.linked_data import dataset
 
 CONTEXT = {
@@ -50,18 +51,13 @@ CONTEXT = {
 }
 """The terms of Croissant 1.0."""
 
-TYPES = {
-    **dict.fromkeys(("faces_read", "vertices_read", "faces", "vertices", "components"), "sc:Integer"),
-    **dict.fromkeys(
-        ("nh_max", "deviation", "area", "volume", "extent_x", "extent_y", "extent_z"), "sc:Float"
-    ),
-    "watertight": "sc:Boolean",
+TYPES = {int: "sc:Integer", float: "sc:Float", bool: "sc:Boolean", str: "sc:Text"}
+
+FORMATS = {
+    ".csv": "text/csv",
+    ".npz": "application/octet-stream",
+    ".parquet": "application/x-parquet",
 }
-"""Of the columns of ``shapes.csv`` that are no text; those of a map begin with a measure."""
-
-MEASURES = ("nh:", "kept:", "false:", "missing:")
-
-FORMATS = {".csv": "text/csv", ".npz": "application/octet-stream"}
 
 
 def croissant(report: Report, description: str, hashes: Mapping[str, str]) -> bytes:
@@ -75,13 +71,21 @@ def croissant(report: Report, description: str, hashes: Mapping[str, str]) -> by
         The SHA-256 of every file of ``data/``, by its name.
     """
     told = dataset(report, description, "../")
-    files = ["shapes.csv", *(f"projection-{method}.csv" for method in report.projections), "features.npz"]
+    files = [
+        "shapes.csv",
+        *(f"projection-{method}.csv" for method in report.projections),
+        "features.npz",
+        *(name for name in hashes if name.endswith(".parquet")),
+    ]
     columns = next(shape_rows(report))
     records = [
         _records(
             "shapes",
             "A shape a row: labels, metadata, facts and neighbourhood hit",
-            [(column, _identifier(number, column), _type(column)) for number, column in enumerate(columns)],
+            [
+                (column, _identifier(number, column), TYPES[column_type(column)])
+                for number, column in enumerate(columns)
+            ],
         )
     ]
     for method in report.projections:
@@ -100,7 +104,7 @@ def croissant(report: Report, description: str, hashes: Mapping[str, str]) -> by
                 "@id": name,
                 "name": name,
                 "contentUrl": f"{report.publication.url}data/{name}" if report.publication.url else name,
-                "encodingFormat": FORMATS[name[-4:]],
+                "encodingFormat": FORMATS[PurePosixPath(name).suffix],
                 "sha256": hashes[name],
             }
             for name in files
@@ -136,7 +140,3 @@ def _identifier(number: int, column: str) -> str:
     """What a column is called among identifiers: labelings and columns of a table, which have any name, by number."""
     kind, colon, name = column.partition(":")
     return f"{kind}-{number}" if kind in ("label", "metadata") else f"{kind}-{name}" if colon else column
-
-
-def _type(column: str) -> str:
-    return "sc:Float" if column.startswith(MEASURES) else TYPES.get(column, "sc:Text")

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import importlib.util
-import io
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
+from shapeviz_report.arrow import parquet_bytes, require_pyarrow
 from shapeviz_report.errors import ConfigError, SiteError
 from shapeviz_report.places import explain
 from shapeviz_report.staging import write_atomically
@@ -34,11 +33,8 @@ def check_feature_file(path: Path, database: Path) -> None:
         raise ConfigError(f"the file of features {path} is a folder")
     if path.resolve() == database.resolve():
         raise ConfigError(f"the file of features {path} is the database itself: choose another name")
-    if path.suffix.lower() == ".parquet" and importlib.util.find_spec("pyarrow") is None:
-        raise ConfigError(
-            f"the file of features {path} needs pyarrow, which is not installed: pip install "
-            "'shapeviz-report[parquet]'; .csv and .npz need nothing more"
-        )
+    if path.suffix.lower() == ".parquet":
+        require_pyarrow(f"the file of features {path}", ".csv and .npz need nothing more")
 
 
 def write_feature_file(
@@ -100,18 +96,5 @@ def _archive(texts: dict[str, list[str | None]], features: FeatureTable, edges: 
 
 
 def _parquet(texts: dict[str, list[str | None]], features: FeatureTable, edges: FloatArray) -> bytes:
-    import pyarrow
-    from pyarrow import parquet
-
-    columns = [
-        # a file name that is no valid text holds lone surrogates, which have no place in UTF-8
-        pyarrow.array(
-            [None if text is None else text.encode("utf-8", "backslashreplace").decode() for text in told],
-            pyarrow.string(),
-        )
-        for told in texts.values()
-    ]
-    columns += [pyarrow.array(column) for column in np.ascontiguousarray(features.values.T)]
-    file = io.BytesIO()
-    parquet.write_table(pyarrow.Table.from_arrays(columns, [*texts, *features.columns]), file)
-    return file.getvalue()
+    columns = np.ascontiguousarray(features.values.T)
+    return parquet_bytes({**texts, **dict(zip(features.columns, columns, strict=True))})

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from shapeviz_report.config import Config
 from shapeviz_report.models import MANY
 from shapeviz_report.pages.base import MOST_IN_FULL
 
@@ -59,18 +60,18 @@ PICTURE, PICTURE_SIZE, PICTURE_POWER = 6_000, 320, 1.6
 """Bytes of a thumbnail of so many pixels, and the power of its size with which they grow."""
 
 
-def weigh(shapes: int, thumbnail_size: int, *, models: bool) -> Weight:
+def weigh(shapes: int, config: Config) -> Weight:
     """What a site of so many shapes will weigh, by those that were measured: to a third, of odd meshes to a half."""
     many = shapes > MOST_IN_FULL
-    picture = PICTURE * (thumbnail_size / PICTURE_SIZE) ** PICTURE_POWER
+    picture = PICTURE * (config.thumbnail_size / PICTURE_SIZE) ** PICTURE_POWER
     # Once as files, and once more in parts for the browser; of very many the parts alone.
     pictures = int(shapes * picture * (4 / 3 if many else 7 / 3))
     features = shapes * FEATURES // (2 if many else 1)
-    of_models = shapes * (MODEL if shapes <= MANY else MODEL_OF_MANY) if models else 0
-    singles = (shapes if models else 0, 0 if many else shapes)
+    of_models = shapes * (MODEL if shapes <= MANY else MODEL_OF_MANY) if config.meshes else 0
+    singles = (shapes if config.meshes else 0, 0 if many else shapes)
     parts = shapes // 32 + shapes // 200
     return Weight(
-        bytes=BASE + pictures + features + shapes * FACTS + of_models,
+        bytes=BASE + pictures + features * (2 if config.parquet else 1) + shapes * FACTS + of_models,
         models=of_models,
         files=BASE_FILES + sum(singles) + parts,
         folder=max(*singles, parts),
@@ -105,9 +106,9 @@ def in_words(size: int) -> str:
     return f"{size / 1e9:.1f} GB" if size >= 1e9 else f"{size / 1e6:.0f} MB"
 
 
-def note(shapes: int, thumbnail_size: int, *, models: bool) -> str | None:
+def note(shapes: int, config: Config) -> str | None:
     """A sentence for who builds a site that some hosts would not take; None for one that all take."""
-    weight = weigh(shapes, thumbnail_size, models=models)
+    weight = weigh(shapes, config)
     refusing = refusals(weight)
     if not refusing:
         return None

@@ -19,6 +19,7 @@ _TYPES = {
     ".json": "application/json",
     ".jsonld": "application/ld+json",
     ".npz": "application/octet-stream",
+    ".parquet": "application/vnd.apache.parquet",
     ".png": "image/png",
     ".svg": "image/svg+xml",
     ".txt": "text/plain",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import importlib.util
 import pickle
 import re
 import shutil
@@ -243,7 +244,7 @@ def test_without_pyarrow_parquet_is_refused_before_anything_is_computed(
 ) -> None:
     from shapeviz_report.writing import feature_files
 
-    monkeypatch.setattr(feature_files.importlib.util, "find_spec", lambda name: None)
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     with pytest.raises(
         ShapevizError, match=r"pip install 'shapeviz-report\[parquet\]'; \.csv and \.npz need"
     ):

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import dataclasses
+import importlib.util
 import os
 from pathlib import Path
 
@@ -202,3 +203,12 @@ def test_processes_are_as_many_as_cores_on_any_system(monkeypatch):
     monkeypatch.setattr(os, "cpu_count", lambda: 6)
     assert Config().worker_count == 6
     assert Config(jobs=2).worker_count == 2
+
+
+def test_without_pyarrow_the_option_says_what_to_install(monkeypatch) -> None:
+    assert Config(parquet=True).parquet
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
+    with pytest.raises(
+        ConfigError, match=r"pip install 'shapeviz-report\[parquet\]'; or leave .* --no-parquet"
+    ):
+        Config(parquet=True)

@@ -7,7 +7,9 @@ import io
 import zipfile
 
 import numpy as np
+import pyarrow
 import pytest
+from pyarrow import parquet
 
 from shapeviz_report import external
 from shapeviz_report.errors import ConfigError
@@ -32,6 +34,39 @@ def test_by_ids_in_any_order_and_of_more_shapes(tmp_path) -> None:
         table.writerows([["a", *row[:1], shape, *row[1:], "?"] for shape, row in rows.items()])
     for name in ("own.npz", "own.csv"):
         assert load_external(tmp_path / name, IDS).tolist() == [[1, 2], [3, 4], [5, 6]]
+
+
+def test_parquet_by_ids_with_numbers_or_lists(tmp_path) -> None:
+    columns = {
+        "class": ["c", "z", "a", "a"],
+        "width": [5, 7, 3, 1],
+        "id": pyarrow.array(["cup/1", "zebra", "ant/2", "ant/1"]).dictionary_encode(),
+        "flat": [True, False, False, True],
+        "learnt": pyarrow.array([[5.5, 6], [7, 8], [3, 4], [1, 2]]),
+        "metadata:year": [None, "2", "3", "4"],
+    }
+    parquet.write_table(pyarrow.table(columns), tmp_path / "own.parquet")
+    expected = [[1, 1, 1, 2], [3, 0, 3, 4], [5, 1, 5.5, 6]]
+    assert load_external(tmp_path / "own.parquet", IDS).tolist() == expected
+
+
+@pytest.mark.parametrize(
+    ("columns", "reason"),
+    [
+        ({"name": IDS, "width": [1, 2, 3]}, r"needs one column 'id' \(the index of a data frame"),
+        ({"id": IDS, "width": ["1", "2", "3"]}, "its column 'width' holds neither numbers nor lists"),
+        ({"id": IDS, "width": [[1], [2], [3, 4]]}, "its column 'width' holds neither"),
+        ({"id": IDS, "width": [1, None, 3]}, "finite numbers only"),
+        ({"id": IDS, "class": IDS}, "finite numbers only"),
+        ({"id": [*IDS, "cup/1"], "width": [1, 2, 3, 4]}, "two rows for the shape 'cup/1'"),
+        ({"id": IDS[1:], "width": [1, 2]}, "no row for 1 of the 3 shapes.*such as 'ant/1'"),
+        ({"id": [[1], [2], [3]], "width": [1, 2, 3]}, "its column 'id' holds no text"),
+    ],
+)
+def test_parquet_that_does_not_fit(tmp_path, columns, reason) -> None:
+    parquet.write_table(pyarrow.table(columns), tmp_path / "x.parquet")
+    with pytest.raises(ConfigError, match=reason):
+        load_external(tmp_path / "x.parquet", IDS)
 
 
 @pytest.mark.parametrize(
@@ -91,7 +126,8 @@ def test_tables_that_do_not_fit(tmp_path, text, reason) -> None:
 def test_files_that_are_none(tmp_path) -> None:
     for name, reason in (
         ("x.npy", r"x\.npy cannot be read"),
-        ("x.txt", r"must end in \.npy, \.npz or \.csv"),
+        ("x.txt", r"must end in \.npy, \.npz, \.csv, \.parquet"),
+        ("x.parquet", r"x\.parquet cannot be read"),
     ):
         with pytest.raises(ConfigError, match=reason):
             load_external(tmp_path / name, IDS)

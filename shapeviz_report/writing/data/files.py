@@ -6,11 +6,14 @@ write the same bytes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import chain
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
+from shapeviz_report.arrow import parquet_bytes
 from shapeviz_report.pages.base import is_in_full
 from shapeviz_report.projections import MAIN_PROJECTION
 from shapeviz_report.quality import hit_range
@@ -19,21 +22,28 @@ from shapeviz_report.writing.data.encoding import archive, csv_text, json_text, 
 from shapeviz_report.writing.data.retrieval import retrieval_class_rows, retrieval_rows
 from shapeviz_report.writing.data.separation import separation_rows
 from shapeviz_report.writing.data.summary import summary
-from shapeviz_report.writing.data.tables import copy_rows, greedy_rows, shape_rows, subset_rows, table_rows
+from shapeviz_report.writing.data.tables import (
+    copy_rows,
+    greedy_rows,
+    shape_columns,
+    shape_rows,
+    subset_rows,
+    table_rows,
+)
 
 DATA_NAMES = (
-    r"summary\.json|(features|scores)\.npz|selected-bins\.txt"
+    r"summary\.json|(features|scores)\.npz|(features|shapes)\.parquet|selected-bins\.txt"
     r"|(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|separation|projection-\w+)\.csv"
 )
 """The names that :func:`data_files` gives, as a regular expression."""
 
 
 def data_files(report: Report, version: str) -> Iterator[tuple[str, bytes]]:
-    """``summary.json``, ``shapes.csv``, ``features.npz``, one ``projection-METHOD.csv`` a projection, and what a search
-    found in ``subsets.csv``, ``greedy.csv`` and ``table2.csv``, the scores of bins in ``scores.npz``, the bins that
-    separate all classes in ``selected-bins.txt``, and how well shapes are found in ``retrieval.csv`` and
-    ``retrieval-classes.csv``, and how far classes are told apart in ``separation.csv``: names and contents, each made
-    when it is asked for.
+    """``summary.json``, ``shapes.csv``, ``features.npz``, both as Parquet where the build was told so, one
+    ``projection-METHOD.csv`` a projection, and what a search found in ``subsets.csv``, ``greedy.csv`` and
+    ``table2.csv``, the scores of bins in ``scores.npz``, the bins that separate all classes in ``selected-bins.txt``,
+    and how well shapes are found in ``retrieval.csv`` and ``retrieval-classes.csv``, and how far classes are told apart
+    in ``separation.csv``: names and contents, each made when it is asked for.
 
     Parameters
     ----------
@@ -52,6 +62,9 @@ def data_files(report: Report, version: str) -> Iterator[tuple[str, bytes]]:
             edges=report.edges,
         ),
     )
+    if report.parameters.get("parquet"):
+        yield "shapes.parquet", parquet_bytes(shape_columns(report))
+        yield "features.parquet", parquet_bytes(_feature_columns(report))
     for method, (projection, _) in report.projections.items():
         points = zip(report.shapes, projection.xy, strict=True)
         rows = ([shape.id, number(x), number(y)] for shape, (x, y) in points)
@@ -89,6 +102,13 @@ def _type_of_features(report: Report) -> type[np.floating]:
         np.finfo(np.float16).max
     )
     return np.float16 if half else np.float64
+
+
+def _feature_columns(report: Report) -> dict[str, npt.NDArray[Any] | Sequence[str | None]]:
+    """The values of ``features.npz``, below their names. Few programs read Parquet's numbers of 16 bits."""
+    kept = report.features.values.astype(_type_of_features(report))
+    columns = np.ascontiguousarray(kept.T, dtype=np.promote_types(kept.dtype, np.float32))
+    return {"id": report.features.shape_ids, **dict(zip(report.features.columns, columns, strict=True))}
 
 
 def _bin_list(selection: BinSelection) -> str:

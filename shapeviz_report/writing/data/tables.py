@@ -4,11 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.types import FeatureSearch, HitRange, Report
 from shapeviz_report.writing.data.encoding import json_text, number
+
+_INTEGERS = ("faces_read", "vertices_read", "faces", "vertices", "components")
+_FLOATS = ("nh_max", "deviation", "area", "volume", "extent_x", "extent_y", "extent_z")
+_MEASURES = ("nh:", "kept:", "false:", "missing:")
+"""How the names of columns of a map begin, all numbers."""
+
+
+def column_type(column: str) -> type[int | float | bool | str]:
+    """What the cells of a column of :func:`shape_rows` are."""
+    if column in _FLOATS or column.startswith(_MEASURES):
+        return float
+    return int if column in _INTEGERS else bool if column == "watertight" else str
 
 
 def shape_rows(report: Report) -> Iterator[list[str]]:
@@ -66,6 +80,24 @@ def shape_rows(report: Report) -> Iterator[list[str]]:
             json_text(dict(facts.repairs)) if facts.repairs else "",
             facts.sha256,
         ]
+
+
+def shape_columns(report: Report) -> dict[str, npt.NDArray[Any] | list[str | None]]:
+    """What :func:`shape_rows` has and the places on all maps, by column: numbers where they are such, and None or NaN
+    for an empty cell."""
+    header, *rows = shape_rows(report)
+    columns: dict[str, npt.NDArray[Any] | list[str | None]] = {}
+    for name, cells in zip(header, zip(*rows, strict=True), strict=True):
+        kind = column_type(name)
+        if kind is str:
+            columns[name] = [cell or None for cell in cells]
+        elif kind is bool:
+            columns[name] = np.array([cell == "true" for cell in cells])
+        else:
+            columns[name] = np.array([cell or "nan" for cell in cells]).astype(kind)
+    for method, (projection, _) in report.projections.items():
+        columns[f"x:{method}"], columns[f"y:{method}"] = projection.xy.T
+    return columns
 
 
 def copy_rows(report: Report) -> list[list[str]]:

@@ -5,33 +5,34 @@ from __future__ import annotations
 import pytest
 from reports import make_report, with_models
 
+from shapeviz_report.config import Config
 from shapeviz_report.writing import write_site
 from shapeviz_report.writing.hosts import note, refusals, weigh
 
 
 def test_a_small_site_goes_anywhere():
-    assert note(280, 320, models=True) is None
-    assert note(2_000, 160, models=False) is None
+    assert note(280, Config()) is None
+    assert note(2_000, Config(thumbnail_size=160, meshes=False)) is None
 
 
 def test_what_is_too_much_is_named_with_its_limit():
-    text = note(60_000, 320, models=True)
+    text = note(60_000, Config())
     assert "more than these hosts take: GitHub Pages (1.0 GB in all" in text
     assert "Cloudflare Pages (25 MiB a file, 20,000 files)" in text
     assert "Hugging Face (10,000 files a folder)" in text
     assert text.endswith("Of that, 3D models are 1.6 GB, which --no-meshes leaves out.")
-    assert "--no-meshes" not in note(200_000, 320, models=False)
+    assert "--no-meshes" not in note(200_000, Config(meshes=False))
 
 
 def test_less_is_written_of_more():
-    assert weigh(1001, 320, models=True).models < weigh(1000, 320, models=True).models
-    assert weigh(10_001, 320, models=False).files < weigh(10_000, 320, models=False).files / 5
-    assert weigh(500, 160, models=False).bytes < weigh(500, 320, models=False).bytes
-    assert refusals(weigh(1_000, 320, models=False)) == []
+    assert weigh(1001, Config()).models < weigh(1000, Config()).models
+    assert weigh(10_001, Config(meshes=False)).files < weigh(10_000, Config(meshes=False)).files / 5
+    assert weigh(500, Config(thumbnail_size=160, meshes=False)).bytes < weigh(500, Config(meshes=False)).bytes
+    assert refusals(weigh(1_000, Config(meshes=False))) == []
 
 
 def test_files_are_counted_as_they_are_written(tmp_path):
     report = with_models(make_report(["ant", "bird"], 30))
     write_site(report, tmp_path)
     files = sum(path.is_file() for path in tmp_path.rglob("*"))
-    assert weigh(60, 320, models=True).files == pytest.approx(files, abs=180)
+    assert weigh(60, Config()).files == pytest.approx(files, abs=180)

@@ -4,6 +4,7 @@ import io
 import json
 import re
 from dataclasses import replace
+from hashlib import sha256
 
 import numpy as np
 import pytest
@@ -107,6 +108,7 @@ def test_loaders_of_data_sets_read_the_tables(tmp_path):
     import mlcroissant
 
     report = make_report(["ant", None], 3, metadata={"Height, in m": "1.5", "__proto__": "</script>"})
+    report = replace(report, parameters={**report.parameters, "parquet": True})
     write_site(report, tmp_path)
     loaded = mlcroissant.Dataset(tmp_path / "data" / "croissant.json")
     assert not loaded.metadata.ctx.issues.errors
@@ -117,6 +119,10 @@ def test_loaders_of_data_sets_read_the_tables(tmp_path):
         assert row["shapes/deviation"] == pytest.approx(facts.deviation)
         assert (row["shapes/class"] or b"").decode() == (label or "")
         assert b"</script>" in row.values()
+    tables = {file.name: file.sha256 for file in loaded.metadata.file_objects}
+    assert {"shapes.parquet", "features.parquet"} <= tables.keys()
+    for name, found in tables.items():
+        assert sha256((tmp_path / "data" / name).read_bytes()).hexdigest() == found
     places = list(loaded.records("projection-tsne"))
     for axis, letter in enumerate("xy"):
         found = [row[f"projection-tsne/{letter}"] for row in places]

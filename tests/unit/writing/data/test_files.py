@@ -1,16 +1,19 @@
 """What scripts read from ``data/``."""
 
 import csv
+import io
 import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from pyarrow import parquet
 from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_scores, with_search
 
 from shapeviz_report.bins import read_bins
 from shapeviz_report.types import Failure
 from shapeviz_report.writing.data import data_files, json_text, summary
+from shapeviz_report.writing.data.tables import shape_rows
 
 
 @pytest.fixture
@@ -255,3 +258,36 @@ def test_the_maximum_stands_beside_every_hit() -> None:
     gain = content["bins"]["automatic"]["held_out"]["gain"]
     assert gain["deals"] == 1
     assert gain["spread"] >= 0
+
+
+def test_parquet_has_the_tables_with_types_and_places():
+    labels = [*NASTY_LABELS[:3], None]
+    metadata = {"artist": 'O"Neill, line\nbreak', "formula": "=1+1", "bytes": "\udcff"}
+    report = make_report(labels, 6, metadata=metadata)
+    report = replace(report, parameters={**report.parameters, "parquet": True})
+    files = dict(data_files(report, "1"))
+    table = parquet.read_table(io.BytesIO(files["shapes.parquet"]))
+    head = next(shape_rows(report))
+    assert table.column_names == [*head, *(f"{axis}:{name}" for name in report.projections for axis in "xy")]
+    assert table["id"].to_pylist() == [shape.id for shape in report.shapes]
+    assert table["class"].to_pylist() == list(report.labels)
+    assert set(table["metadata:formula"].to_pylist()) == {"=1+1"}
+    assert set(table["metadata:bytes"].to_pylist()) == {r"\udcff"}
+    assert table["faces_read"].to_pylist() == [facts.faces_read for facts in report.facts]
+    assert table["watertight"].to_pylist() == [facts.watertight for facts in report.facts]
+    assert table["volume"].to_pylist() == [facts.volume for facts in report.facts]
+    assert table["nh_max"].null_count == 6
+    assert table["repairs"].null_count > 0
+    for method, (projection, quality) in report.projections.items():
+        places = np.stack([table[f"{axis}:{method}"].to_numpy() for axis in "xy"], axis=1)
+        np.testing.assert_array_equal(places, projection.xy)
+        np.testing.assert_array_equal(table[f"nh:{method}"].to_numpy(), quality.nh)
+    features = parquet.read_table(io.BytesIO(files["features.parquet"]))
+    assert features.column_names == ["id", *report.features.columns]
+    assert features["id"].to_pylist() == list(report.features.shape_ids)
+    np.testing.assert_array_equal(
+        np.stack([features[name].to_numpy() for name in report.features.columns], axis=1),
+        report.features.values,
+    )
+    assert dict(data_files(report, "1")) == files
+    assert not any(name.endswith(".parquet") for name, _ in data_files(make_report(labels, 6), "1"))

@@ -1,0 +1,184 @@
+"""Parquet and data frames, by pyarrow: it weighs as much as all else here, and is installed where it is asked for."""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from shapeviz_report.errors import ConfigError
+
+if TYPE_CHECKING:
+    import pyarrow
+
+INSTALL = "pip install 'shapeviz-report[parquet]'"
+
+_FRACTION = re.compile(r"\.(\d*?)0*(?=\D|$)")
+"""The fraction of a second, with the zeros at its end apart."""
+
+
+def require_pyarrow(what: str, instead: str) -> None:
+    """Raise ``ConfigError`` where pyarrow is not installed, with what needs it and what to do ``instead``."""
+    if importlib.util.find_spec("pyarrow") is None:
+        raise ConfigError(f"{what} needs pyarrow, which is not installed: {INSTALL}; {instead}")
+
+
+def parquet_bytes(columns: Mapping[str, npt.NDArray[Any] | Sequence[str | None]]) -> bytes:
+    """Columns of one length as a file: the same bytes with the same version of pyarrow.
+
+    Parameters
+    ----------
+    columns : mapping of str to (n,) array of numbers, or sequence of str
+        By name, in order. NaN and None are nulls.
+    """
+    import pyarrow
+    from pyarrow import parquet
+
+    arrays = [
+        pyarrow.array(values, from_pandas=True)
+        if isinstance(values, np.ndarray)
+        else pyarrow.array([None if text is None else _encodable(text) for text in values], pyarrow.string())
+        for values in columns.values()
+    ]
+    names = [*map(_encodable, columns)]
+    file = io.BytesIO()
+    # Dictionaries of numbers and statistics of thousands of columns would be a fifth of the file.
+    parquet.write_table(
+        pyarrow.Table.from_arrays(arrays, names),
+        file,
+        compression="zstd",
+        use_dictionary=[name for name, column in zip(names, arrays) if column.type == pyarrow.string()],
+        write_statistics=False,
+    )
+    return file.getvalue()
+
+
+def _encodable(text: str) -> str:
+    """Text as UTF-8 can have it: a file name that is no valid text holds lone surrogates."""
+    return text.encode("utf-8", "backslashreplace").decode()
+
+
+def read_parquet(content: bytes, most_cells: int, most_bytes: int) -> pyarrow.Table:
+    """The table in a file of a stranger. Texts that repeat stay in dictionaries.
+
+    Parameters
+    ----------
+    content : bytes
+    most_cells, most_bytes : int
+        Cells that it may have, nulls too, and bytes that they may unpack to.
+
+    Raises
+    ------
+    ValueError
+        It is no such table, or a larger one.
+    """
+    import pyarrow
+    from pyarrow import parquet
+
+    try:
+        with parquet.ParquetFile(io.BytesIO(content)) as file:
+            texts = [field.name for field in file.schema_arrow if _is_text(field.type)]
+        # a few letters that a million cells share are not unpacked to a million times as many
+        with parquet.ParquetFile(io.BytesIO(content), read_dictionary=texts) as file:
+            told = file.metadata
+            if told.num_rows * told.num_columns > most_cells:
+                raise ValueError(f"it has more than {most_cells:,} cells")
+            unpacked = 0
+            parts = []
+            for group in range(told.num_row_groups):
+                unpacked += told.row_group(group).total_byte_size
+                if unpacked > most_bytes:
+                    raise ValueError(f"it unpacks to more than {most_bytes // 2**20} MiB")
+                parts.append(file.read_row_group(group, use_threads=False))
+            return pyarrow.concat_tables(parts) if parts else file.schema_arrow.empty_table()
+    except (pyarrow.ArrowException, OSError) as error:
+        reason = str(error).partition("\n")[0]
+        raise ValueError(f"it is no Parquet: {reason[:200]}") from error
+
+
+def _is_text(kind: pyarrow.DataType) -> bool:
+    import pyarrow
+
+    return pyarrow.types.is_string(kind) or pyarrow.types.is_large_string(kind)
+
+
+def frame_table(frame: Any) -> pyarrow.Table:
+    """A data frame of pandas, Polars or whatever else speaks Arrow, as a table of pyarrow.
+
+    Raises
+    ------
+    TypeError
+        It is no data frame.
+    ValueError
+        A column holds what is no text, number or date.
+    """
+    import pyarrow
+
+    if not (isinstance(frame, pyarrow.Table) or hasattr(frame, "__arrow_c_stream__")):
+        raise TypeError(f"{type(frame).__name__} is neither a path nor a data frame")
+    try:
+        return pyarrow.table(frame)
+    except (pyarrow.ArrowException, ValueError, TypeError) as error:
+        raise ValueError(": ".join(map(str, error.args))) from error
+
+
+def column_texts(column: pyarrow.ChunkedArray) -> list[str] | None:
+    """The cells of a column as one would write them, empty for nulls and NaN; None for bytes that are no text, and for
+    lists and the like.
+
+    Whole numbers have no point, dates no time, and neither zeros at their ends.
+    """
+    import pyarrow
+    from pyarrow import compute
+
+    kind = column.type
+    if pyarrow.types.is_dictionary(kind):
+        found: list[str] = []
+        for chunk in column.chunks:
+            texts = column_texts(pyarrow.chunked_array([chunk.dictionary]))
+            if texts is None:
+                return None
+            found += ["" if place is None else texts[place] for place in chunk.indices.to_pylist()]
+        return found
+    try:
+        cells = compute.cast(column, pyarrow.string()).to_pylist()
+    except (pyarrow.ArrowException, UnicodeDecodeError):
+        return None
+    texts = ["" if cell is None else cell for cell in cells]
+    if pyarrow.types.is_floating(kind):
+        return ["" if text == "nan" else text for text in texts]
+    if pyarrow.types.is_temporal(kind):
+        texts = [_FRACTION.sub(_point_and_digits, text) for text in texts]
+        if all(text == "" or text.endswith(" 00:00:00") for text in texts):
+            texts = [text.removesuffix(" 00:00:00") for text in texts]
+    return texts
+
+
+def _point_and_digits(fraction: re.Match[str]) -> str:
+    return f".{fraction[1]}" if fraction[1] else ""
+
+
+def column_numbers(column: pyarrow.ChunkedArray) -> npt.NDArray[np.float64] | None:
+    """The cells of a column of numbers, or of lists of as many numbers, as (n, d) values, NaN for nulls; None for any
+    other."""
+    import pyarrow
+    from pyarrow import compute
+
+    kind, count = column.type, len(column)
+    types = pyarrow.types
+    if types.is_list(kind) or types.is_large_list(kind) or types.is_fixed_size_list(kind):
+        lengths = compute.unique(compute.list_value_length(column)).to_pylist()
+        if len(lengths) > 1 or None in lengths:
+            return None
+        column, kind = compute.list_flatten(column), kind.value_type
+    if types.is_boolean(kind):
+        column = compute.cast(column, pyarrow.uint8())
+    elif not (types.is_integer(kind) or types.is_floating(kind) or types.is_decimal(kind)):
+        return None
+    values = np.asarray(compute.cast(column, pyarrow.float64(), safe=False).to_numpy(), np.float64)
+    return values.reshape(count, -1) if count else values.reshape(0, 1)
