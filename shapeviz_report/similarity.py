@@ -161,9 +161,13 @@ def squared_by_feature(
 def feature_weight(block: FeatureBlock, preset: Preset, compared: FloatArray) -> float:
     """What a squared difference in the compared values (n, w) of a feature counts, as
     :func:`~shapeviz_report.presets.scale` has it."""
+    return weight_of_size(block, preset, float(compared.var(axis=0).sum()))
+
+
+def weight_of_size(block: FeatureBlock, preset: Preset, size: float) -> float:
+    """The same of a feature whose values have the mean squared distance ``size`` from their mean."""
     if not preset.balanced:
         return 1.0
-    size = float(compared.var(axis=0).sum())
     return block.weight / size if size > NOTHING**2 else 0.0
 
 

@@ -806,6 +806,35 @@ class Selection(FoundBins):
     marked: list[float]
 
 
+class Levels(TypedDict):
+    """What the parts "rows", "columns", "components" and "classes" are in terms of.
+
+    Attributes
+    ----------
+    low, high : (w,) float32 array
+        The compared values of a column that are level 0 and level 255.
+    variances : (w,) float64 array
+        Of the compared values of all shapes.
+    weights : (f,) float64 array
+        What a squared difference in a feature's compared values counts.
+    order : (n,) int32 array
+        The shapes as the parts "rows" have them: class by class, first those without one, within a class scattered.
+    rowsAPart, columnsAPart : int
+        Shapes a part of the rows; columns a part of the columns, where a feature has as many left.
+    levelsACell : int
+        Levels that a class counts together.
+    """
+
+    low: npt.NDArray[np.float32]
+    high: npt.NDArray[np.float32]
+    variances: npt.NDArray[np.float64]
+    weights: npt.NDArray[np.float64]
+    order: npt.NDArray[np.int32]
+    rowsAPart: int
+    columnsAPart: int
+    levelsACell: int
+
+
 class Chunks(TypedDict, total=False):
     """Every chunk by its name; one is left out where there is nothing to say. Bytes become an ``ArrayBuffer``.
 
@@ -828,6 +857,8 @@ class Chunks(TypedDict, total=False):
         The score of every scorer, class and column in 65,535 steps; uint16.
     engine : str
         The script of the worker.
+    levels : Levels
+        Only where the compared values are too many for one chunk.
     paintings : dict of str to str
         The content of every painted bin in base64, by its path; not in a site of one file, where they are anyway.
     """
@@ -851,6 +882,7 @@ class Chunks(TypedDict, total=False):
     scores: bytes
     selection: Selection
     engine: str
+    levels: Levels
     paintings: dict[str, str]
 
 
@@ -861,8 +893,40 @@ class PicturePart(TypedDict):
     content: npt.NDArray[np.uint8]
 
 
+class ComponentPart(TypedDict):
+    """Where all shapes lie along some principal components of a feature.
+
+    Attributes
+    ----------
+    unit : float
+        What a squared difference of one counts in squared distances.
+    values : (c * n,) uint8 array
+        Component after component.
+    """
+
+    unit: float
+    values: npt.NDArray[np.uint8]
+
+
+class ClassPart(TypedDict):
+    """How the values of some shapes are spread, in levels.
+
+    Attributes
+    ----------
+    shapes : int
+    means, variances : (w,) float32 array
+    cells : (w * c,) uint32 array
+        Column after column, how many shapes have a value of each cell of ``Levels.levelsACell`` levels.
+    """
+
+    shapes: int
+    means: npt.NDArray[np.float32]
+    variances: npt.NDArray[np.float32]
+    cells: npt.NDArray[np.uint32]
+
+
 class Parts(TypedDict, total=False):
-    """Chunks that come in parts, each of so many shapes: what one of each holds.
+    """Chunks that come in parts: what one of each holds. All but the first two only with the chunk "levels".
 
     Attributes
     ----------
@@ -871,7 +935,19 @@ class Parts(TypedDict, total=False):
     pictures : PicturePart
         Class by class, first those without one; of a class in the order of the shapes. Not in a site of one file that
         has them as files.
+    rows : bytes
+        The levels of all compared values, shape after shape, in the order of ``Levels``; uint8.
+    columns : bytes
+        The levels of some columns of a feature, column after column; uint8.
+    components : ComponentPart
+        A part a feature.
+    classes : ClassPart
+        A part a class, and the last one of all shapes.
     """
 
     details: list[ShapeDetails]
     pictures: PicturePart
+    rows: bytes
+    columns: bytes
+    components: ComponentPart
+    classes: ClassPart

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from shapeviz_report.pages.base import PageContent
+from shapeviz_report.pages.base import PageContent, is_in_full
+from shapeviz_report.pages.levels import level_parts, level_table, levels_chunk
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.types import Report
 from shapeviz_report.wording import word_whole
@@ -18,6 +19,8 @@ class ShapePage:
 
     def content(self, report: Report) -> PageContent:
         preset = PRESETS[str(report.parameters["preset"])]
-        return PageContent(
-            context={"models": report.models is not None, "whole": word_whole(preset.by_area)},
-        )
+        context = {"models": report.models is not None, "whole": word_whole(preset.by_area)}
+        if is_in_full(report):
+            return PageContent(context)
+        levels = level_table(report, preset)
+        return PageContent(context, {"levels": levels_chunk(levels)}, level_parts(levels))

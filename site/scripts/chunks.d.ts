@@ -539,6 +539,17 @@ declare namespace Chunk {
     clay: number[];
     marked: number[];
   }
+  /** What the parts "rows", "columns", "components" and "classes" are in terms of. */
+  interface Levels {
+    low: Float32Array;
+    high: Float32Array;
+    variances: Float64Array;
+    weights: Float64Array;
+    order: Int32Array;
+    rowsAPart: number;
+    columnsAPart: number;
+    levelsACell: number;
+  }
   /** Every chunk by its name; one is left out where there is nothing to say. Bytes become an `ArrayBuffer`. */
   interface Chunks {
     overview: Overview;
@@ -560,6 +571,7 @@ declare namespace Chunk {
     scores: ArrayBuffer;
     selection: Selection;
     engine: string;
+    levels: Levels;
     paintings: Record<string, string>;
   }
   /** WebP files, one after the other, and where each ends. */
@@ -567,9 +579,25 @@ declare namespace Chunk {
     ends: Uint32Array;
     content: Uint8Array;
   }
-  /** Chunks that come in parts, each of so many shapes: what one of each holds. */
+  /** Where all shapes lie along some principal components of a feature. */
+  interface ComponentPart {
+    unit: number;
+    values: Uint8Array;
+  }
+  /** How the values of some shapes are spread, in levels. */
+  interface ClassPart {
+    shapes: number;
+    means: Float32Array;
+    variances: Float32Array;
+    cells: Uint32Array;
+  }
+  /** Chunks that come in parts: what one of each holds. All but the first two only with the chunk "levels". */
   interface Parts {
     details: ShapeDetails[];
     pictures: PicturePart;
+    rows: ArrayBuffer;
+    columns: ArrayBuffer;
+    components: ComponentPart;
+    classes: ClassPart;
   }
 }
