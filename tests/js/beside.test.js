@@ -59,55 +59,60 @@ test("few of many points in groups are looked at", () => {
   assert.ok(nearest.work < (100 * count * width) / 4, `${nearest.work}`);
 });
 
-test("each stands beside the one of the map that it is most like, the most alike the nearest", () => {
-  const next = numbers(9);
-  const [count, further, width] = [60, 600, 4];
-  const table = {
-    rows: count,
-    columns: width,
-    values: Float32Array.from({ length: count * width }, next),
-    blocks: new Int32Array(width),
-    weights: [1],
-    scaling: "balanced",
-  };
-  const rows = Int32Array.from({ length: count }, (_, row) => row);
-  const columns = Int32Array.of(2, 0, 3);
-  const xy = Float32Array.from({ length: 2 * count }, () => 2 * next() - 1);
-  const steps = () => Uint8Array.from({ length: further }, () => 255 * next());
-  const others = Array.from(columns, () => ({ steps: steps(), low: 0, step: 1 / 255 }));
-  const task = { rows, columns, by: /** @type {const} */ ("bins"), xy, others };
-  const ends = placeBeside(table, task);
-  let step = ends.next();
-  while (!step.done) step = ends.next();
-  const placed = step.value.xy;
+const [COUNT, FURTHER, WIDTH] = [60, 600, 4];
+const COLUMNS = Int32Array.of(2, 0, 3);
 
-  // What each is most like, by hand: columns divided by their spread over the table.
-  const deviation = Array.from(columns, (column) => {
-    const own = table.values.subarray(column * count, (column + 1) * count);
-    const mean = own.reduce((sum, value) => sum + value, 0) / count;
-    return Math.sqrt(own.reduce((sum, value) => sum + (value - mean) ** 2, 0) / count);
-  });
-  const distance = (other, row) =>
-    Math.hypot(
-      ...Array.from(
-        columns,
-        (column, place) => (table.values[column * count + row] - others[place].steps[other] / 255) / deviation[place],
-      ),
+for (const kind of /** @type {const} */ (["columns of the table", "numbers of their own"]))
+  test(`each stands beside the one of the map that it is most like by ${kind}, the most alike the nearest`, () => {
+    const next = numbers(9);
+    const rows = COUNT + FURTHER;
+    const values = Float32Array.from({ length: rows * WIDTH }, next);
+    const table = { rows, columns: WIDTH, values, blocks: new Int32Array(WIDTH), weights: [1], scaling: "balanced" };
+    // Every eleventh shape is on the map.
+    const all = Array.from({ length: rows }, (_, row) => row);
+    const shapes = Int32Array.from(all.filter((row) => row % 11 === 0));
+    const others = Int32Array.from(all.filter((row) => row % 11 > 0));
+    const xy = Float32Array.from({ length: 2 * shapes.length }, () => 2 * next() - 1);
+    const own = Array.from({ length: 5 }, () => Uint8Array.from(all, () => 256 * next()));
+    const units = [0.1, 2, 1, 0.5, 0.3];
+    const compared =
+      kind === "columns of the table"
+        ? { columns: COLUMNS, by: /** @type {const} */ ("bins") }
+        : { numbers: own.map((held, place) => ({ values: held, unit: units[place] })) };
+    const steps = placeBeside(table, { compared, shapes, xy, others });
+    let step = steps.next();
+    while (!step.done) step = steps.next();
+    const placed = step.value.xy;
+
+    // By hand: columns divided by their spread over the table.
+    const deviations = Array.from(COLUMNS, (column) => {
+      const held = values.subarray(column * rows, (column + 1) * rows);
+      const mean = held.reduce((sum, value) => sum + value, 0) / rows;
+      return Math.sqrt(held.reduce((sum, value) => sum + (value - mean) ** 2, 0) / rows);
+    });
+    const distance = (one, other) =>
+      kind === "columns of the table"
+        ? Math.hypot(
+            ...Array.from(
+              COLUMNS,
+              (column, place) => (values[column * rows + one] - values[column * rows + other]) / deviations[place],
+            ),
+          )
+        : Math.hypot(...own.map((held, place) => Math.sqrt(units[place]) * (held[one] - held[other])));
+    const away = (place, row) => Math.hypot(placed[2 * place] - xy[2 * row], placed[2 * place + 1] - xy[2 * row + 1]);
+    const smallest = (found) => found.indexOf(Math.min(...found));
+    const beside = Array.from(others, (other) =>
+      smallest(Array.from(shapes, (shape) => Math.fround(distance(other, shape)))),
     );
-  const away = (other, row) => Math.hypot(placed[2 * other] - xy[2 * row], placed[2 * other + 1] - xy[2 * row + 1]);
-  const smallest = (values) => values.indexOf(Math.min(...values));
-  const beside = Array.from({ length: further }, (_, other) =>
-    smallest(Array.from(rows, (row) => distance(other, row))),
-  );
-  for (let other = 0; other < further; other += 1)
-    assert.equal(smallest(Array.from(rows, (row) => away(other, row))), beside[other]);
-  for (const row of rows) {
-    const own = [...beside.keys()].filter((other) => beside[other] === row);
-    const byPlace = own.toSorted((a, b) => away(a, row) - away(b, row));
-    const byLikeness = own.toSorted((a, b) => distance(a, row) - distance(b, row));
-    assert.deepEqual(byPlace, byLikeness);
-  }
-});
+    for (const place of others.keys())
+      assert.equal(smallest(Array.from(shapes.keys(), (row) => away(place, row))), beside[place]);
+    for (const [row, shape] of shapes.entries()) {
+      const around = [...beside.keys()].filter((place) => beside[place] === row);
+      const byPlace = around.toSorted((a, b) => away(a, row) - away(b, row));
+      const byLikeness = around.toSorted((a, b) => distance(others[a], shape) - distance(others[b], shape));
+      assert.deepEqual(byPlace, byLikeness);
+    }
+  });
 
 test("none hides another, also where shapes of the map do", () => {
   const xy = Float32Array.of(0.1, 0.1, 0.1, 0.1, -0.5, 0.2);

@@ -1,12 +1,14 @@
 // The task "beside": places for shapes that a map was not made of, each beside the one of the map that is most like it by
 // what the map compares.
 
-import { factorsOf, scaledPoints } from "./distances.js";
+import { factorsOf } from "./distances.js";
 import { Nearest } from "./nearest.js";
 
 /**
- * Values of some columns for further shapes: `steps` from `low`, each worth `step`, a column.
- * @typedef {{ steps: Uint8Array | Uint16Array, low: number, step: number }} Column
+ * What a map compares: columns of the table, of which shapes are rows; or further numbers of shapes, each with what a
+ * squared difference of one counts.
+ * @typedef {{ columns: Int32Array, by: "features" | "bins" }} OfTable
+ * @typedef {{ numbers: { values: Uint8Array, unit: number }[] }} OfNumbers
  */
 
 /** Products between two reports: some milliseconds of work. */
@@ -18,42 +20,70 @@ const TURN = Math.PI * (3 - Math.sqrt(5));
 /** Of the way to the next shape of the map, the part that those beside a shape have: so they are beside no other. */
 const ROOM = 0.45;
 
-/** They have at least this, of a map from -1 to 1, and at most so many times the usual: a shape far from all others needs no more. */
+/** They have at least this, of a map from -1 to 1; and no more than so many times the usual, however far the next is. */
 const LEAST_ROOM = 0.001;
 const MOST_ROOM = 2;
 
 /**
  * @param {FeatureValues} table
- * @param {{ rows: Int32Array, columns: Int32Array, by: "features" | "bins", xy: Float32Array, others: Column[] }} task
- *   rows, columns, by: what the map was made of; xy (2 n): where it has them; others: the same columns of further shapes
+ * @param {{ compared: OfTable | OfNumbers, shapes: Int32Array, xy: ArrayLike<number>, others: Int32Array }} task
+ *   shapes, xy (2 n): those that the map was made of, and where it has them; others: who is to be placed
  * @returns {Steps<{ xy: Float32Array }>} the places of these
  */
-export function* placeBeside(table, { rows, columns, by, xy, others }) {
-  const points = scaledPoints(table, rows, columns, by);
-  const factors = factorsOf(table, columns, by);
+export function* placeBeside(table, { compared, shapes, xy, others }) {
+  const { width, read } = reader(table, compared);
+  const points = { count: shapes.length, width, values: new Float32Array(shapes.length * width) };
+  for (const [row, shape] of shapes.entries()) read(shape, points.values.subarray(row * width, (row + 1) * width));
   const nearest = new Nearest(points);
-  const count = others[0].steps.length;
-  const beside = new Int32Array(count);
-  const squared = new Float64Array(count);
-  const point = new Float32Array(columns.length);
+  const beside = new Int32Array(others.length);
+  const squared = new Float64Array(others.length);
+  const point = new Float32Array(width);
   let reported = 0;
-  for (let other = 0; other < count; other += 1) {
-    for (const [place, { steps, low, step }] of others.entries())
-      point[place] = (low + step * steps[other]) * factors[place];
+  for (const [place, shape] of others.entries()) {
+    read(shape, point);
     const found = nearest.find(point);
-    beside[other] = found.row;
-    squared[other] = found.squared;
+    beside[place] = found.row;
+    squared[place] = found.squared;
     if (nearest.work - reported > WORK) {
       reported = nearest.work;
-      yield { progress: other / count };
+      yield { progress: place / others.length };
     }
   }
   return { xy: spread(xy, beside, squared) };
 }
 
 /**
+ * What writes a shape as a point into an array.
+ * @param {FeatureValues} table
+ * @param {OfTable | OfNumbers} compared
+ * @returns {{ width: number, read: (shape: number, point: Float32Array) => void }}
+ */
+function reader(table, compared) {
+  if ("numbers" in compared) {
+    const { numbers } = compared;
+    const roots = numbers.map(({ unit }) => Math.sqrt(unit));
+    return {
+      width: numbers.length,
+      read(shape, point) {
+        for (let place = 0; place < point.length; place += 1)
+          point[place] = numbers[place].values[shape] * roots[place];
+      },
+    };
+  }
+  const { columns, by } = compared;
+  const factors = factorsOf(table, columns, by);
+  return {
+    width: columns.length,
+    read(shape, point) {
+      for (let place = 0; place < point.length; place += 1)
+        point[place] = table.values[columns[place] * table.rows + shape] * factors[place];
+    },
+  };
+}
+
+/**
  * Places around those of the map: on a spiral a shape, the most alike in the middle.
- * @param {Float32Array} xy
+ * @param {ArrayLike<number>} xy
  * @param {Int32Array} beside whom each further shape belongs to
  * @param {Float64Array} squared how far it is from that one
  */
@@ -76,7 +106,7 @@ export function spread(xy, beside, squared) {
 
 /**
  * How far from each shape of a map others may stand.
- * @param {Float32Array} xy
+ * @param {ArrayLike<number>} xy
  */
 function roomsOf(xy) {
   const count = xy.length / 2;

@@ -23,7 +23,8 @@ import { turned } from "./turned.js";
  * Runs a task of the engines; those of scores take turns with several.
  * @typedef {(name: string, parameters: object, report?: Listener, number?: number) => Promise<any>} Run
  *
- * @typedef {{ method: string, shapes: Int32Array, columns: Int32Array, by: "features" | "bins" }} Layout
+ * What a map is made of, and of whom; `others` are to be placed beside these.
+ * @typedef {{ method: string, shapes: Int32Array, others: Int32Array, columns: Int32Array, by: "features" | "bins" }} Layout
  */
 
 const SCORE_STEPS = 65535;
@@ -38,6 +39,9 @@ export const SEARCHED_SHAPES = 400;
 const SEARCHED_BINS = 300;
 /** By whose maps the build searches bins; the promise of another is none. */
 export const FOUND_BY = "tsne";
+
+/** The part of the work on a map that its layout is, where others are placed on it. */
+const LAID_OUT = 0.7;
 
 /** More bins than this hardly raise NH: docs/method/bins-search.md. */
 const FOUND_BINS = 25;
@@ -111,6 +115,17 @@ export class Answers {
   }
 
   /**
+   * Those, and the others in use.
+   * @param {Pick<Use, "hidden">} use
+   */
+  #who(use) {
+    const [shapes, inUse] = [this.shapes(use), this.inUse(use)];
+    if (shapes.length === inUse.length) return { shapes, others: Int32Array.of() };
+    const taken = new Set(shapes);
+    return { shapes, others: inUse.filter((shape) => !taken.has(shape)) };
+  }
+
+  /**
    * Whether a map of all shapes that answers the question travels with the site.
    * @param {"original" | "refined"} which
    * @param {string} projection
@@ -145,12 +160,7 @@ export class Answers {
    */
   original(projection, step, report, partial) {
     /** @type {Layout} */
-    const asked = {
-      method: projection,
-      shapes: this.shapes(step),
-      columns: this.columns(step.features),
-      by: "features",
-    };
+    const asked = { method: projection, ...this.#who(step), columns: this.columns(step.features), by: "features" };
     return this.#chain(async (run) => {
       const offline = this.hasMap("original", projection, step)
         ? await this.#offlineMap(projection, step.features)
@@ -170,7 +180,7 @@ export class Answers {
   refined(projection, step, report, partial) {
     const columns = Int32Array.from(step.bins).sort();
     /** @type {Layout} */
-    const asked = { method: projection, shapes: this.shapes(step), columns, by: "bins" };
+    const asked = { method: projection, ...this.#who(step), columns, by: "bins" };
     const offline = this.hasMap("refined", projection, step) ? this.#siteMap(projection) : null;
     return this.#chain(async (run) =>
       offline === null
@@ -195,7 +205,7 @@ export class Answers {
       /** @type {Layout} */
       const asked = {
         method: projection,
-        shapes: this.shapes(step),
+        ...this.#who(step),
         columns: Int32Array.from(columns).sort(),
         by: "bins",
       };
@@ -233,11 +243,15 @@ export class Answers {
     const base = this.#siteMap(projection);
     const map = mapOf(last, selection, database.count);
     const { x, y } = base === null ? map : turned(map, base);
-    const shapes = this.shapes(step);
+    const who = this.#who(step);
     // Told is what the unrounded map reaches.
     const columns = Int32Array.from(found.bins).sort();
     return {
-      ...(await this.#measured(run, { method: projection, shapes, columns, by: "bins" }, placesOf({ x, y }, shapes))),
+      ...(await this.#measured(
+        run,
+        { method: projection, ...who, columns, by: "bins" },
+        placesOf({ x, y }, who.shapes),
+      )),
       hitOfAll: found.nh,
     };
   }
@@ -445,19 +459,42 @@ export class Answers {
    * @param {Partial} partial
    * @returns {Promise<ShapeMap>}
    */
-  async #layout(run, { method, shapes, columns, by }, report, partial) {
+  async #layout(run, layout, report, partial) {
     const { database, data } = this;
+    const { method, shapes, others, columns, by } = layout;
+    const share = others.length > 0 ? LAID_OUT : 0.97;
     // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
     // and yet the same address gives the same map on any way there.
     const start = Float32Array.from(placesOf(this.#siteMap(method) ?? database.projections[0], shapes));
     /** @type {Listener} */
     const listen = (told) => {
-      report({ progress: told.progress * 0.97 });
+      report({ progress: told.progress * share });
       if (told.partial) partial(this.#spread(shapes, told.partial.xy, 0), this.#spread(shapes, told.partial.xy, 1));
     };
     const task = { method, rows: this.#rows(shapes), columns, by, start, seed: data.seed };
     const { xy } = await run("layout", task, listen);
-    return this.#measured(run, { method, shapes, columns, by }, xy);
+    const map = await this.#measured(run, layout, xy);
+    return others.length === 0
+      ? map
+      : this.#withOthers(run, map, layout, xy, ({ progress }) => report({ progress: share + (1 - share) * progress }));
+  }
+
+  /**
+   * A map of a sample with the others on it, each beside the one of the sample that it is most like.
+   * @param {Run} run
+   * @param {ShapeMap} map
+   * @param {Layout} layout
+   * @param {ArrayLike<number>} xy
+   * @param {Listener} report
+   * @returns {Promise<ShapeMap>}
+   */
+  async #withOthers(run, map, { shapes, others, columns, by }, xy, report) {
+    const compared = { columns, by };
+    const task = { compared, shapes, xy, others };
+    const found = await run("beside", task, report);
+    const [x, y] = [0, 1].map((part) => this.#spread(others, found.xy, /** @type {0 | 1} */ (part)));
+    for (const shape of shapes) [x[shape], y[shape]] = [map.x[shape], map.y[shape]];
+    return { ...map, x, y, sample: shapes };
   }
 
   /**
