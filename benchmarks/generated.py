@@ -1,9 +1,11 @@
 """A site of as many generated shapes as one likes, without a mesh: to see what size does to the writer and the pages.
 
-    python -m benchmarks.generated OUT [--shapes 100000] [--classes 60] [--features Gc,Agd,...] [--seed 0]
+    python -m benchmarks.generated OUT [--shapes 100000] [--classes 60] [--features Gc,Agd,...] [--searched 0]
 
 Rows of features are a prototype a class and noise; maps, their quality, facts and columns are dealt out as plausible
-ones would be. There are no models and no searches. Prints what each part took, and what each part of the site weighs.
+ones would be. Searches, scores and retrieval are those of a build, of a sample of ``--searched`` shapes, where a build
+takes 1000; without, there are none. There are no models. Prints what each part took, and what each part of the site
+weighs.
 """
 
 from __future__ import annotations
@@ -15,32 +17,55 @@ import time
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFilter
 from scipy.spatial import KDTree
 
+from shapeviz_report.bins import scale_bins
+from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import BINS
 from shapeviz_report.neighbours import RELATED, find_nearest
 from shapeviz_report.order import classes_of
-from shapeviz_report.presets import PRESETS, scale
+from shapeviz_report.pages.sampling import sample_rows
+from shapeviz_report.presets import PRESETS, compared_values, scale
+from shapeviz_report.projections import squared_distances
 from shapeviz_report.quality import NEIGHBOURS, hit_range
+from shapeviz_report.retrieval import query_classes, rate, rate_chance, rate_subsets
+from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
+from shapeviz_report.search import SearchSpace, make_space, search_features
+from shapeviz_report.search.bins import (
+    encode,
+    find_minimal_bins,
+    hold_out,
+    make_bin_space,
+    select_bins,
+    shuffle_labels,
+)
+from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.separation import rate_separation
 from shapeviz_report.types import (
+    BinScores,
+    BinSearch,
     Cluster,
     Clusters,
     Copy,
     Database,
     Failure,
     Faithfulness,
+    FeatureSearch,
     FeatureTable,
     FloatArray,
+    IntArray,
     Match,
+    Painting,
     Projection,
     Quality,
     Report,
+    Retrieval,
     ShapeEntry,
     ShapeFacts,
 )
@@ -54,6 +79,10 @@ DRAWN = 2000
 """Different drawings; each picture has bytes of its own nevertheless."""
 RATED = 1000
 """Shapes whose quality is computed; the others have the figures of one of these."""
+SCORED = 4
+"""Classes that are scored and have bins searched for them; the others have those of one of these."""
+MOST_BINS = 12
+"""Bins of a choice for all classes."""
 ROOT = Path("/generated")
 
 KINDS = (
@@ -128,6 +157,110 @@ def make_report(count: int, classes: int, features: Sequence[str] = FEATURES, se
         faithfulness={method: _spread(found, like) for method, found in rated.items()},
         related=find_nearest(maps["tsne"], min(RELATED, count - 1)),
         separation=rate_separation(scaled, shown, sampled, NEIGHBOURS),
+    )
+
+
+def with_searches(report: Report, count: int, seed: int = 0) -> Report:
+    """The report with what a build searches, scores and rates, of a sample of ``count`` shapes of all its classes."""
+    names = classes_of(report.labels)
+    number = {name: code for code, name in enumerate(names)}
+    rows = sample_rows(np.array([number[label] for label in report.labels]), count)
+    ids = tuple(report.shapes[row].id for row in rows)
+    table = FeatureTable(ids, report.features.blocks, report.features.values[rows].astype(float))
+    labels = [report.labels[row] for row in rows]
+    scaled = scale(table, PRESET)
+    space = make_space(table, scaled, labels, seed=seed)
+    search = replace(
+        search_features(space, labels, "tsne", seed=seed, rounds=1, groups=np.arange(len(rows))),
+        rows=rows[space.rows],
+        shape_count=len(report.shapes),
+    )
+    print("searched features", flush=True)
+    bins = _search_bins(table, labels, scaled, seed)
+    exemplars = choose_exemplars(
+        bins, table, labels, scaled, next(iter(report.projections.values()))[0].xy[rows], NEIGHBOURS
+    )
+    print("searched bins", flush=True)
+    compared = compared_values(table, PRESET)
+    scores = [
+        [score_separation(scorer, compared, as_one_group(labels, [name])) for name in names[:SCORED]]
+        for scorer in SCORERS
+    ]
+    return replace(
+        report,
+        search=search,
+        bins=_of_all(bins, rows, len(report.shapes)),
+        retrieval=_rate(
+            space, labels, search, scale_bins(table, PRESET, bins.automatic.bins), bins.automatic.bins
+        ),
+        scores=BinScores(
+            tuple(scorer.name for scorer in SCORERS),
+            names,
+            np.array(scores, dtype=np.float32)[:, np.arange(len(names)) % SCORED],
+        ),
+        paintings=tuple(
+            Painting(column, int(rows[row]), report.thumbnails[rows[row]], report.thumbnails[rows[row] - 1])
+            for column, own in exemplars.items()
+            for row in own
+        ),
+        parameters={**report.parameters, "search": "tsne"},
+    )
+
+
+def _search_bins(
+    table: FeatureTable, labels: Sequence[str | None], scaled: FloatArray, seed: int
+) -> BinSearch:
+    space = make_bin_space(table, PRESET, labels, seed=seed)
+    names, codes = encode(space, labels)
+    sizes = np.bincount(codes, minlength=len(names))
+    everything = squared_distances(scaled[space.rows])
+    fold = deal_folds(codes, seed)[0]
+    shuffled = shuffle_labels(space, labels, seed)
+    found = [find_minimal_bins(space, labels, name) for name in names[:SCORED]]
+    by_chance = find_minimal_bins(space, shuffled, names[0])
+    return BinSearch(
+        automatic=select_bins(space, labels, limit=MOST_BINS),
+        held_out=(hold_out(space, labels, fold, everything, limit=MOST_BINS),),
+        shuffled=(hold_out(space, shuffled, fold, everything, limit=2),),
+        chance=float((sizes[codes] - 1).mean() / (len(codes) - 1)),
+        minimal=tuple(replace(found[code % SCORED], label=name) for code, name in enumerate(names)),
+        minimal_by_chance=dict.fromkeys(sizes.tolist(), by_chance),
+        sizes=dict(zip(names, sizes.tolist())),
+    )
+
+
+def _of_all(found: BinSearch, rows: IntArray, count: int) -> BinSearch:
+    """What was found of a sample, as of the database that it was taken from."""
+
+    return replace(
+        found,
+        automatic=replace(found.automatic, rows=rows[found.automatic.rows], shape_count=count),
+        minimal=tuple(replace(separated, rows=rows[separated.rows]) for separated in found.minimal),
+    )
+
+
+def _rate(
+    space: SearchSpace,
+    labels: Sequence[str | None],
+    search: FeatureSearch,
+    bins: FloatArray,
+    names: tuple[str, ...],
+) -> Retrieval:
+    """How well the shapes of the search are found by its subsets, and by ``bins``, the values of those chosen."""
+    classes, codes = query_classes([labels[row] for row in space.rows])
+    subsets = search.subsets.members @ (1 << np.arange(len(space.features)))
+    return Retrieval(
+        features=space.features,
+        rows=search.rows,
+        shape_count=search.shape_count,
+        classes=classes,
+        queries=np.bincount(codes[codes >= 0]).astype(np.int32),
+        members=search.subsets.members,
+        subsets=tuple(rate_subsets(space.squared, codes, subsets.tolist())),
+        bins=names,
+        by_bins=rate(squared_distances(bins[space.rows]), codes),
+        by_neighbourhood=None,
+        chance=rate_chance(codes),
     )
 
 
@@ -369,12 +502,16 @@ def main() -> None:
     parser.add_argument("--shapes", type=int, default=100_000)
     parser.add_argument("--classes", type=int, default=60)
     parser.add_argument("--features", default=",".join(FEATURES), help="names, or all")
+    parser.add_argument("--searched", type=int, default=0, help="shapes that searches look at")
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     every = [block.name for block in PRESET.blocks]
     features = every if given.features == "all" else given.features.split(",")
     with _timed("report"):
         report = make_report(given.shapes, given.classes, features, given.seed)
+    if given.searched:
+        with _timed("searches"):
+            report = with_searches(report, given.searched, given.seed)
     with _timed("site"):
         write_site(report, given.out)
     print_sizes(given.out)

@@ -50,26 +50,27 @@ def find_rivals(xy: FloatArray, labels: Sequence[str | None], k: int) -> dict[st
     classes = classes_of(labels)
     members = np.array([[label == name for label in labels] for name in classes], dtype=float)
     shares = members @ neighbour_weights(xy, k) @ members.T
-    means = members / members.sum(axis=1, keepdims=True)
-    distances = _mean_distances(xy, means)
     np.fill_diagonal(shares, -1)
-    np.fill_diagonal(distances, np.inf)
     rivals = {}
     for number, name in enumerate(classes):
-        nearest = shares[number].argmax() if shares[number].max() > 0 else distances[number].argmin()
+        if shares[number].max() > 0:
+            nearest = shares[number].argmax()
+        else:
+            distances = _mean_distances(xy[members[number] > 0], xy, members)
+            distances[number] = np.inf
+            nearest = distances.argmin()
         rivals[name] = classes[int(nearest)]
     return rivals
 
 
-def _mean_distances(xy: FloatArray, means: FloatArray) -> FloatArray:
-    """The mean distances (c, c) between groups of points (n, 2); ``means`` (c, n) averages over each group."""
-    total = np.zeros((len(means),) * 2)
+def _mean_distances(own: FloatArray, xy: FloatArray, members: FloatArray) -> FloatArray:
+    """The mean distances of some points (m, 2) from groups (c, n) of all points (n, 2); (c,)."""
+    total = np.zeros(len(members))
     # Not all pairs at once: of 10,000 points they would take 800 MB.
     step = max(1, PAIRS // len(xy))
-    for start in range(0, len(xy), step):
-        part = slice(start, start + step)
-        total += means[:, part] @ cdist(xy[part], xy) @ means.T
-    return total
+    for start in range(0, len(own), step):
+        total += members @ cdist(own[start : start + step], xy).sum(axis=0)
+    return total / len(own) / members.sum(axis=1)
 
 
 def choose_exemplars(
