@@ -2,6 +2,7 @@
 
 import { isSame } from "../addresses/workbench.js";
 import { chunk } from "../base/chunks.js";
+import { numbersOfBins, numbersOfFeatures } from "../database/levels.js";
 import { sampled } from "../database/sample.js";
 import { Subsets } from "../database/subsets.js";
 import { startEngine } from "../engine/client.js";
@@ -489,12 +490,33 @@ export class Answers {
    * @returns {Promise<ShapeMap>}
    */
   async #withOthers(run, map, { shapes, others, columns, by }, xy, report) {
-    const compared = { columns, by };
-    const task = { compared, shapes, xy, others };
+    const task = { compared: await this.#compared(columns, by), shapes, xy, others };
     const found = await run("beside", task, report);
     const [x, y] = [0, 1].map((part) => this.#spread(others, found.xy, /** @type {0 | 1} */ (part)));
     for (const shape of shapes) [x[shape], y[shape]] = [map.x[shape], map.y[shape]];
     return { ...map, x, y, sample: shapes };
+  }
+
+  /**
+   * What a map compares, of all shapes: columns of the engines' table, whose rows are all shapes; else as the site holds it
+   * of so many.
+   * @param {Int32Array} columns
+   * @param {"features" | "bins"} by
+   */
+  async #compared(columns, by) {
+    const { bins } = this;
+    if (bins.sample === null) return { columns, by };
+    return {
+      numbers: await (by === "bins" ? numbersOfBins(bins, columns) : numbersOfFeatures(this.#features(columns))),
+    };
+  }
+
+  /**
+   * The features that columns belong to.
+   * @param {Int32Array} columns
+   */
+  #features(columns) {
+    return [...new Set(Array.from(columns, (column) => this.bins.featureOf(column)))];
   }
 
   /**
@@ -526,7 +548,7 @@ export class Answers {
    * @returns {Promise<ShapeMap>}
    */
   async #measured(run, { method, shapes, columns, by }, xy) {
-    const { data, bins } = this;
+    const { data } = this;
     return {
       key: "live",
       ...(this.titles.get(method) ?? { title: method }),
@@ -536,10 +558,7 @@ export class Answers {
       neighbours: Math.min(data.neighbours, shapes.length - 1),
       ...(await this.#hits(run, shapes, xy)),
       chanceSpread: null,
-      compares:
-        by === "bins"
-          ? { columns: [...columns] }
-          : { features: [...new Set([...columns].map((column) => bins.featureOf(column)))] },
+      compares: by === "bins" ? { columns: [...columns] } : { features: this.#features(columns) },
     };
   }
 
