@@ -9,7 +9,7 @@ has the limits.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import permutations, product
 
 import numpy as np
@@ -85,6 +85,13 @@ STEPS = 12
 
 ROUGH_STEPS = 6
 """Those of a rough fit."""
+
+STALLED = 0.8
+"""A rough fit is given up where a step leaves more than so much of a distance that is too large. From a start near the
+right position a step leaves less than half."""
+
+CLOSE_FITS = 2
+"""Rough fits that are completed: those of a symmetric shape lie on each other, and each is as good as the next."""
 
 
 @dataclass(frozen=True)
@@ -311,15 +318,13 @@ def _fit(one: _Surface, other: _Surface, *, mirrored: bool) -> _Fit | None:
     rough = []
     for number in np.argsort(misses, kind="stable")[:STARTS]:
         start = _Fit(starts[number], 1.0, np.zeros(3))
-        rough.append(
-            _measure(one, other, _settle(one, other, start, ROUGH_POINTS, ROUGH_STEPS), ROUGH_POINTS)
-        )
-        if rough[-1].same:
+        fit = _settle(one, other, start, ROUGH_POINTS, ROUGH_STEPS, enough=ROUGH_DISTANCE)
+        if fit.distance <= ROUGH_DISTANCE:
+            rough.append(fit)
+        if fit.distance <= SURFACE_DISTANCE:
             break
     close: list[_Fit] = []
-    for fit in sorted(rough, key=lambda fit: fit.distance):
-        if fit.distance > ROUGH_DISTANCE:
-            break
+    for fit in sorted(rough, key=lambda fit: fit.distance)[:CLOSE_FITS]:
         fit = _measure(one, other, _settle(one, other, fit, POINTS // 3, STEPS), POINTS)
         if fit.same:
             return fit
@@ -360,9 +365,15 @@ def _even_rotations() -> Rotation:
     return Rotation.random(24, random_state=0)
 
 
-def _settle(one: _Surface, other: _Surface, fit: _Fit, count: int, steps: int) -> _Fit:
+def _settle(
+    one: _Surface, other: _Surface, fit: _Fit, count: int, steps: int, enough: float = np.inf
+) -> _Fit:
     """Move the first surface onto the second: Gauss-Newton steps on the distances along normals, from ``count`` points
-    of each to the other (Chen and Medioni, 1992)."""
+    of each to the other (Chen and Medioni, 1992).
+
+    The fit has the root mean square distance of these points before the last step. Steps end where they gain little
+    and the surfaces are farther apart than ``enough``.
+    """
     points = one.points[:count]
     back = other.points[:count]
     for _ in range(steps):
@@ -373,6 +384,9 @@ def _settle(one: _Surface, other: _Surface, fit: _Fit, count: int, steps: int) -
         moved = np.concatenate([moved, fit.apply(own)])
         closest = np.concatenate([closest, back])
         normals = np.concatenate([normals, turned @ fit.turn.T])
+        distance = float(np.sqrt(((closest - moved) ** 2).sum(axis=1).mean())) / other.size
+        if distance > max(enough, STALLED * fit.distance):
+            return replace(fit, distance=distance)
         missing = np.einsum("ij,ij->i", closest - moved, normals)
         stretch = np.einsum("ij,ij->i", moved, normals)
         slopes = np.column_stack([np.cross(moved, normals), normals, stretch])
@@ -380,7 +394,7 @@ def _settle(one: _Surface, other: _Surface, fit: _Fit, count: int, steps: int) -
         step = np.linalg.lstsq(slopes, missing, rcond=1e-6)[0]
         turn = Rotation.from_rotvec(step[:3]).as_matrix()
         growth = float(np.clip(1 + step[6], 0.5, 2.0))
-        fit = _Fit(turn @ fit.turn, fit.scale * growth, growth * (turn @ fit.shift) + step[3:6])
+        fit = _Fit(turn @ fit.turn, fit.scale * growth, growth * (turn @ fit.shift) + step[3:6], distance)
         if np.abs(step).max() < 1e-9:
             break
     return fit
