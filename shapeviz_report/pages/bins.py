@@ -78,6 +78,9 @@ def _selection(report: Report) -> Selection:
             {
                 "column": place[painting.column],
                 "shape": painting.shape,
+                "share": round(
+                    float(report.features.values[painting.shape, place[painting.column]]), SCORE_DECIMALS
+                ),
                 "value": f"paintings/{painting_name(painting.value)}",
                 "inside": f"paintings/{painting_name(painting.inside)}",
             }

@@ -699,10 +699,11 @@ class Dimension(TypedDict):
 
 
 class PaintedBin(TypedDict):
-    """Pictures of a bin on a shape: its value, and what lies inside."""
+    """Pictures of a bin on a shape: its value, and what lies inside; and the share of the shape that does."""
 
     column: int
     shape: int
+    share: float
     value: str
     inside: str
 

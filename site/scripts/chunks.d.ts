@@ -455,10 +455,11 @@ declare namespace Chunk {
     unit: string;
     edges: number[];
   }
-  /** Pictures of a bin on a shape: its value, and what lies inside. */
+  /** Pictures of a bin on a shape: its value, and what lies inside; and the share of the shape that does. */
   interface PaintedBin {
     column: number;
     shape: number;
+    share: number;
     value: string;
     inside: string;
   }

@@ -555,3 +555,32 @@ def test_a_low_window_leaves_its_height_to_the_maps(bench):
     shown = [box for box in measures if box["y"] < line["y"] + line["height"]]
     assert len(shown) > 0
     assert all(box["x"] + box["width"] <= line["x"] + line["width"] for box in shown)
+
+
+def test_of_very_many_shapes_a_sample_is_laid_out_and_the_others_stand_beside_it(open_page):
+    page = open_page("very many", "workbench.html#bins=Sc")
+    answered(page)
+    words = "Maps and scores of 3 000 of 12 000 shapes, each class in proportion".replace(" 000", "\u202f000")
+    assert words in page.inner_text("#picked")
+    for which in ("original", "refined"):
+        told = page.inner_text(f"figure[data-map={which}] .nh")
+        assert "of 3\u202f000 shapes" in told
+        assert nh(page, which) is not None
+    page.click("#open-tables")
+    shown = page.locator("#tables table", has_text="refined x").locator("tbody tr").all_inner_texts()
+    rows = [text.split("\t") for text in shown]
+    # These are copies of one shape, of which every fourth or so is of the sample.
+    assert len(rows) == 500
+    places = np.array([[float(value) for value in row[4:]] for row in rows])
+    assert np.abs(places).max() <= 1.1
+    assert len(np.unique(places, axis=0)) > 400
+    assert np.ptp(places, axis=0).max() < 0.9
+
+
+def test_of_very_many_shapes_some_features_are_compared_too(open_page):
+    page = open_page("very many", "workbench.html#features=Gc")
+    answered(page)
+    page.click("#open-tables")
+    shown = page.locator("#tables table", has_text="original x").locator("tbody tr").all_inner_texts()
+    places = np.array([[float(value) for value in text.split("\t")[2:4]] for text in shown])
+    assert np.isfinite(places).all()

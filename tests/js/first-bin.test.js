@@ -12,8 +12,10 @@ const SHARES = [
   [0.3, 0.2, 0.02, 0.01],
   [0.1, 0.1, 0.6, 0.5],
 ];
-const bins = { share: (column, shape) => SHARES[column][shape], ease: () => 1 };
-const paintings = [0, 1, 2].flatMap((column) => [0, 2].map((shape) => ({ column, shape })));
+const bins = { ease: () => 1 };
+const paintings = [0, 1, 2].flatMap((column) =>
+  [0, 2].map((shape) => ({ column, shape, share: SHARES[column][shape] })),
+);
 const set = (columns, nh) => ({ bins: columns, nh, nhSpace: nh });
 const selection = {
   paintings,
@@ -47,7 +49,7 @@ test("it is one that can be said plainly unless others show much more", () => {
 });
 
 test("the shape with much of a bin stands before the one with little", () => {
-  const shapes = (column, group) => pictured(selection, database, bins, column, group).map(({ shape }) => shape);
+  const shapes = (column, group) => pictured(selection, database, column, group).map(({ shape }) => shape);
   assert.deepEqual(shapes(1, 1), [0, 2]);
   assert.deepEqual(shapes(2, 0), [2, 0]);
 });

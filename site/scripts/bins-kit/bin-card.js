@@ -3,7 +3,7 @@
 import { element, penOf, swatch } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 import { styleColor } from "../base/theme.js";
-import { figure, grouped } from "../base/words.js";
+import { count, figure, grouped } from "../base/words.js";
 import { axisEnd } from "./bin-bars.js";
 import { binName } from "./bin-name.js";
 
@@ -63,9 +63,8 @@ export class BinCard {
     this.others = [];
     /** @type {Map<number, number[]>} */
     this.members = new Map();
-    database.groups.forEach((group, row) => {
-      entry(this.members, group, () => []).push(row);
-    });
+    for (const shape of bins.sample ?? database.groups.keys())
+      entry(this.members, database.groups[shape], () => []).push(shape);
   }
 
   /**
@@ -162,6 +161,8 @@ export class BinCard {
         [least, (least + most) / 2, most].map((value) => element("span", {}, told(value))),
       ),
       rows.length > shown.length && element("p", { class: "more" }, `and ${grouped(rows.length - shown.length)} more`),
+      this.bins.sample &&
+        element("p", { class: "more" }, `of ${grouped(this.bins.rows)} of ${count(this.database.count, "shape")}`),
     );
   }
 
@@ -214,7 +215,7 @@ export class BinCard {
         )
         .sort(byHeight);
     const rows = [...of(this.separated, true), ...of(this.others, false)];
-    return rows.length > 0 ? rows : [row([...database.groups.keys()], false, "all shapes", null, database.color(-1))];
+    return rows.length > 0 ? rows : [row([...members.values()].flat(), false, "all shapes", null, database.color(-1))];
   }
 
   /** @param {{ left: number, top: number, width: number, height: number, free: number }} box */

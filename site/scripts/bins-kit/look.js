@@ -40,7 +40,7 @@ export class Look {
       const called = bins.called[column];
       return {
         title: `${bins.names[column]}${called ? `: ${called}` : ""}`,
-        words: `${bins.sentence(column)}${database.labelled ? ` A row a ${database.data.standIn ? "cluster" : "class"}: each mark is a shape, the line is the median.` : ""} ${count(database.count, "shape")}.`,
+        words: `${bins.sentence(column)}${database.labelled ? ` A row a ${database.data.standIn ? "cluster" : "class"}: each mark is a shape, the line is the median.` : ""} ${count(bins.rows, "shape")}.`,
       };
     });
     this.choice.addEventListener("change", () => {
@@ -198,7 +198,7 @@ export class Look {
   #paint(column) {
     const { bins, database, selection } = this;
     if (!bins.isShare(column)) return [element("p", { class: "notice" }, UNPAINTED)];
-    const own = pictured(selection, database, bins, column, this.state.get("group"));
+    const own = pictured(selection, database, column, this.state.get("group"));
     if (own.length === 0) {
       return [
         element(
@@ -210,7 +210,7 @@ export class Look {
         ),
       ];
     }
-    return own.map(({ shape, value, inside }) =>
+    return own.map(({ shape, share, value, inside }) =>
       element(
         "button",
         {
@@ -220,7 +220,7 @@ export class Look {
           title: `${database.names[shape]}: show in the 3D view`,
           onclick: () => this.state.set({ shape }),
         },
-        element("span", { class: "whose" }, shapeLine(database, bins, column, shape)),
+        element("span", { class: "whose" }, shapeLine(database, bins, column, shape, share)),
         [
           ["value", value, "its values in colours"],
           ["in the bin", inside, "what falls into the bin"],
@@ -247,32 +247,32 @@ export class Look {
  * The pictures of a bin, the shape with most of it first; of one that separates a class, those that show this contrast.
  * @param {Chunk.Selection} selection
  * @param {Database} database
- * @param {Bins} bins
  * @param {number} column
  * @param {number | null} group
  */
-export function pictured({ paintings, minimal }, database, bins, column, group) {
+export function pictured({ paintings, minimal }, database, column, group) {
   const own = paintings.filter((painting) => painting.column === column);
   const other = minimal.find((separated) => separated.group === group)?.other;
   const contrast = own.filter(({ shape }) => [group, other].includes(database.groups[shape]));
   return (contrast.length > 0 ? contrast : own)
-    .sort((a, b) => bins.share(column, b.shape) - bins.share(column, a.shape) || a.shape - b.shape)
+    .sort((a, b) => b.share - a.share || a.shape - b.shape)
     .slice(0, MOST_PICTURED);
 }
 
 /**
- * Class, and how much of the bin: what stands above a picture of a shape.
+ * Class, and how much of the bin, as far as that is known: what stands above a picture of a shape.
  * @param {Database} database
  * @param {Bins} bins
  * @param {number} column
  * @param {number} shape
+ * @param {number} share
  */
-export function shapeLine(database, bins, column, shape) {
+export function shapeLine(database, bins, column, shape, share) {
   const group = database.groups[shape];
-  const value = bins.share(column, shape);
   return [
     database.labelled && swatch(database.symbol(group), database.color(group)),
     element("bdi", {}, database.labelled ? database.className(group) : database.names[shape]),
-    element("span", { class: "quiet" }, `${bins.telling(column)(value)}${bins.isShare(column) ? " in the bin" : ""}`),
+    !Number.isNaN(share) &&
+      element("span", { class: "quiet" }, `${bins.telling(column)(share)}${bins.isShare(column) ? " in the bin" : ""}`),
   ].filter(Boolean);
 }

@@ -91,7 +91,7 @@ export class ClassCards {
     });
     this.plots.push(plot);
     const { rowsOfClasses: rows, coordinateSteps } = selection;
-    plot.show(mapOf(found, { rows, coordinateSteps }, database.count));
+    plot.show(mapOf(found, { rows, coordinateSteps }));
     return [
       element(
         "div",
@@ -143,7 +143,7 @@ export function firstBin(selection, database, bins) {
   const found = selection.minimal.flatMap((separated) => {
     const { group } = separated;
     return chooseSet(separated, "fewest").bins.map((bin) => {
-      const shares = pictured(selection, database, bins, bin, group).map(({ shape }) => bins.share(bin, shape));
+      const shares = pictured(selection, database, bin, group).map(({ share }) => share);
       const apart = shares.length > 1 ? shares[0] - /** @type {number} */ (shares.at(-1)) : 0;
       return { bin, group, worth: Math.min(apart, ENOUGH) * bins.ease(bin), ease: bins.ease(bin) };
     });

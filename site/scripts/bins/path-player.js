@@ -40,7 +40,7 @@ export class PathPlayer {
     this.open = open;
     this.announce = announce;
     this.steps = selection.path;
-    this.maps = this.steps.map((step) => mapOf(step, selection, database.count));
+    this.maps = this.steps.map((step) => mapOf(step, selection));
     this.list = document.getElementById("path-steps");
     this.button = document.getElementById("play");
     this.button.addEventListener("click", () => (this.timer ? this.pause() : this.play()));
@@ -137,11 +137,7 @@ export class PathPlayer {
           labels.clear();
           return;
         }
-        const points = database.ids.flatMap((_, index) => {
-          if (Number.isNaN(map.x[index])) return [];
-          const [x, y] = this.plot.screen(index);
-          return [{ index, group: database.groups[index], x, y }];
-        });
+        const points = this.plot.placed().map((shape) => ({ ...shape, group: database.groups[shape.index] }));
         labels.place(points, width, height, this.#radius);
         labels.follow((index) => this.plot.screen(index));
       },
@@ -158,7 +154,8 @@ export class PathPlayer {
 
   get #radius() {
     return (
-      Math.min(Math.max(92 / Math.sqrt(this.database.count), 2.4), 5.5) * (this.plot.node.clientWidth < 420 ? 0.75 : 1)
+      Math.min(Math.max(92 / Math.sqrt(this.maps[0].x.length), 2.4), 5.5) *
+      (this.plot.node.clientWidth < 420 ? 0.75 : 1)
     );
   }
 

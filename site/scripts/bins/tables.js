@@ -1,7 +1,7 @@
 // What the Bins page shows, as tables.
 
 import { table } from "../base/tables.js";
-import { figure, percent } from "../base/words.js";
+import { count, figure, grouped, percent } from "../base/words.js";
 
 /** @import { BinsState } from "../addresses/bins.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */
@@ -91,9 +91,9 @@ export function binsTables(database, bins, selection, state, card) {
         card.rows(bin).map(({ name, median }) => [name, told(median)]),
       ),
       table(
-        `The shapes with the most of ${bins.names[bin]}`,
+        `The shapes with the most of ${bins.names[bin]}${bins.sample ? `, of ${grouped(bins.rows)} of ${count(database.count, "shape")}` : ""}`,
         ["Shape", "Class", "Value"],
-        most(bins, bin, database.count).map((index) => [
+        most(bins, bin).map((index) => [
           database.ids[index],
           database.className(database.groups[index]),
           told(bins.share(bin, index)),
@@ -107,9 +107,9 @@ export function binsTables(database, bins, selection, state, card) {
  * The shapes with the most of a bin, first the one with most.
  * @param {Bins} bins
  * @param {number} bin
- * @param {number} count
  */
-function most(bins, bin, count) {
-  const amounts = Float64Array.from({ length: count }, (_, index) => bins.share(bin, index));
-  return [...amounts.keys()].sort((a, b) => amounts[b] - amounts[a] || a - b).slice(0, MOST_ROWS);
+function most(bins, bin) {
+  const amounts = bins.column(bin);
+  const rows = [...amounts.keys()].sort((a, b) => amounts[b] - amounts[a] || a - b);
+  return rows.slice(0, MOST_ROWS).map((row) => bins.shapeOf(row));
 }

@@ -56,47 +56,55 @@ export class Turntable {
     if (shape === "most") return this.#extreme(bin, 1);
     if (shape !== null) return shape;
     const most = this.#extreme(bin, 1);
-    const [first] = pictured(this.selection, this.database, this.bins, bin, this.state.get("group"));
-    return first && this.#share(first.shape) >= SHOWS ? first.shape : most;
+    const [first] = pictured(this.selection, this.database, bin, this.state.get("group"));
+    return first && this.#part(first.share) >= SHOWS ? first.shape : most;
   }
 
   /** @type {Plot} */
   pick;
-  /** @type {{ bin: number, shares: number[] } | null} */
-  scale = null;
   /** @type {{ column: number, least: number, most: number } | null} */
   #extremes = null;
 
   /**
-   * The first shape with the most (1) or the least (-1) of a bin; kept, since every mark of the map asks for it.
+   * The first shape with the most (1) or the least (-1) of a bin among those that are known; kept, since every mark of the
+   * map asks for it.
    * @param {number} column
    * @param {number} sign
    */
   #extreme(column, sign) {
     let known = this.#extremes;
     if (known?.column !== column) {
-      const { rows, steps } = this.bins;
-      const own = steps.subarray(column * rows, (column + 1) * rows);
+      const own = this.bins.column(column);
       const [least, most] = own.reduce(
         ([low, high], value, row) => [value < own[low] ? row : low, value > own[high] ? row : high],
         [0, 0],
       );
-      known = { column, least, most };
+      known = { column, least: this.bins.shapeOf(least), most: this.bins.shapeOf(most) };
       this.#extremes = known;
     }
     return sign > 0 ? known.most : known.least;
   }
 
   start() {
-    this.pick.show(this.database.methods[0]);
     this.render();
+  }
+
+  /** The map of all shapes, or of those whose values are known and the one that is shown. */
+  #shown() {
+    const [map] = this.database.methods;
+    const { sample } = this.bins;
+    if (sample === null) return map;
+    const rows = this.bins.rowOf(this.shape) < 0 ? [...sample, this.shape] : sample;
+    /** @param {ArrayLike<number>} values */
+    const of = (values) => Float64Array.from(rows, (shape) => values[shape]);
+    return { x: of(map.x), y: of(map.y), rows };
   }
 
   #tellName() {
     const { database, bins, state, shape } = this;
     const bin = state.get("bin");
     this.name.replaceChildren(
-      ...shapeLine(database, bins, bin, shape),
+      ...shapeLine(database, bins, bin, shape, bins.share(bin, shape)),
       element(
         "a",
         { class: "which", href: pageAddress("shape.html", { id: database.ids[shape] }), title: "All about this shape" },
@@ -111,7 +119,7 @@ export class Turntable {
     this.#tellName();
     for (const end of ["most", "least"])
       document.getElementById(`${end}-of-it`).setAttribute("aria-pressed", String(state.get("shape") === end));
-    this.pick.draw();
+    this.pick.show(this.#shown());
     document.getElementById("readings").hidden = !bins.isShare(bin);
     const inside = state.get("reading") === "inside";
     const shown = await this.stage.show(shape, showingBin(shape, bin, { database, bins, paint: this.paint, inside }));
@@ -150,7 +158,7 @@ export class Turntable {
       /** @param {number} index */
       mark: (index) => {
         const group = database.groups[index];
-        const share = this.#share(index);
+        const share = this.#part(this.bins.share(this.state.get("bin"), index)) || 0;
         return {
           path: database.symbol(group),
           color: database.color(group),
@@ -166,18 +174,12 @@ export class Turntable {
   }
 
   /**
-   * How much of the bin a shape has, from 0 for the least to 1 for the most of all shapes.
-   * @param {number} index
+   * A share of the bin, from 0 for that of the shape with the least to 1 for that with the most of it.
+   * @param {number} share
    */
-  #share(index) {
+  #part(share) {
     const bin = this.state.get("bin");
-    let scale = this.scale;
-    if (scale === null || scale.bin !== bin) {
-      const values = Array.from({ length: this.bins.rows }, (_, row) => this.bins.share(bin, row));
-      const [low, high] = [Math.min(...values), Math.max(...values)];
-      scale = { bin, shares: values.map((value) => (high > low ? (value - low) / (high - low) : 0)) };
-      this.scale = scale;
-    }
-    return scale.shares[index];
+    const [low, high] = [this.#extreme(bin, -1), this.#extreme(bin, 1)].map((shape) => this.bins.share(bin, shape));
+    return high > low ? (share - low) / (high - low) : 0;
   }
 }

@@ -1,6 +1,7 @@
 // A map of shapes on one canvas: the Bins page shows dozens, each of few marks, and none needs more than a picture.
 
 import { calm, svg, watchSize } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 import { drawnAs } from "../base/snapshot.js";
 import { bounds } from "../database/database.js";
 import { markAt } from "./figure.js";
@@ -12,8 +13,8 @@ import { FADED, Marks } from "./marks.js";
  * How a shape is drawn.
  * @typedef {{ path: string, color: string, radius: number, alpha: number }} Mark
  *
- * Where shapes are.
- * @typedef {{ x: ArrayLike<number>, y: ArrayLike<number> }} Places
+ * Where shapes are: all of them, with no numbers for who has no place, or those of `rows` in their order.
+ * @typedef {{ x: ArrayLike<number>, y: ArrayLike<number>, rows?: ArrayLike<number> | null }} Places
  *
  * @typedef {object} Options
  * @property {(index: number) => Mark} mark
@@ -27,19 +28,16 @@ import { FADED, Marks } from "./marks.js";
 const DURATION = 450;
 
 /**
- * The map of a step or a class from the chunk "selection": shapes that took no part have no place.
+ * The map of a step or a class from the chunk "selection", of the shapes that took part.
  * @param {{ x: number[], y: number[] }} steps
  * @param {Pick<Chunk.Selection, "rows" | "coordinateSteps">} selection
- * @param {number} count
  */
-export function mapOf({ x, y }, { rows, coordinateSteps }, count) {
-  const map = { x: new Float64Array(count).fill(NaN), y: new Float64Array(count).fill(NaN) };
-  for (let place = 0; place < x.length; place += 1) {
-    const row = rows ? rows[place] : place;
-    map.x[row] = x[place] / coordinateSteps;
-    map.y[row] = y[place] / coordinateSteps;
-  }
-  return map;
+export function mapOf({ x, y }, { rows, coordinateSteps }) {
+  return {
+    x: Float64Array.from(x, (step) => step / coordinateSteps),
+    y: Float64Array.from(y, (step) => step / coordinateSteps),
+    rows: rows ?? null,
+  };
 }
 
 export class Plot {
@@ -100,13 +98,31 @@ export class Plot {
   }
 
   /**
-   * Where a shape is, in pixels.
+   * Where a shape is, in pixels; no numbers where it has no place.
    * @param {number} index
    */
   screen(index) {
+    return this.#at(placeOf(/** @type {Places} */ (this.map), index));
+  }
+
+  /** @param {number} place */
+  #at(place) {
     const { x, y, scale, width, height } = this.view;
     const map = /** @type {Places} */ (this.map);
-    return [width / 2 + (map.x[index] - x) * scale, height / 2 - (map.y[index] - y) * scale];
+    return [width / 2 + (map.x[place] - x) * scale, height / 2 - (map.y[place] - y) * scale];
+  }
+
+  /**
+   * The shapes on the map, and where they are in pixels.
+   * @returns {{ index: number, x: number, y: number }[]}
+   */
+  placed() {
+    const { map } = this;
+    if (map === null) return [];
+    return Array.from({ length: map.x.length }, (_, place) => {
+      const [x, y] = this.#at(place);
+      return { index: map.rows ? map.rows[place] : place, x, y };
+    }).filter(({ x }) => !Number.isNaN(x));
   }
 
   /**
@@ -118,9 +134,7 @@ export class Plot {
   at(left, top, reach) {
     /** @type {[number | null, number]} */
     let [best, least] = [null, reach];
-    for (let index = 0; index < this.database.count; index += 1) {
-      if (!this.map || Number.isNaN(this.map.x[index])) continue;
-      const [x, y] = this.screen(index);
+    for (const { index, x, y } of this.placed()) {
       const distance = Math.hypot(x - left, y - top);
       if (distance < least) [best, least] = [index, distance];
     }
@@ -132,25 +146,20 @@ export class Plot {
    * @param {(x: number, y: number) => boolean} holds
    */
   inside(holds) {
-    return [...this.database.ids.keys()].filter((index) => {
-      const [x, y] = this.screen(index);
-      return holds(x, y);
-    });
+    return this.placed().flatMap(({ index, x, y }) => (holds(x, y) ? [index] : []));
   }
 
   /**
    * Shapes from the lowest to the highest, with whether they are faded.
-   * @returns {Generator<{ index: number, faded: boolean }>}
+   * @returns {Generator<{ shape: { index: number, x: number, y: number }, faded: boolean }>}
    */
   *#stacked() {
     const chosen = this.selection();
-    const map = /** @type {Places} */ (this.map);
+    const placed = this.placed();
     /** @param {number} index */
     const layer = (index) => (chosen.size > 0 && !chosen.has(index) ? 0 : this.first(index) ? 1 : 2);
-    for (const now of [0, 1, 2]) {
-      for (let index = 0; index < this.database.count; index += 1)
-        if (!Number.isNaN(map.x[index]) && layer(index) === now) yield { index, faded: now === 0 };
-    }
+    for (const now of [0, 1, 2])
+      for (const shape of placed) if (layer(shape.index) === now) yield { shape, faded: now === 0 };
   }
 
   /** The map as a drawing of SVG; null where there is none. */
@@ -159,9 +168,9 @@ export class Plot {
     if (this.map === null || width === 0) return null;
     const below = svg("g", { opacity: FADED });
     const above = svg("g");
-    for (const { index, faded } of this.#stacked()) {
-      const { path, color, radius, alpha } = this.mark(index);
-      const mark = markAt(path, color, this.screen(index), radius, this.database.marks.outline);
+    for (const { shape, faded } of this.#stacked()) {
+      const { path, color, radius, alpha } = this.mark(shape.index);
+      const mark = markAt(path, color, [shape.x, shape.y], radius, this.database.marks.outline);
       if (!faded) mark.setAttribute("opacity", String(alpha));
       (faded ? below : above).append(mark);
     }
@@ -179,12 +188,11 @@ export class Plot {
     const { outline } = database.marks;
     marks.begin(width, height);
     let fading = false;
-    for (const { index, faded } of this.#stacked()) {
+    for (const { shape, faded } of this.#stacked()) {
       if (fading && !faded) marks.fade(FADED);
       fading = faded;
-      const { path, color, radius, alpha } = this.mark(index);
-      const [x, y] = this.screen(index);
-      marks.lay(marks.stamp(path, color, radius, outline), x, y, faded ? 1 : alpha);
+      const { path, color, radius, alpha } = this.mark(shape.index);
+      marks.lay(marks.stamp(path, color, radius, outline), shape.x, shape.y, faded ? 1 : alpha);
     }
     if (fading) marks.fade(FADED);
     marks.show();
@@ -206,19 +214,34 @@ export function pictureOfMap(database, map, size, hidden = NOBODY) {
   const marks = new Marks({ class: "few-plot", "aria-hidden": "true" });
   const { x, y, width, height } = bounds(map);
   const scale = (size - 8) / Math.max(width, height);
-  const radius = Math.min(Math.max(24 / Math.sqrt(database.count), 0.8), 2);
+  const radius = Math.min(Math.max(24 / Math.sqrt(map.x.length), 0.8), 2);
   marks.begin(size, size);
-  for (let index = 0; index < database.count; index += 1) {
-    const group = database.groups[index];
-    if (Number.isNaN(map.x[index]) || hidden.has(group)) continue;
+  for (let place = 0; place < map.x.length; place += 1) {
+    const group = database.groups[map.rows ? map.rows[place] : place];
+    if (Number.isNaN(map.x[place]) || hidden.has(group)) continue;
     const stamp = marks.stamp(database.data.marks.plain, database.color(group), radius);
-    marks.lay(stamp, size / 2 + (map.x[index] - x) * scale, size / 2 - (map.y[index] - y) * scale, 1);
+    marks.lay(stamp, size / 2 + (map.x[place] - x) * scale, size / 2 - (map.y[place] - y) * scale, 1);
   }
   marks.show();
   return marks.node;
 }
 
+/** @type {WeakMap<object, Map<number, number>>} */
+const places = new WeakMap();
+
 /**
+ * Where a shape stands among those of a map; nowhere, -1, if it is not there.
+ * @param {Places} map
+ * @param {number} index
+ */
+function placeOf({ rows }, index) {
+  if (!rows) return index;
+  const own = entry(places, rows, () => new Map(Array.from(rows, (row, place) => [row, place])));
+  return own.get(index) ?? -1;
+}
+
+/**
+ * Two maps of the same shapes, and what lies between them.
  * @param {Places} from
  * @param {Places} to
  * @param {number} share
@@ -230,5 +253,5 @@ function between(from, to, share) {
    */
   const mix = (a, b) =>
     Float64Array.from(b, (value, index) => (Number.isNaN(a[index]) ? value : a[index] + share * (value - a[index])));
-  return { x: mix(from.x, to.x), y: mix(from.y, to.y) };
+  return { x: mix(from.x, to.x), y: mix(from.y, to.y), rows: to.rows };
 }

@@ -234,15 +234,14 @@ export class Answers {
    * @param {Use} step
    */
   async #foundMap(run, projection, step) {
-    const { data, database } = this;
-    const { found } = data;
+    const { found } = this.data;
     if (found === null || projection !== FOUND_BY || step.hidden.size > 0) return null;
     if (!isSame(step.bins, found.bins)) return null;
     const selection = await chunk("selection");
     const last = selection.path.at(-1);
     if (selection.rows !== null || last === undefined) return null;
     const base = this.#siteMap(projection);
-    const map = mapOf(last, selection, database.count);
+    const map = mapOf(last, selection);
     const { x, y } = base === null ? map : turned(map, base);
     const who = this.#who(step);
     // Told is what the unrounded map reaches.

@@ -84,6 +84,8 @@ def test_paintings_and_models_are_named_by_what_they_hold(report, tmp_path) -> N
     for shown, painting in zip(found["paintings"], report.paintings):
         assert (tmp_path / shown["value"]).read_bytes() == painting.value
         assert (tmp_path / shown["inside"]).read_bytes() == painting.inside
+        share = report.features.values[painting.shape, shown["column"]]
+        assert shown["share"] == pytest.approx(share, abs=1e-6)
     assert len(found["models"]) == len(report.shapes)
     assert {path.stem for path in (tmp_path / "models").iterdir()} == set(found["models"])
 
