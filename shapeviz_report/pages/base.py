@@ -157,6 +157,11 @@ def search_of(report: Report) -> FeatureSearch | None:
     )
 
 
+def is_search_sampled(report: Report) -> bool:
+    """Whether a search for the best subset of features laid out a sample of the shapes."""
+    return report.search is not None and len(report.search.rows) < report.search.shape_count
+
+
 def bins_of(report: Report) -> BinSearch | None:
     """The search for a few bins; None where labels cannot rank maps."""
     found = report.bins

@@ -169,8 +169,10 @@ class SubsetChoice(TypedDict):
     Attributes
     ----------
     sample : int or None
-        How many shapes the search laid out where these are not all: then only the best subset has a map, the chunk
-        "best".
+        How many shapes the search laid out where these are not all: the others are placed among them, by the parts
+        "components".
+    laidOut : bool
+        Whether then the best subset has a map of all shapes: the chunk "best".
     """
 
     method: str
@@ -179,6 +181,7 @@ class SubsetChoice(TypedDict):
     bestByChance: float | None
     best: list[str] | None
     sample: int | None
+    laidOut: bool
 
 
 MapCharts = TypedDict("MapCharts", {"class": Spec, "hit": Spec, "thumbnail": Spec, "bars": Spec})

@@ -21,6 +21,7 @@ from shapeviz_report.pages.base import (
     coordinate_steps,
     distinct_means,
     feature_marks,
+    is_search_sampled,
     nothing_told,
     rounded,
     search_of,
@@ -109,7 +110,6 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
     number = {name: index for index, name in enumerate(class_names(report))}
     rows = list(ranking.order)
     paper = _of_paper(search)
-    sampled = len(search.rows) < search.shape_count
     return {
         "method": search.method,
         "methodTitle": METHODS[search.method].title,
@@ -121,7 +121,7 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
         # By falling effect: what helps most stands on top of the matrix.
         "order": _by_effect(search),
         "classes": [number[name] for name in search.classes],
-        "rows": search.rows.tolist() if sampled else None,
+        "rows": search.rows.tolist() if is_search_sampled(report) else None,
         "members": list(ranking.codes),
         "hit": rounded(search.subsets.nh_s[rows], SCORE_DECIMALS),
         "hitOfClass": [rounded(values, SCORE_DECIMALS) for values in search.subsets.nh_c[rows]],

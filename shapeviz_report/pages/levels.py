@@ -151,7 +151,7 @@ def level_parts(levels: LevelTable) -> Mapping[str, Iterable[object]]:
     return {
         "rows": _rows(levels),
         "columns": _columns(levels),
-        "components": _components(levels),
+        "components": component_parts(levels),
         "classes": _classes(levels),
     }
 
@@ -177,8 +177,9 @@ def _columns(levels: LevelTable) -> Iterator[bytes]:
             yield np.ascontiguousarray(levels.values[:, chosen].T).tobytes()
 
 
-def _components(levels: LevelTable) -> Iterator[ComponentPart]:
-    """Of each feature, where the shapes lie along its principal components (Jolliffe 2002, 2.1), a byte each."""
+def component_parts(levels: LevelTable) -> Iterator[ComponentPart]:
+    """The parts "components": of each feature, where the shapes lie along its principal components (Jolliffe 2002,
+    2.1), a byte each."""
     count = len(levels.values)
     sample = np.sort(np.random.default_rng(0).permutation(count)[:FITTED])
     for block, weight in zip(levels.table.blocks, levels.weights, strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from hashlib import sha256
 
 import numpy as np
@@ -16,6 +16,7 @@ from shapeviz_report.pages.base import (
     class_names,
     clusters_chunk,
     is_in_full,
+    is_search_sampled,
     rounded,
     search_of,
     share_steps,
@@ -34,8 +35,10 @@ from shapeviz_report.pages.chunks import (
 )
 from shapeviz_report.pages.chunks import Shepard as ShepardChunk
 from shapeviz_report.pages.fields import color_choices
+from shapeviz_report.pages.levels import component_parts, level_table
 from shapeviz_report.pages.map_pictures import ACROSS, GRIDS, map_pictures, sheet_name
 from shapeviz_report.pages.separation import separation_chunk
+from shapeviz_report.presets import PRESETS
 from shapeviz_report.render import ramp_codes
 from shapeviz_report.types import (
     Faithfulness,
@@ -134,7 +137,7 @@ class OverviewPage:
                 "colors": color_choices(report),
             },
             chunks=chunks,
-            parts={"details": _details(report), "pictures": _picture_parts(report)},
+            parts={"details": _details(report), "pictures": _picture_parts(report), **_components(report)},
         )
 
 
@@ -240,13 +243,10 @@ def _shepard(found: Shepard) -> ShepardChunk:
 
 
 def _subsets(report: Report) -> SubsetChoice | None:
-    """Whose maps the page can show beside those of all features or of chosen bins: those of the search, or of one that
-    laid out a sample the best; None if there is none."""
+    """Whose maps the page can show beside those of all features or of chosen bins: those of the search; None if there
+    is none."""
     search = search_of(report)
     if search is None or search.method not in report.projections:
-        return None
-    whole = len(search.rows) == search.shape_count
-    if not whole and report.best is None:
         return None
     bins = report.projections[search.method][0].bins
     return {
@@ -255,8 +255,18 @@ def _subsets(report: Report) -> SubsetChoice | None:
         "bins": None if bins is None else len(bins),
         "bestByChance": None if search.best is None else float(np.median(search.null_best)),
         "best": None if search.best is None else list(search.best),
-        "sample": None if whole else len(search.rows),
+        "sample": len(search.rows) if is_search_sampled(report) else None,
+        "laidOut": report.best is not None,
     }
+
+
+def _components(report: Report) -> Mapping[str, Iterable[object]]:
+    """By what the others are placed on the maps of a search that laid out a sample. Where very many shapes have their
+    values in parts, these are among them."""
+    if not is_in_full(report) or not is_search_sampled(report):
+        return {}
+    preset = PRESETS[str(report.parameters["preset"])]
+    return {"components": component_parts(level_table(report, preset))}
 
 
 def _marks(class_count: int) -> Marks:

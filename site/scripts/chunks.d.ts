@@ -121,6 +121,7 @@ declare namespace Chunk {
     bestByChance: number | null;
     best: string[] | null;
     sample: number | null;
+    laidOut: boolean;
   }
   interface MapCharts {
     class: Record<string, any>;

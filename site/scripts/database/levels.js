@@ -29,14 +29,14 @@ export async function numbersOfBins(bins, columns) {
 /**
  * What maps of some features compare, to a good approximation: their principal components.
  * @param {number[]} features
+ * @param {number} count of all shapes
  * @returns {Promise<Numbers[]>}
  */
-export async function numbersOfFeatures(features) {
-  const { order } = await chunk("levels");
+export async function numbersOfFeatures(features, count) {
   const found = await Promise.all(features.map((feature) => part("components", feature)));
   return found.flatMap(({ unit, values }) =>
-    Array.from({ length: values.length / order.length }, (_, component) => ({
-      values: values.slice(component * order.length, (component + 1) * order.length),
+    Array.from({ length: values.length / count }, (_, component) => ({
+      values: values.slice(component * count, (component + 1) * count),
       unit,
     })),
   );

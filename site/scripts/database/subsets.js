@@ -3,7 +3,7 @@
 import { chunk } from "../base/chunks.js";
 import { sharesOf } from "./shares.js";
 
-/** @import { Faith, ShapeMap } from "./database.js" */
+/** @import { Database, Faith, ShapeMap } from "./database.js" */
 
 /**
  * What each subset's map reaches by a measure, and what it is at random where that is the same for all.
@@ -156,26 +156,44 @@ export class Subsets {
   }
 
   /**
-   * The map of a subset, as the Database has projections; classes are numbered as there.
+   * The map of a subset, as the Database has projections; classes are numbered as there. Shapes that the search left out have
+   * no place on it.
    * @param {number} place
-   * @param {number} classCount
+   * @param {Database} database
    * @returns {Promise<ShapeMap & Pick<Chunk.Method, "note" | "features">>}
    */
-  async map(place, classCount) {
+  async map(place, { count, classes }) {
     const maps = await chunk("subsets");
     const { data } = this;
-    const hitOfClass = new Array(classCount).fill(null);
+    const { rows } = data;
+    const hitOfClass = new Array(classes.length).fill(null);
     for (const [column, group] of data.classes.entries()) hitOfClass[group] = data.hitOfClass[place][column];
     const features = this.names(place);
     const faith = this.faith(place);
+    /**
+     * @template Value
+     * @param {ArrayLike<Value>} values
+     * @param {Value} none
+     * @returns {ArrayLike<Value>}
+     */
+    const ofAll = (values, none) => {
+      if (rows === null) return values;
+      const all = new Array(count).fill(none);
+      for (const [index, row] of rows.entries()) all[row] = values[index];
+      return all;
+    };
+    /** @param {ArrayLike<number>} steps */
+    const placed = (steps) => Float64Array.from(ofAll(steps, NaN), (step) => step / maps.steps);
+    /** @param {Uint16Array} steps */
+    const shares = (steps) => /** @type {(number | null)[]} */ (ofAll(sharesOf(steps), null));
     return {
       key: `${data.method}:${features.join("+")}`,
       title: data.methodTitle,
       note: data.note,
       features,
-      x: Float64Array.from(maps.x[place], (step) => step / maps.steps),
-      y: Float64Array.from(maps.y[place], (step) => step / maps.steps),
-      hit: sharesOf(maps.hit[place]),
+      x: placed(maps.x[place]),
+      y: placed(maps.y[place]),
+      hit: shares(maps.hit[place]),
       neighbours: data.neighbours,
       hitOfClass,
       hitOfAll: data.hit[place],
@@ -184,10 +202,10 @@ export class Subsets {
       faith,
       async know() {
         if (!faith || faith.kept) return;
-        const shares = await chunk("faith");
+        const known = await chunk("faith");
         for (const kind of /** @type {const} */ (["kept", "false", "missing"])) {
-          const steps = shares[kind];
-          faith[kind] = steps && sharesOf(steps[place]);
+          const steps = known[kind];
+          faith[kind] = steps && shares(steps[place]);
         }
       },
     };

@@ -4,6 +4,7 @@
 import { chunk } from "../base/chunks.js";
 import { mapOf, tell } from "../database/database.js";
 import { Subsets } from "../database/subsets.js";
+import { withOthers } from "./placed-map.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
@@ -75,13 +76,16 @@ export async function addressedMap(database, { features, ...values }) {
  * @param {string[]} names
  */
 async function subsetMethod(database, names) {
-  const { method, features, bins, best, sample } = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
+  const { method, features, bins, best, laidOut } = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
   const base = database.methods.findIndex(({ key }) => key === method);
   if (bins === null && names.length === features.length) return base;
-  if (sample !== null) return same(names, best) ? database.add(await bestMap(), base) : null;
+  if (laidOut && same(names, best)) return database.add(await bestMap(), base);
   const subsets = new Subsets(await chunk("search"));
   const place = subsets.find(names);
-  return place === undefined ? null : database.add(await subsets.map(place, database.classes.length), base);
+  if (place === undefined) return null;
+  const map = await subsets.map(place, database);
+  const { rows } = subsets.data;
+  return database.add(rows === null ? map : await withOthers(database, map, rows), base);
 }
 
 /** @returns {Promise<ShapeMap>} */

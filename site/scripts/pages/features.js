@@ -33,7 +33,7 @@ async function main() {
   });
   const marks = hues(search, database);
   const ranking = new Ranking(subsets, state, marks, announce);
-  const onOverview = overview.subsets?.sample === null;
+  const onOverview = overview.subsets !== null;
   new Panel(subsets, state, marks, onOverview ? (place) => subsetAddress(subsets.names(place)) : null);
   const retrieval = await openRetrieval(overview.classes, state, {
     chosen: () => subsets.names(state.get("chosen")),

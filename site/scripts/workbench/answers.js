@@ -390,7 +390,7 @@ export class Answers {
     if (subsets?.sample !== null || subsets.method !== projection) return null;
     const searched = new Subsets(await chunk("search"));
     const place = searched.find([...features].map((feature) => bins.features[feature].name));
-    return place === undefined ? null : searched.map(place, database.classes.length);
+    return place === undefined ? null : searched.map(place, database);
   }
 
   /**
@@ -506,7 +506,9 @@ export class Answers {
     const { bins } = this;
     if (bins.sample === null) return { columns, by };
     return {
-      numbers: await (by === "bins" ? numbersOfBins(bins, columns) : numbersOfFeatures(this.#features(columns))),
+      numbers: await (by === "bins"
+        ? numbersOfBins(bins, columns)
+        : numbersOfFeatures(this.#features(columns), this.database.count)),
     };
   }
 
