@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from packed_chunks import packed
-from reports import NASTY_LABELS, make_report, with_search
+from reports import NASTY_LABELS, make_report, with_best, with_search
 
 from shapeviz_report.pages.base import SHARE_STEPS, change
 from shapeviz_report.pages.features import FeaturesPage, Ranking, _of_paper
@@ -154,13 +154,24 @@ class TestOffersOfTheOverview:
         "report",
         [
             make_report(),
-            with_search(make_report(["a", "b"], 10), limit=8),
             with_search(make_report(["a", "b"], 5, methods=("pca",))),
         ],
-        ids=["no search", "a sample", "another method"],
+        ids=["no search", "another method"],
     )
     def test_it_offers_none_that_it_could_not_show(self, report):
         assert OverviewPage().content(report).chunks["overview"]["subsets"] is None
+
+    def test_of_a_sample_it_has_what_the_others_are_placed_by(self, report):
+        assert "components" not in OverviewPage().content(report).parts
+        sampled = with_search(make_report(["a", "b"], 10), limit=8)
+        content = OverviewPage().content(sampled)
+        offer = content.chunks["overview"]["subsets"]
+        assert (offer["sample"], offer["laidOut"]) == (8, False)
+        parts = list(content.parts["components"])
+        assert len(parts) == len(sampled.features.blocks)
+        assert all(len(part["values"]) % 20 == 0 for part in parts)
+        laid_out = OverviewPage().content(with_best(sampled)).chunks["overview"]["subsets"]
+        assert laid_out["laidOut"]
 
 
 def test_the_papers_features_among_others_have_their_own_spread_and_alone_or_incomplete_none(report):
