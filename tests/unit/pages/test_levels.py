@@ -90,7 +90,7 @@ def test_components_rank_as_the_features_do(report, table, parts, compared):
 def test_few_components_find_the_most_similar(report, table, compared, monkeypatch):
     """Of the ten most similar shapes, nearly all are among the 48 that the components would have ranked anew."""
     monkeypatch.setattr(levels, "COMPONENTS", 4)
-    places = [part for part in levels._components(table)]
+    places = [part for part in levels.component_parts(table)]
     kept = []
     for row in range(0, 160, 10):
         exact = squared_by_feature(report.features, PRESET, compared, compared[row]).sum(axis=1)
