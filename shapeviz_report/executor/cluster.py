@@ -14,6 +14,7 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import cache
 from itertools import islice
 from threading import Lock
@@ -32,6 +33,12 @@ PATIENCE = 60.0
 
 TASKS_A_THREAD = 2
 """Tasks that a thread of the cluster has at hand: one to do while the next is on its way."""
+
+LOOK_AGAIN = 5.0
+"""Seconds without an answer until somebody looks what the workers do."""
+
+LATE = 4.0
+"""A task is late after so many times what the slowest one took, when no other one waits."""
 
 _GONE = (
     "The Dask scheduler has gone. What was computed is kept: start it and its workers again, then the same command "
@@ -119,23 +126,43 @@ class DaskExecutor:
         time_limit, memory_limit = self.limits
         limits = time_limit * patience, memory_limit
         done: queue.SimpleQueue[Any] = queue.SimpleQueue()
-        running: dict[Any, int] = {}
+        running: dict[Any, _Sent] = {}
+        longest: float | None = None
+
+        def send(index: int, task: tuple[Any, ...], workers: list[str] | None = None) -> None:
+            with warnings.catch_warnings():
+                # Dask would have what is large scattered beforehand, where it is lost with a worker.
+                warnings.filterwarnings("ignore", message="Sending large graph")
+                future = self._client.submit(
+                    _run_there, self._expected, limits, function, task, pure=False, workers=workers
+                )
+            running[future] = _Sent(index, task, time.monotonic(), second=workers is not None)
+            future.add_done_callback(done.put)
+
         try:
             while True:
                 room = TASKS_A_THREAD * self._threads() - len(running)
                 for index, task in islice(waiting, max(0, room)):
-                    with warnings.catch_warnings():
-                        # Dask would have what is large scattered beforehand, where it is lost with a worker.
-                        warnings.filterwarnings("ignore", message="Sending large graph")
-                        future = self._client.submit(
-                            _run_there, self._expected, limits, function, task, pure=False
-                        )
-                    running[future] = index
-                    future.add_done_callback(done.put)
+                    send(index, task)
+                    room -= 1
                 if not running:
                     return
-                future = self._next(done)
-                index = running.pop(future)
+                try:
+                    future = done.get(timeout=LOOK_AGAIN)
+                except queue.Empty:
+                    # With room left no task waits: threads that have nothing else to do take over what is late.
+                    if room > 0 and longest is not None:
+                        for late, others in self._late(running, LATE * longest)[:room]:
+                            send(late.index, late.task, others)
+                    continue
+                if future not in running:
+                    continue
+                sent = running.pop(future)
+                index = sent.index
+                longest = max(longest or 0.0, time.monotonic() - sent.begun)
+                for other in [other for other, same in running.items() if same.index == index]:
+                    del running[other]
+                    other.cancel()
                 try:
                     outcome = future.result()
                 except KilledWorker as error:
@@ -177,13 +204,30 @@ class DaskExecutor:
             "('dask worker ADDRESS'), then the same command continues."
         )
 
-    def _next(self, done: queue.SimpleQueue[Any]) -> Any:
-        """The next future that is done; meanwhile sees to it that there is somebody who works."""
-        while True:
-            try:
-                return done.get(timeout=5.0)
-            except queue.Empty:
-                self._threads()
+    def _late(self, running: dict[Any, _Sent], after: float) -> list[tuple[_Sent, list[str]]]:
+        """Tasks that were sent once and longer ago than so many seconds, and the workers that do not have them."""
+        now = time.monotonic()
+        twice = {sent.index for sent in running.values() if sent.second}
+        late = {f.key: s for f, s in running.items() if now - s.begun > after and s.index not in twice}
+        if not late:
+            return []
+        workers = self._client.processing()
+        found = []
+        for key, sent in late.items():
+            others = [worker for worker, keys in workers.items() if key not in keys]
+            if 0 < len(others) < len(workers):
+                found.append((sent, others))
+        return found
+
+
+@dataclass(frozen=True)
+class _Sent:
+    """A task on its way, when it left, and whether another worker has it already."""
+
+    index: int
+    task: tuple[Any, ...]
+    begun: float
+    second: bool
 
 
 # One for each thread of this worker that has run a task, kept for the next one.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import signal
 import time
 from functools import partial
 
@@ -69,6 +70,24 @@ def test_a_killed_worker_loses_nothing(tmp_path) -> None:
         found = [next(outcomes)]
         cluster.workers[0].kill()
         found += outcomes
+    assert sorted(outcome.index for outcome in found) == list(range(60))
+    assert {outcome.reason for outcome in found} == {None}
+
+
+def test_what_a_frozen_worker_has_is_done_by_another(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(module, "LOOK_AGAIN", 0.5)
+    with (
+        running_cluster(tmp_path, workers=2) as cluster,
+        DaskExecutor(cluster.address, 60, None, platform.python_version, os.getpid) as executor,
+    ):
+        outcomes = executor.run(time.sleep, [(0.05,)] * 60)
+        found = [next(outcomes)]
+        # Its connections stay open: to Dask it is at work, and for five minutes nothing is missed.
+        cluster.workers[0].send_signal(signal.SIGSTOP)
+        begun = time.monotonic()
+        found += outcomes
+        assert time.monotonic() - begun < 60
+        cluster.workers[0].send_signal(signal.SIGCONT)
     assert sorted(outcome.index for outcome in found) == list(range(60))
     assert {outcome.reason for outcome in found} == {None}
 
