@@ -55,7 +55,7 @@ DESCRIBING = (
 """Options of a build that decide its features, and where they are computed."""
 
 GROUPS = {
-    "what is read": ("layout", "labeling", "external", "outside"),
+    "what is read": ("layout", "labeling", "external", "coordinates", "outside"),
     "features and maps": ("preset", "edge_length", "bins", "search", "neighbours", "seed"),
     "what the site holds": ("meshes", "parquet", "single_file", "up", "thumbnail_size", "renderer"),
     "what the site says of the database": PUBLICATION,
@@ -186,6 +186,7 @@ def _parser() -> argparse.ArgumentParser:
             "layout",
             "labeling",
             "external",
+            "coordinates",
             "bins",
             *PUBLICATION,
             "outside",

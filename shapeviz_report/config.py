@@ -100,6 +100,12 @@ class Config:
         "FILE.parquet with the ids that it prints; may be repeated",
         "FILE",
     )
+    coordinates: tuple[Path, ...] = _option(
+        (),
+        "a map of your own beside the others, called as its file: FILE.csv, FILE.parquet with columns id, x and y, or "
+        "FILE.npz, FILE.npy with two values a shape as for --external; may be repeated",
+        "FILE",
+    )
     bins: Path | None = _option(
         None,
         "make the maps from the bins that FILE names and no others: one name a line, or what the Workbench saves",
@@ -210,6 +216,7 @@ class Config:
         values = {f.name: getattr(self, f.name) for f in dataclasses.fields(self) if f.name not in left_out}
         return values | {
             "external": [path.name for path in self.external],
+            "coordinates": [path.name for path in self.coordinates],
             "bins": None if self.bins is None else self.bins.name,
         }
 

@@ -47,64 +47,98 @@ def load_external(path: Path, ids: Sequence[str]) -> FloatArray:
     ConfigError
         The file is none of these, lacks a shape, or holds anything but finite numbers.
     """
-    suffix = path.suffix.lower()
-    if suffix not in (".npy", *_READ):
-        raise ConfigError(f"the feature file {path} must end in .npy, {', '.join(_READ)}")
-    if suffix == ".parquet":
-        require_pyarrow(f"the feature file {path}", "or write it as .npz or .csv")
-    try:
-        content = read_regular(path, MOST_EXTERNAL_BYTES)
-        if suffix == ".npy":
-            values = np.load(io.BytesIO(content), allow_pickle=False)
-        else:
-            rows, values = _READ[suffix](content)
-    except OSError as error:
-        raise ConfigError(f"the feature file {path} cannot be read: {error.strerror}") from error
-    except (
-        ValueError, TypeError, KeyError, OverflowError, MemoryError, EOFError, RuntimeError, NotImplementedError,
-        csv.Error, struct.error, zipfile.BadZipFile, zlib.error,
-    ) as error:  # fmt: skip
-        raise ConfigError(f"the feature file {path} cannot be read: {error}") from error
-    if not isinstance(values, np.ndarray) or values.ndim not in (1, 2) or values.dtype.kind not in "fiub":
-        raise ConfigError(f"the feature file {path} must hold one array of numbers with one row a shape")
-    if suffix == ".npy":
-        if len(values) != len(ids):
-            raise ConfigError(
-                f"the feature file {path} has {len(values)} rows, but the database has {len(ids)} shapes; "
-                "`shapeviz-report check DATABASE --list` prints them in the order of the rows"
-            )
-    else:
-        values = values[_places(path, rows, len(values), ids)]
-    values = values.reshape(len(values), -1).astype(np.float64)
+    values = _load(f"the feature file {path}", path, ids, ())
     if values.shape[1] > MOST_EXTERNAL_COLUMNS:
         raise ConfigError(
             f"the feature file {path} has {values.shape[1]:,} columns, more than {MOST_EXTERNAL_COLUMNS:,}; keep those "
             "that tell most"
         )
-    if values.shape[1] == 0 or not np.isfinite(values).all():
-        raise ConfigError(f"the feature file {path} must hold finite numbers only")
     return values
 
 
-def _places(path: Path, rows: Sequence[str], count: int, ids: Sequence[str]) -> list[int]:
+def load_coordinates(path: Path, ids: Sequence[str]) -> FloatArray:
+    """A user's own map: the place (n, 2) of each of n shapes, as it stands in the file.
+
+    Parameters
+    ----------
+    path : Path
+        As for :func:`load_external`, with two values a shape; those of a table are its columns ``x`` and ``y``.
+    ids : sequence of str
+        Of the shapes.
+
+    Raises
+    ------
+    ConfigError
+        The file is none of these, lacks a shape, holds anything but finite numbers, or has all shapes in one place.
+    """
+    what = f"the file of coordinates {path}"
+    places = _load(what, path, ids, ("x", "y"))
+    if places.shape[1] != 2:
+        raise ConfigError(f"{what} has {places.shape[1]} values a shape, and not two, x and y")
+    with np.errstate(over="ignore"):
+        extent = np.ptp(places, axis=0).max(initial=0.0)
+    if not np.isfinite(extent):
+        raise ConfigError(f"{what} has places that lie farther apart than numbers can tell; scale them")
+    if extent == 0 and len(ids) > 1:
+        raise ConfigError(f"{what} has all {len(ids)} shapes of the database in one place, which is no map")
+    return places
+
+
+def _load(what: str, path: Path, ids: Sequence[str], columns: Sequence[str]) -> FloatArray:
+    """The values (n, d) of each shape in a file: finite, of some columns where a table names them, else of all."""
+    suffix = path.suffix.lower()
+    if suffix not in (".npy", *_READ):
+        raise ConfigError(f"{what} must end in .npy, {', '.join(_READ)}")
+    if suffix == ".parquet":
+        require_pyarrow(what, "or write it as .npz or .csv")
+    try:
+        content = read_regular(path, MOST_EXTERNAL_BYTES)
+        if suffix == ".npy":
+            values = np.load(io.BytesIO(content), allow_pickle=False)
+        else:
+            rows, values = _READ[suffix](content, columns)
+    except OSError as error:
+        raise ConfigError(f"{what} cannot be read: {error.strerror}") from error
+    except (
+        ValueError, TypeError, KeyError, OverflowError, MemoryError, EOFError, RuntimeError, NotImplementedError,
+        csv.Error, struct.error, zipfile.BadZipFile, zlib.error,
+    ) as error:  # fmt: skip
+        raise ConfigError(f"{what} cannot be read: {error}") from error
+    if not isinstance(values, np.ndarray) or values.ndim not in (1, 2) or values.dtype.kind not in "fiub":
+        raise ConfigError(f"{what} must hold one array of numbers with one row a shape")
+    if suffix == ".npy":
+        if len(values) != len(ids):
+            raise ConfigError(
+                f"{what} has {len(values)} rows, but the database has {len(ids)} shapes; "
+                "`shapeviz-report check DATABASE --list` prints them in the order of the rows"
+            )
+    else:
+        values = values[_places(what, rows, len(values), ids)]
+    values = values.reshape(len(values), -1).astype(np.float64)
+    if values.shape[1] == 0 or not np.isfinite(values).all():
+        raise ConfigError(f"{what} must hold finite numbers only")
+    return values
+
+
+def _places(what: str, rows: Sequence[str], count: int, ids: Sequence[str]) -> list[int]:
     """The row of each shape. Raises ``ConfigError``."""
     if len(rows) != count:
-        raise ConfigError(f"the feature file {path} has {count} rows, but {len(rows)} ids of shapes")
+        raise ConfigError(f"{what} has {count} rows, but {len(rows)} ids of shapes")
     twice = next((shape for shape, times in Counter(rows).items() if times > 1), None)
     if twice is not None:
-        raise ConfigError(f"the feature file {path} has two rows for the shape {twice!r}")
+        raise ConfigError(f"{what} has two rows for the shape {twice!r}")
     place = {shape: number for number, shape in enumerate(rows)}
     missing = [shape for shape in ids if shape not in place]
     if missing:
         raise ConfigError(
-            f"the feature file {path} has no row for {len(missing)} of the {len(ids)} shapes of the database, such as "
+            f"{what} has no row for {len(missing)} of the {len(ids)} shapes of the database, such as "
             f"{missing[0]!r}; `shapeviz-report check DATABASE --list` prints the ids"
         )
     return [place[shape] for shape in ids]
 
 
-def _read_archive(content: bytes) -> tuple[list[str], npt.NDArray[Any]]:
-    """Ids and values, as in ``data/features.npz`` of a site."""
+def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[Any]]:
+    """Ids and values, as in ``data/features.npz`` of a site; its columns need no names."""
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         if sum(member.file_size for member in archive.infolist()) > MOST_EXTERNAL_BYTES:
             raise ValueError(f"it holds more than {MOST_EXTERNAL_BYTES // 2**20} MiB")
@@ -115,41 +149,48 @@ def _read_archive(content: bytes) -> tuple[list[str], npt.NDArray[Any]]:
         return [str(shape) for shape in arrays["shape_ids"].ravel().tolist()], arrays["values"]
 
 
-def _read_table(content: bytes) -> tuple[list[str], npt.NDArray[np.float64]]:
-    """Ids and values of a table, whose columns that say what a shape is do not count."""
+def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
+    """Ids and values of a table: of some columns, or of all but those that say what a shape is."""
     head, *rows = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), strict=True)
     rows = [row for row in rows if row]
-    if "id" not in head:
-        raise ValueError("it has no column 'id'")
+    for name in ("id", *columns):
+        if name not in head:
+            raise ValueError(f"it has no column {name!r}")
     for number, row in enumerate(rows, start=2):
         if len(row) != len(head):
             raise ValueError(f"row {number} has {len(row)} cells, and the head {len(head)}")
     key = head.index("id")
-    told = [place for place, name in enumerate(head) if place != key and not name.startswith(DESCRIBING)]
+    told = [head.index(name) for name in columns] or [
+        place for place, name in enumerate(head) if place != key and not name.startswith(DESCRIBING)
+    ]
     values = np.array([[float(row[place]) for place in told] for row in rows], np.float64)
     return [read_cell(row[key]) for row in rows], values.reshape(len(rows), len(told))
 
 
-def _read_columns(content: bytes) -> tuple[list[str], npt.NDArray[np.float64]]:
-    """Ids and values of a Parquet table, whose columns may also be lists of as many numbers a shape."""
+def _read_columns(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
+    """As :func:`_read_table`, of a Parquet table, whose columns may also be lists of as many numbers a shape."""
     table = read_parquet(content, MOST_EXTERNAL_BYTES // 2, MOST_EXTERNAL_BYTES)
-    if table.column_names.count("id") != 1:
-        raise ValueError("it needs one column 'id' (the index of a data frame is one once it has this name)")
+    for name in ("id", *columns):
+        if table.column_names.count(name) != 1:
+            raise ValueError(
+                f"it needs one column {name!r} (the index of a data frame is one if it has a name)"
+            )
     ids = column_texts(table["id"])
     if ids is None:
         raise ValueError("its column 'id' holds no text")
-    columns = [np.empty((len(ids), 0))]
-    for name, column in zip(table.column_names, table.columns):
-        if name == "id" or name.startswith(DESCRIBING):
-            continue
-        values = column_numbers(column)
+    told = columns or [
+        name for name in table.column_names if name != "id" and not name.startswith(DESCRIBING)
+    ]
+    found = [np.empty((len(ids), 0))]
+    for name in told:
+        values = column_numbers(table[name])
         if values is None:
             raise ValueError(f"its column {name!r} holds neither numbers nor lists of as many numbers a row")
-        columns.append(values)
-    return ids, np.hstack(columns)
+        found.append(values)
+    return ids, np.hstack(found)
 
 
-_READ: dict[str, Callable[[bytes], tuple[list[str], npt.NDArray[Any]]]] = {
+_READ: dict[str, Callable[[bytes, Sequence[str]], tuple[list[str], npt.NDArray[Any]]]] = {
     ".npz": _read_archive,
     ".csv": _read_table,
     ".parquet": _read_columns,

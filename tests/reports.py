@@ -23,7 +23,7 @@ from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS, compared_values, scale
-from shapeviz_report.projections import PROJECTIONS, project, squared_distances
+from shapeviz_report.projections import PROJECTIONS, bring_along, project, squared_distances
 from shapeviz_report.retrieval import query_classes, rate, rate_chance, rate_subsets
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import make_space, search_features
@@ -438,6 +438,25 @@ def with_external(report: Report) -> Report:
     values = np.random.default_rng(0).normal(0, 1, (len(table.values), 2))
     blocks = (*table.blocks, FeatureBlock("own", 2, 1, weight=1.5))
     return replace(report, features=FeatureTable(table.shape_ids, blocks, np.hstack([table.values, values])))
+
+
+def with_own_map(report: Report, name: str = "drawer") -> Report:
+    """The report with a map that was brought along: all shapes in rows of ten."""
+    rows = np.arange(len(report.shapes))
+    own = bring_along(name, np.column_stack([rows % 10, rows // 10]).astype(float))
+    rated = rate_maps(scale(report.features, PRESETS["default"]), {name: own.xy}, quality.NEIGHBOURS)
+    report = replace(
+        report,
+        projections={**report.projections, name: (own, quality.score(own.xy, report.labels))},
+        faithfulness={**report.faithfulness, **rated},
+    )
+    separation = rate_separation(
+        scale(report.features, PRESETS["default"]),
+        {method: projection.xy for method, (projection, _) in report.projections.items()},
+        report.labels,
+        quality.NEIGHBOURS,
+    )
+    return replace(report, separation=separation)
 
 
 def with_bins(report: Report, bins: tuple[str, ...]) -> Report:

@@ -11,7 +11,12 @@ from shapeviz_report.building.chains import Chain
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import find_copies
-from shapeviz_report.building.reading import load_all_external, plan_examining, read_published
+from shapeviz_report.building.reading import (
+    load_all_coordinates,
+    load_all_external,
+    plan_examining,
+    read_published,
+)
 from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.stages import EXAMINE, Stage
 from shapeviz_report.building.workers import open_workers
@@ -54,6 +59,7 @@ def check_database(source: Path | Listing, config: Config, progress: Progress | 
     with clock.stage("read", "Reading the database"):
         database = read_published(source, config, read_publication(config))
         external = load_all_external(config.external, database)
+        load_all_coordinates(config.coordinates, database)
         if config.bins is not None:
             read_bins(config.bins, (*PRESETS[config.preset].blocks, *(block for block, _ in external)))
     failures = list(database.failures)

@@ -44,7 +44,8 @@ def check_places(destination: Path, config: Config, cache: Path, database: Path 
     for name in ("introduction", "logo", "bins"):
         if (path := getattr(config, name)) is not None:
             kept[f"the file of the option {name}"] = path
-    kept |= {f"the file {path.name} of the option external": path for path in config.external}
+    for name in ("external", "coordinates"):
+        kept |= {f"the file {path.name} of the option {name}": path for path in getattr(config, name)}
     check_destination(destination, single_file=config.single_file, kept=kept)
     if holds(cache, destination):
         raise SiteError(f"{destination} lies in the cache {cache}: choose another place for the site")

@@ -31,7 +31,7 @@ from shapeviz_report.building.questions import (
     search_all_bins,
     search_subsets,
 )
-from shapeviz_report.building.reading import load_all_external, read_published
+from shapeviz_report.building.reading import load_all_coordinates, load_all_external, read_published
 from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.workers import find_renderer, open_executor
 from shapeviz_report.cache import Cache, default_root
@@ -47,7 +47,7 @@ from shapeviz_report.mesh import collect_files
 from shapeviz_report.models import faces_of_model
 from shapeviz_report.plugins import find_plugins
 from shapeviz_report.presets import PRESETS, compared_values, scale
-from shapeviz_report.projections import squared_distances
+from shapeviz_report.projections import bring_along, squared_distances
 from shapeviz_report.publication import read_publication
 from shapeviz_report.quality import score
 from shapeviz_report.search import make_space
@@ -114,6 +114,7 @@ def build_report(
         if heavy is not None and not config.single_file:
             logger.warning("Note: %s", heavy)
         external = load_all_external(config.external, database)
+        own_maps = load_all_coordinates(config.coordinates, database)
         preset = PRESETS[config.preset]
         blocks = (*preset.blocks, *(block for block, _ in external))
         bins = None if config.bins is None else read_bins(config.bins, blocks)
@@ -200,6 +201,7 @@ def build_report(
         space = make_space(features, scaled, labels, seed=config.seed)
         mapped = scaled if bins is None else scale_bins(features, preset, bins)
         projections = project_all(run, space, features, bins, mapped, config.seed)
+        projections |= {name: bring_along(name, xy[rows]) for name, xy in own_maps.items()}
         related = relate_all(run, scaled)
         search = search_subsets(run, space, labels, groups, config)
         best = None

@@ -11,12 +11,16 @@ from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.config import Config
 from shapeviz_report.database import Listing, read_database
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.external import load_external
+from shapeviz_report.external import load_coordinates, load_external
 from shapeviz_report.features import BLOCKS
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.presets import GLOBAL_BLOCKS
+from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.publication import licence_warning
 from shapeviz_report.types import Database, FeatureBlock, FloatArray, Publication
+
+TAKEN_NAMES = ("features", "best")
+"""What pages call something else that stands beside maps."""
 
 
 def read_published(source: Path | Listing, config: Config, publication: Publication) -> Database:
@@ -27,7 +31,7 @@ def read_published(source: Path | Listing, config: Config, publication: Publicat
         labeling=config.labeling,
         name=config.title,
         outside=config.outside,
-        besides=config.external,
+        besides=(*config.external, *config.coordinates),
     )
     warning = licence_warning(publication, database.shapes)
     return database if warning is None else replace(database, warnings=(*database.warnings, warning))
@@ -46,6 +50,27 @@ def load_all_external(paths: Sequence[Path], database: Database) -> list[tuple[F
         values = load_external(path, ids)
         result.append((FeatureBlock(name, values.shape[1], 1), values))
     return result
+
+
+def load_all_coordinates(paths: Sequence[Path], database: Database) -> dict[str, FloatArray]:
+    """Maps from files of the owner's own, (n, 2), by name. Raises ``ConfigError``."""
+    taken = {text.casefold() for method in ALL_PROJECTIONS for text in (method.name, method.title)} | {
+        *TAKEN_NAMES
+    }
+    ids = [shape.id for shape in database.shapes]
+    maps = {}
+    for path in paths:
+        name = path.stem
+        if not name.isidentifier():
+            raise ConfigError(
+                f"the map of the file {path} would be called {name!r}, and files and columns after it: rename the file "
+                "to letters, digits and _, a letter first"
+            )
+        if name.casefold() in taken:
+            raise ConfigError(f"there is already a map named {name!r}; rename the file {path}")
+        taken.add(name.casefold())
+        maps[name] = load_coordinates(path, ids)
+    return maps
 
 
 def plan_examining(paths: Mapping[str, Path], within: Path | None) -> Callable[[str], Plan]:

@@ -7,7 +7,14 @@ from collections import Counter
 
 from shapeviz_report.faithfulness import RANKED
 from shapeviz_report.neighbours import FITTED
-from shapeviz_report.pages.base import MEASURED, METHODS, PageContent, class_names, grouped, is_in_full
+from shapeviz_report.pages.base import (
+    MEASURED,
+    PageContent,
+    class_names,
+    grouped,
+    is_in_full,
+    map_title,
+)
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections.kernels.nearest import EXACT_LIMIT
 from shapeviz_report.publication import has_licence, licence_warning
@@ -109,9 +116,9 @@ def _use(report: Report) -> dict[str, object]:
 def _projections(report: Report) -> list[dict[str, object]]:
     return [
         {
-            "title": METHODS[method].title,
+            "title": map_title(method),
             "features": ", ".join(projection.features),
-            "seed": projection.seed,
+            "seed": None if projection.brought else projection.seed,
             "k": quality.k,
             "nh_s": quality.nh_s,
             "null_mean": quality.null_mean,
@@ -239,7 +246,7 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
         ),
         ("croissant.json", "what the columns of these tables hold, for loaders of data sets"),
         *(
-            (f"projection-{method}.csv", f"coordinates of the {METHODS[method].title} map")
+            (f"projection-{method}.csv", f"coordinates of the {map_title(method)} map")
             for method in report.projections
         ),
         *(_search_downloads(report.search) if report.search is not None else ()),

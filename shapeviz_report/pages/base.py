@@ -49,6 +49,12 @@ MOST_IN_FULL = 10_000
 #: The projections by name.
 METHODS = {method.name: method for method in ALL_PROJECTIONS}
 
+
+def map_title(method: str) -> str:
+    """What people call a map: a projection, or a map that was brought along."""
+    return METHODS[method].title if method in METHODS else method
+
+
 #: The descriptors by name: what is measured, beside features that were brought along.
 MEASURED: Mapping[str, Descriptor | GlobalDescriptor] = {
     **{descriptor.name: descriptor for descriptor in ALL_DESCRIPTORS},
@@ -220,12 +226,19 @@ def change(before: float, after: float) -> float:
     return round(round(after, FIGURE_DECIMALS) - round(before, FIGURE_DECIMALS), FIGURE_DECIMALS)
 
 
-def bins_note(projection: Projection) -> str:
-    """A sentence on what a map compares where that is a choice of bins; empty for all bins."""
+def map_note(projection: Projection) -> str:
+    """What near and far mean on a map, and what it compares where that is a choice of bins."""
+    if projection.brought:
+        return (
+            "The places on this map were brought along with the database: its makers know what near and far mean "
+            "here. How well it keeps classes together, and how far it shows which shapes are alike by the features, is "
+            "measured as on the other maps."
+        )
+    explanation = METHODS[projection.method].explanation
     if projection.bins is None:
-        return ""
+        return explanation
     count = "one chosen bin" if len(projection.bins) == 1 else f"{grouped(len(projection.bins))} chosen bins"
-    return f" Only {count} of {', '.join(projection.features)} are compared."
+    return f"{explanation} Only {count} of {', '.join(projection.features)} are compared."
 
 
 def feature_marks() -> dict[ThemeName, FeatureMarks]:

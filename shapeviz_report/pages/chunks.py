@@ -88,7 +88,8 @@ class Trust(TypedDict):
 
 
 class Method(TypedDict):
-    """A map of all shapes, with its quality; a class without a score has None."""
+    """A map of all shapes, with its quality; a class without a score has None. One that was brought along is of no
+    features."""
 
     key: str
     title: str

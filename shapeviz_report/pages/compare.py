@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from shapeviz_report.bins import scale_bins
 from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
-from shapeviz_report.pages.base import METHODS, PageContent, class_codes, class_names, rounded
+from shapeviz_report.pages.base import PageContent, class_codes, class_names, map_title, rounded
 from shapeviz_report.pages.chunks import Comparison, Side, Sides
 from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.similarity import feature_weight
@@ -35,7 +35,7 @@ class ComparePage:
             context={
                 "classes": len(class_names(report)),
                 "spaces": [
-                    {"key": key, "title": _space(projection.bins) if key == SPACE else METHODS[key].title}
+                    {"key": key, "title": _space(projection.bins) if key == SPACE else map_title(key)}
                     for key in spaces
                 ],
                 "space": _space(projection.bins),

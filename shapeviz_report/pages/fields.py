@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from shapeviz_report.order import natural
-from shapeviz_report.pages.base import METHODS, class_names
+from shapeviz_report.pages.base import class_names, map_title
 from shapeviz_report.pages.chunks import Field
 from shapeviz_report.types import Clusters, FloatArray, Report, ShapeFacts
 
@@ -264,7 +264,7 @@ def color_choices(report: Report) -> list[tuple[str, list[tuple[str, str]]]]:
     fields = [field for field in describe_fields(report) if not field["active"]]
     of_meshes = [field for field in fields if field["key"].startswith("fact:")]
     given = [field for field in fields if field not in of_meshes]
-    hits = [(f"nh:{method}", f"on the {METHODS[method].title} map") for method in report.projections]
+    hits = [(f"nh:{method}", f"on the {map_title(method)} map") for method in report.projections]
     groups = [
         ("Known of the shapes", [(field["key"], field["title"]) for field in given]),
         ("Measured of the meshes", [(field["key"], field["title"]) for field in of_meshes]),

@@ -9,14 +9,14 @@ import numpy as np
 
 from shapeviz_report import charts
 from shapeviz_report.pages.base import (
-    METHODS,
     PageContent,
-    bins_note,
     class_codes,
     class_names,
     clusters_chunk,
     is_in_full,
     is_search_sampled,
+    map_note,
+    map_title,
     rounded,
     search_of,
     share_steps,
@@ -169,8 +169,8 @@ def _method(
     x, y = (np.round(projection.xy, COORDINATE_DECIMALS) + 0.0).T.astype(np.float32)
     return {
         "key": projection.method,
-        "title": METHODS[projection.method].title,
-        "note": METHODS[projection.method].explanation + bins_note(projection),
+        "title": map_title(projection.method),
+        "note": map_note(projection),
         "features": list(projection.features),
         "x": x,
         "y": y,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from shapeviz_report.pages.base import METHODS, class_names, rounded
+from shapeviz_report.pages.base import class_names, map_title, rounded
 from shapeviz_report.pages.chunks import ClassCounts, MapVerdict
 from shapeviz_report.pages.chunks import Separation as SeparationChunk
 from shapeviz_report.quality import share_of_range
@@ -130,7 +130,7 @@ def separation_context(report: Report) -> dict[str, object] | None:
         "hardest": _counts(found, int(order[0])) if _is_hard(found) else None,
         "maps": [
             {
-                "title": METHODS[method].title,
+                "title": map_title(method),
                 "nearest": found.over_shapes(rates.nearest),
                 "elected": found.over_shapes(rates.elected),
                 "silhouette": found.over_shapes(rates.silhouette),

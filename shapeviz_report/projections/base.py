@@ -175,6 +175,12 @@ def fit_square(xy: FloatArray) -> FloatArray:
     return (xy - (low + high) / 2) * (2 / extent if extent > 0 else 1.0)
 
 
+def bring_along(name: str, xy: FloatArray) -> Projection:
+    """A map that is no projection of features: places (n, 2) from elsewhere, moved and scaled, but neither turned nor
+    mirrored."""
+    return Projection(name, (), 0, fit_square(xy), brought=True)
+
+
 def align(projection: Projection, reference: Projection) -> Projection:
     """Turn and mirror a map so that shapes come to lie as close as possible to where ``reference`` has them.
 

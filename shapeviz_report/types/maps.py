@@ -15,14 +15,16 @@ class Projection:
     Attributes
     ----------
     method : str
-        The name of a projection.
+        The name of a projection, or of a file of coordinates that were brought along.
     features : tuple of str
-        The features it was made from.
+        The features it was made from; none where it was brought along.
     seed : int
     xy : (n, 2) float64 array
         One point a shape, in the order of the feature table. Centred, and scaled by one factor into [-1, 1]^2.
     bins : tuple of str or None
         The bins it was made from; None for all bins of its features.
+    brought : bool
+        Whether its coordinates were brought along.
     """
 
     method: str
@@ -30,6 +32,7 @@ class Projection:
     seed: int
     xy: FloatArray
     bins: tuple[str, ...] | None = None
+    brought: bool = False
 
 
 @dataclass(frozen=True)

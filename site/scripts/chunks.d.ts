@@ -37,7 +37,7 @@ declare namespace Chunk {
     false: Uint16Array | null;
     missing: Uint16Array | null;
   }
-  /** A map of all shapes, with its quality; a class without a score has None. */
+  /** A map of all shapes, with its quality; a class without a score has None. One that was brought along is of no */
   interface Method {
     key: string;
     title: string;

@@ -25,6 +25,7 @@ from reports import (
     with_copies,
     with_external,
     with_models,
+    with_own_map,
     with_paintings,
     with_parents,
     with_publication,
@@ -80,6 +81,9 @@ SITES = {
     "no labels": lambda: make_report([None, None], 12),
     "clusters": lambda: with_clusters(make_report([None] * 4, 8, features=FEATURES[:3])),
     "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),
+    "own map": lambda: with_own_map(
+        with_search(make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES))
+    ),
     "searched": lambda: with_search(
         make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)
     ),

@@ -16,6 +16,7 @@ from reports import (
     with_copies,
     with_external,
     with_models,
+    with_own_map,
     with_paintings,
     with_retrieval,
     with_scores,
@@ -39,7 +40,9 @@ MEND = "give it its type in pages/chunks.py, and run `make chunks`"
 @cache
 def everything():
     """A report with all that one may hold."""
-    report = with_clusters(with_copies(with_external(make_report(("ant", "bird", None))), [(0, 1)]))
+    report = with_clusters(
+        with_copies(with_external(with_own_map(make_report(("ant", "bird", None)))), [(0, 1)])
+    )
     report = with_bin_search(with_retrieval(with_scores(with_best(with_search(report)))))
     return with_models(with_paintings(report))
 

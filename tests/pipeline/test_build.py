@@ -329,6 +329,35 @@ def test_external_features_join(tmp_path, database, cache, built) -> None:
         )
 
 
+def test_own_coordinates_are_one_more_map(tmp_path, database, cache, built) -> None:
+    _, usual = built
+    places = {shape.id: (3.0 * row, 100.0 - row) for row, shape in enumerate(usual.shapes)}
+    lines = [f"{shape},{x},{y}\n" for shape, (x, y) in {"else": (0, 0), **places}.items()]
+    (tmp_path / "shelf.csv").write_text("id,x,y\n" + "".join(lines))
+    site = tmp_path / "site"
+    report = shapeviz_report.build(
+        database, site, cache=cache, coordinates=[tmp_path / "shelf.csv"], **OPTIONS
+    )
+    assert list(report.projections) == [*usual.projections, "shelf"]
+    for method, (projection, _) in usual.projections.items():
+        np.testing.assert_array_equal(report.projections[method][0].xy, projection.xy)
+    own, hits = report.projections["shelf"]
+    assert own.brought
+    assert not report.projections["tsne"][0].brought
+    last = len(places) - 1
+    np.testing.assert_allclose(own.xy[[0, last]], [[-1, 1 / 3], [1, -1 / 3]])
+    assert hits.nh_s > 0.5, "shapes of a class lie side by side"
+    assert {"shelf"} < report.faithfulness.keys()
+    assert "shelf" in report.separation.maps
+    with (site / "data" / "projection-shelf.csv").open(newline="") as file:
+        assert [row["id"] for row in csv.DictReader(file)] == list(places)
+    told = json.loads((site / "data" / "summary.json").read_text())
+    assert told["projections"]["shelf"]["features"] == []
+    assert told["projections"]["shelf"]["seed"] is None
+    assert told["parameters"]["coordinates"] == ["shelf.csv"]
+    assert "brought along" in (site / "about.html").read_text(encoding="utf-8")
+
+
 def test_every_class_is_scored_against_the_rest(built, database, own_cache, tmp_path) -> None:
     _, report = built
     assert report.scores.classes == ("ball", "box", "ring")

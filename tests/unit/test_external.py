@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import zipfile
+from typing import ClassVar
 
 import numpy as np
 import pyarrow
@@ -13,7 +14,7 @@ from pyarrow import parquet
 
 from shapeviz_report import external
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.external import load_external
+from shapeviz_report.external import load_coordinates, load_external
 
 IDS = ["ant/1", "ant/2", "cup/1"]
 
@@ -144,3 +145,51 @@ def test_an_archive_that_unpacks_to_too_much(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(external, "MOST_EXTERNAL_BYTES", 2**20)
     with pytest.raises(ConfigError, match="it holds more than 1 MiB"):
         load_external(tmp_path / "x.npz", IDS)
+
+
+class TestCoordinates:
+    PLACES: ClassVar = {"cup/1": (5.0, 6.0), "zebra": (9.0, 9.0), "ant/2": (3.0, 4.0), "ant/1": (1.0, 2.0)}
+    EXPECTED: ClassVar = [[1, 2], [3, 4], [5, 6]]
+
+    def test_columns_are_found_by_their_names(self, tmp_path) -> None:
+        rows = "".join(f"{y},?,{shape},{x}\n" for shape, (x, y) in self.PLACES.items())
+        (tmp_path / "own.csv").write_text(f"y,name,id,x\n{rows}")
+        x, y = zip(*self.PLACES.values())
+        parquet.write_table(
+            pyarrow.table({"y": y, "name": ["?"] * 4, "id": list(self.PLACES), "x": x}),
+            tmp_path / "own.parquet",
+        )
+        np.savez(tmp_path / "own.npz", shape_ids=list(self.PLACES), values=list(self.PLACES.values()))
+        np.save(tmp_path / "own.npy", self.EXPECTED)
+        for name in ("own.csv", "own.parquet", "own.npz", "own.npy"):
+            assert load_coordinates(tmp_path / name, IDS).tolist() == self.EXPECTED
+
+    def test_the_map_of_another_site_is_one(self, tmp_path) -> None:
+        (tmp_path / "projection-tsne.csv").write_text("id,x,y\nant/1,0.5,-1\nant/2,1,1\ncup/1,-1,1e-3\n")
+        places = load_coordinates(tmp_path / "projection-tsne.csv", IDS)
+        assert places.tolist() == [[0.5, -1], [1, 1], [-1, 0.001]]
+
+    @pytest.mark.parametrize(
+        ("text", "reason"),
+        [
+            ("id,x\nant/1,1\n", "the file of coordinates .*own.csv cannot be read: it has no column 'y'"),
+            ("id,x,y\nant/1,1,1\nant/2,1,2\n", "no row for 1 of the 3 shapes .* such as 'cup/1'"),
+            ("id,x,y\nant/1,1,1\nant/2,1,nan\ncup/1,1,1\n", "must hold finite numbers only"),
+            ("id,x,y\nant/1,1,1\nant/2,1,1\ncup/1,1,1\n", "all 3 shapes of the database in one place"),
+            ("id,x,y\nant/1,1,1e308\nant/2,1,-1e308\ncup/1,1,1\n", "farther apart than numbers can tell"),
+            ("id,x,y\nant/1,1,1\nant/1,1,2\nant/2,2,2\ncup/1,1,1\n", "two rows for the shape 'ant/1'"),
+        ],
+    )
+    def test_files_that_are_no_map(self, tmp_path, text, reason) -> None:
+        (tmp_path / "own.csv").write_text(text)
+        with pytest.raises(ConfigError, match=reason):
+            load_coordinates(tmp_path / "own.csv", IDS)
+
+    def test_places_in_space_are_none(self, tmp_path) -> None:
+        np.save(tmp_path / "own.npy", np.eye(3))
+        with pytest.raises(ConfigError, match="3 values a shape, and not two"):
+            load_coordinates(tmp_path / "own.npy", IDS)
+
+    def test_of_one_shape_any_place_will_do(self, tmp_path) -> None:
+        np.save(tmp_path / "own.npy", [[7.0, 7.0]])
+        assert load_coordinates(tmp_path / "own.npy", IDS[:1]).tolist() == [[7, 7]]

@@ -63,7 +63,7 @@ def summary(report: Report, version: str) -> dict[str, object]:
             method: {
                 "features": list(projection.features),
                 "bins": None if projection.bins is None else list(projection.bins),
-                "seed": projection.seed,
+                "seed": None if projection.brought else projection.seed,
                 "k": quality.k,
                 "nh_s": finite(quality.nh_s),
                 "nh_c": {name: finite(value) for name, value in quality.nh_c.items()},

@@ -64,7 +64,8 @@ export function mapWords({ scene, database, chosenColoring, name }) {
   const { title, features, neighbours } = database.methods[scene.target];
   const { subsets, standIn, methods } = database.data;
   const kind = standIn ? "cluster" : "class";
-  const by = subsets?.bins && scene.target < methods.length ? [count(subsets.bins, "bin")] : features;
+  const brought = features.length === 0;
+  const by = subsets?.bins && !brought && scene.target < methods.length ? [count(subsets.bins, "bin")] : features;
   /** @param {(level: number) => boolean} is */
   const shapes = (is) => scene.emphasis.filter(is).length;
   const [shown, chosen] = [shapes((level) => level >= FAINT), shapes((level) => level === CHOSEN)];
@@ -75,7 +76,7 @@ export function mapWords({ scene, database, chosenColoring, name }) {
         ? `Colour: ${chosenColoring.title}.`
         : database.labelled && `${name === "thumbnail" ? "Colour" : "Colour and mark"}: ${kind}.`;
   return [
-    `${title} map of ${count(shown, "shape")}${by.length > 0 ? `, compared by ${by.join(", ")}` : ""}.`,
+    `${title} map of ${count(shown, "shape")}${brought ? ", brought along" : `, compared by ${by.join(", ")}`}.`,
     colored,
     chosen > 0 && `${count(chosen, "shape")} ${chosen === 1 ? "stands" : "stand"} out.`,
     shown < database.count && `${count(database.count - shown, "shape")} left out.`,

@@ -214,7 +214,7 @@ export class ClassList {
           {},
           "This database has no labels, so there is no neighbourhood hit to tell how well classes keep together. ",
         ),
-        element("p", {}, "The map needs none: it places shapes by their surfaces alone."),
+        element("p", {}, features.length > 0 && "The map needs none: it places shapes by their surfaces alone."),
         ...tellFaith(database, method, this.state),
       ];
     }

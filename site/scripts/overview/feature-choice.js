@@ -47,6 +47,7 @@ export class FeatureChoice {
   show() {
     const index = this.state.get("method");
     const { base, features } = this.database.methods[index];
+    this.node.hidden = features.length === 0; // of a map that was brought along, which is of no features
     const best = base !== index && same(features, this.searched.best);
     if (base !== index && !best) this.#chosen = features;
     const value = base === index ? ALL : best ? BEST : CHOSEN;
