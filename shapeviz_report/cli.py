@@ -57,7 +57,16 @@ DESCRIBING = (
 GROUPS = {
     "what is read": ("layout", "labeling", "external", "coordinates", "outside"),
     "features and maps": ("preset", "edge_length", "bins", "search", "neighbours", "seed"),
-    "what the site holds": ("meshes", "parquet", "single_file", "up", "thumbnail_size", "renderer"),
+    "what the site holds": (
+        "meshes",
+        "gltf",
+        "gltf_values",
+        "parquet",
+        "single_file",
+        "up",
+        "thumbnail_size",
+        "renderer",
+    ),
     "what the site says of the database": PUBLICATION,
     "this machine": ("jobs", "scheduler", "time_limit", "memory_limit", "cache"),
 }
@@ -156,6 +165,8 @@ def _parser() -> argparse.ArgumentParser:
             "bins",
             "search",
             "meshes",
+            "gltf",
+            "gltf_values",
             "parquet",
             "single_file",
             "seed",

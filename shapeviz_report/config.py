@@ -37,6 +37,7 @@ PUBLICATION = (
 """Options that say how the site presents itself; no figure depends on them."""
 SEARCHES = ("tsne", "umap", "none")
 RENDERERS = ("osmesa", "zbuffer")
+GLTF = ("decimated", "prepared")
 ENVIRONMENT_PREFIX = "SHAPEVIZ_"
 
 
@@ -130,6 +131,18 @@ class Config:
         False,
         "also read meshes outside the database's folder, where links in it or rows of its table lead to some",
     )
+    gltf: str | None = _option(
+        None,
+        "also write every shape as binary glTF, for download: 'decimated', as its page shows it, some 50 kB, or "
+        "'prepared', the whole surface that was measured, some 200 kB",
+        "KIND",
+    )
+    gltf_values: str | None = _option(
+        None,
+        "values at every vertex that go along with --gltf, as attributes: names of descriptors, such as 'Agd,Gc', or "
+        "'all'",
+        "NAMES",
+    )
     parquet: bool = _option(
         False,
         "also write the tables of shapes and of features as Parquet; needs the extra 'parquet'",
@@ -178,6 +191,10 @@ class Config:
             raise ConfigError(f"renderer must be one of {', '.join(RENDERERS)}, not {self.renderer!r}")
         if self.up not in (None, "y", "z"):
             raise ConfigError(f"up must be y or z, not {self.up!r}")
+        if self.gltf not in (None, *GLTF):
+            raise ConfigError(f"gltf must be one of {', '.join(GLTF)}, not {self.gltf!r}")
+        if self.gltf_values is not None and self.gltf is None:
+            raise ConfigError(f"gltf_values go along with gltf, which is not set: one of {', '.join(GLTF)}")
         if self.parquet:
             require_pyarrow("parquet = true", "or leave the option out: --no-parquet")
         if self.scheduler is not None and self.jobs is not None:

@@ -7,6 +7,7 @@ import io
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from shapeviz_report.diffusion import diffuse
 from shapeviz_report.distinct import rate_without_copies
 from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.faithfulness import rate_maps
+from shapeviz_report.glb import encode_glb
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS, compared_values, scale
@@ -43,6 +45,7 @@ from shapeviz_report.types import (
     BinSearch,
     Copy,
     Database,
+    Exported,
     Failure,
     FeatureBlock,
     FeatureTable,
@@ -427,6 +430,18 @@ def with_models(report: Report) -> Report:
         bins = np.stack([(layers + turn) % 10 for turn in range(len(report.edges))]).astype(np.uint8)
         models.append(gzip.compress(pack_model(model, bins, np.eye(3)), mtime=0))
     return replace(report, models=tuple(models))
+
+
+def with_exported(report: Report) -> Report:
+    """The report with every shape as glTF: balls, more and more stretched, with a value at every vertex."""
+    sphere = ball(2)
+    files = []
+    for number in range(len(report.shapes)):
+        stretched = sphere.vertices * [1, 1 - number / (2 * len(report.shapes)), 0.5]
+        values = {"_GC": stretched[:, 0].astype(np.float32)}
+        files.append(encode_glb(stretched, sphere.faces, np.eye(3), values))
+    names = tuple(f"{sha256(file).hexdigest()[:20]}.glb" for file in files)
+    return replace(report, exported=Exported(names, files))
 
 
 def with_external(report: Report) -> Report:

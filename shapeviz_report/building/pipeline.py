@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import logging
 import platform
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
+from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, overload
@@ -43,6 +44,7 @@ from shapeviz_report.errors import DatabaseError
 from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import fixed_edges, quantile_edges
+from shapeviz_report.glb import find_dimensions
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.models import faces_of_model
 from shapeviz_report.plugins import find_plugins
@@ -53,6 +55,7 @@ from shapeviz_report.quality import score
 from shapeviz_report.search import make_space
 from shapeviz_report.separation import rate_separation
 from shapeviz_report.types import (
+    Exported,
     FeatureTable,
     FloatArray,
     Painting,
@@ -118,6 +121,7 @@ def build_report(
         preset = PRESETS[config.preset]
         blocks = (*preset.blocks, *(block for block, _ in external))
         bins = None if config.bins is None else read_bins(config.bins, blocks)
+        exported = find_dimensions(config.gltf_values)
     cache = Cache(root)
     failures = list(database.failures)
 
@@ -139,10 +143,14 @@ def build_report(
                 chain.add(stages.SAMPLE, [stages.PREPARE], share)
             else:
                 chain.add(stages.DESCRIBE, [stages.PREPARE, stages.VIEW], edges, preset.by_area, faces)
+                if exports:
+                    kept = faces if config.gltf == "decimated" else None
+                    chain.add(stages.EXPORT, [stages.PREPARE, stages.VIEW], kept, exported)
             if preset.whole:
                 chain.add(stages.DESCRIBE_WHOLE, [stages.PREPARE])
             return chain, files
 
+        exports: list[stages.Stage[Any]] = [stages.EXPORT] if config.gltf is not None else []
         described: list[stages.Stage[Any]] = [
             stages.DESCRIBE,
             *([stages.DESCRIBE_WHOLE] if preset.whole else []),
@@ -154,6 +162,7 @@ def build_report(
         outlines: dict[str, Outline] = {}
         pictures: dict[str, bytes] = {}
         models: dict[str, str] = {}
+        files: dict[str, tuple[str, str]] = {}
         samples: dict[str, FloatArray] = {}
 
         def take(shape: str, chain: Chain, found: dict[stages.Stage[Any], Any]) -> None:
@@ -166,18 +175,21 @@ def build_report(
             if stages.DESCRIBE in found:
                 values[row[shape]] = np.concatenate([found[stage] for stage in described])
                 models[shape] = chain.key(stages.DESCRIBE)
+                if exports:
+                    name = f"{sha256(found[stages.EXPORT]).hexdigest()[:20]}.glb"
+                    files[shape] = (name, chain.key(stages.EXPORT))
 
         looks: list[stages.Stage[Any]] = [stages.FACTS, stages.EXAMINE, stages.RENDER]
         share = sampled_of_each(len(paths))
         edges = fixed_edges() if preset.fixed_ranges else None
         faces = faces_of_model(len(paths))
         if edges is not None:
-            run.each("Measuring shapes", paths, [*looks, *described], plan, take)
+            run.each("Measuring shapes", paths, [*looks, *described, *exports], plan, take)
         else:
             run.each("Preparing shapes", paths, [*looks, stages.SAMPLE], plan, take)
             kept = [shape for shape in paths if shape in samples]
             edges = quantile_edges([samples[shape] for shape in kept]) if kept else fixed_edges()
-            run.each("Measuring shapes", kept, described, plan, take)
+            run.each("Measuring shapes", kept, [*described, *exports], plan, take)
         shapes = tuple(s for s in database.shapes if s.id in models)
         if not shapes:
             raise DatabaseError(*nothing_usable(Path(source), failures))
@@ -253,6 +265,20 @@ def build_report(
             search,
             found.automatic if found is not None else None,
         )
+
+    def recalled(
+        stage: stages.Stage[Any], read: Callable[[bytes], bytes], keys: Iterable[str]
+    ) -> Sequence[bytes]:
+        plans = (partial(plan, s.id) for s in shapes)
+        return Recalled(run, stage, read, list(zip(keys, plans, strict=True)))
+
+    models_shown, exported_files = None, None
+    if config.meshes:
+        models_shown = recalled(stages.DESCRIBE, stages.read_model, [models[s.id] for s in shapes])
+    if exports:
+        names, keys = zip(*(files[s.id] for s in shapes), strict=True)
+        exported_files = Exported(names, recalled(stages.EXPORT, bytes, keys))
+
     report = ShownReport(
         database=database,
         shapes=shapes,
@@ -278,7 +304,8 @@ def build_report(
         bins=found,
         retrieval=retrieval,
         paintings=paintings,
-        models=Models(run, [(models[s.id], partial(plan, s.id)) for s in shapes]) if config.meshes else None,
+        models=models_shown,
+        exported=exported_files,
         clusters=clusters,
         publication=publication,
         copies=copies,
@@ -293,15 +320,23 @@ def build_report(
     return report
 
 
-class Models(Sequence[bytes]):
-    """The 3D model of each shape, read when asked for: those of 100,000 are several gigabytes."""
+class Recalled(Sequence[bytes]):
+    """What a stage made of each shape, read when asked for: 3D models of 100,000 are several gigabytes."""
 
-    def __init__(self, run: Runner, described: Sequence[tuple[str, Callable[[], Plan]]]) -> None:
+    def __init__(
+        self,
+        run: Runner,
+        stage: stages.Stage[Any],
+        read: Callable[[bytes], bytes],
+        made: Sequence[tuple[str, Callable[[], Plan]]],
+    ) -> None:
         self._run = run
-        self._described = described
+        self._stage = stage
+        self._read = read
+        self._made = made
 
     def __len__(self) -> int:
-        return len(self._described)
+        return len(self._made)
 
     @overload
     def __getitem__(self, place: int) -> bytes: ...
@@ -309,6 +344,6 @@ class Models(Sequence[bytes]):
     def __getitem__(self, place: slice) -> Sequence[bytes]: ...
     def __getitem__(self, place: int | slice) -> bytes | Sequence[bytes]:
         if isinstance(place, slice):
-            return Models(self._run, self._described[place])
-        key, plan = self._described[place]
-        return stages.read_model(self._run.recall(stages.DESCRIBE, key, plan))
+            return Recalled(self._run, self._stage, self._read, self._made[place])
+        key, plan = self._made[place]
+        return self._read(self._run.recall(self._stage, key, plan))

@@ -31,6 +31,7 @@ from shapeviz_report.features import (
     measure,
     sample_values,
 )
+from shapeviz_report.glb import encode_glb
 from shapeviz_report.global_descriptors import PosedShape
 from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
 from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
@@ -163,6 +164,28 @@ def describe_shape(prepared: bytes, view: bytes, edges: FloatArray, by_area: boo
     # Level 9 would save a fortieth of the bytes for eight times the time.
     packed = gzip.compress(pack_model(model, bins, read_array(view)), compresslevel=6, mtime=0)
     return _pack_arrays(features=features, model=np.frombuffer(packed, np.uint8))
+
+
+def export_shape(prepared: bytes, view: bytes, faces: int | None, dimensions: Mapping[str, int]) -> bytes:
+    """A prepared shape as binary glTF.
+
+    Parameters
+    ----------
+    prepared : bytes
+    view : bytes
+        As :func:`view_shape` found it.
+    faces : int or None
+        To which it is simplified; None for all of it.
+    dimensions : mapping of str to int
+        Attributes of the vertices, and the dimension of the descriptors that each holds.
+    """
+    mesh = _unpack(prepared)
+    values = measure(mesh, list(dimensions.values()))
+    vertices, triangles = mesh.vertices, mesh.faces
+    if faces is not None:
+        model = simplify(mesh, faces)
+        vertices, triangles, values = model.vertices, model.faces, values[:, model.source]
+    return encode_glb(vertices, triangles, read_array(view), dict(zip(dimensions, values, strict=True)))
 
 
 def describe_whole_shape(prepared: bytes) -> bytes:
@@ -429,6 +452,7 @@ PREPARE = Stage("prepare", "Preparing meshes", "prepared", prepare_shape, bytes)
 FACTS = Stage("prepare", "Preparing meshes", "facts", tell_facts, read_facts)
 SAMPLE = Stage("sample", "Finding value ranges", "sampled", sample_shape, read_array)
 DESCRIBE = Stage("describe", "Describing shapes", "described", describe_shape, read_features)
+EXPORT = Stage("export", "Exporting shapes", "exported", export_shape, bytes)
 MEASURE = Stage("describe", "Describing shapes", "measured", measure_shape, read_array)
 DESCRIBE_WHOLE = Stage(
     "describe", "Describing whole shapes", "described-whole", describe_whole_shape, read_array

@@ -255,6 +255,8 @@ class ShapeDetails(TypedDict):
         Shapes that are the same shape, with what says so.
     related : list of int, or None
         The shapes most similar by neighbourhood, the most similar first; None where there are too many.
+    gltf : str or None
+        Its file below ``gltf/``.
     """
 
     labels: list[tuple[str, str]]
@@ -272,6 +274,7 @@ class ShapeDetails(TypedDict):
     volume: float | None
     extents: list[float]
     related: list[int] | None
+    gltf: str | None
 
 
 class Cluster(TypedDict):

@@ -341,6 +341,7 @@ def _details(report: Report) -> Iterator[list[ShapeDetails]]:
                 "volume": facts.volume,
                 "extents": list(facts.extents),
                 "related": None if report.related is None else report.related[start + place].tolist(),
+                "gltf": None if report.exported is None else report.exported.names[start + place],
             }
             for place, (shape, facts) in enumerate(
                 zip(

@@ -31,7 +31,7 @@ from shapeviz_report.types.features import FeatureBlock, FeatureTable
 from shapeviz_report.types.maps import Faithfulness, HitRange, Projection, Quality, Shepard
 from shapeviz_report.types.mesh import Mesh, ShapeFacts, UpAxis
 from shapeviz_report.types.publication import Accent, Licence, Logo, Publication
-from shapeviz_report.types.report import Report
+from shapeviz_report.types.report import Exported, Report
 from shapeviz_report.types.retrieval import Rating, Retrieval
 from shapeviz_report.types.search import (
     FeatureEffect,
@@ -59,6 +59,7 @@ __all__ = [
     "Clusters",
     "Copy",
     "Database",
+    "Exported",
     "Failure",
     "Faithfulness",
     "FeatureBlock",

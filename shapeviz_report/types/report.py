@@ -22,6 +22,21 @@ from shapeviz_report.types.search import FeatureSearch
 from shapeviz_report.types.separation import Separation
 
 
+@dataclass(frozen=True)
+class Exported:
+    """Each shape as a file of binary glTF.
+
+    Attributes
+    ----------
+    names : tuple of str
+        By what is in them, with suffix: copies of a shape may share one.
+    contents : sequence of bytes
+    """
+
+    names: tuple[str, ...]
+    contents: Sequence[bytes]
+
+
 @dataclass(frozen=True, repr=False)
 class Report:
     """All that a site shows: the input of the pages.
@@ -61,6 +76,8 @@ class Report:
     models : sequence of bytes, or None
         The 3D model of each shape as :func:`shapeviz_report.models.pack_model` packs it, gzipped. None if they were
         left out.
+    exported : Exported or None
+        None if files of shapes were not asked for.
     clusters : Clusters or None
         None where there are too few shapes.
     publication : Publication
@@ -100,6 +117,7 @@ class Report:
     retrieval: Retrieval | None = None
     paintings: tuple[Painting, ...] = ()
     models: Sequence[bytes] | None = None
+    exported: Exported | None = None
     clusters: Clusters | None = None
     publication: Publication = Publication()
     copies: tuple[Copy, ...] = ()
@@ -153,6 +171,9 @@ class Report:
             _require(_is_webp(painting.value) and _is_webp(painting.inside), "a painting is not a WebP image")
         if self.models is not None:
             _require(len(self.models) == count, "models do not match the shapes")
+        if self.exported is not None:
+            lengths = {len(self.exported.names), len(self.exported.contents)}
+            _require(lengths == {count}, "exported shapes do not match the shapes")
         if self.best is not None:
             _require(self.best[0].xy.shape == (count, 2), "the best map has another number of points")
         if self.related is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from shapeviz_report.config import Config
+from shapeviz_report.glb import find_dimensions
 from shapeviz_report.models import MANY
 from shapeviz_report.pages.base import MOST_IN_FULL
 
@@ -15,8 +16,8 @@ class Weight:
 
     Attributes
     ----------
-    bytes, models : int
-        In all, and of that the 3D models.
+    bytes, models, exported : int
+        In all, and of that the 3D models of the pages, and the files of glTF.
     files, folder : int
         In all, and most in one folder.
     largest : int
@@ -25,6 +26,7 @@ class Weight:
 
     bytes: int
     models: int
+    exported: int
     files: int
     folder: int
     largest: int
@@ -60,6 +62,13 @@ PICTURE, PICTURE_SIZE, PICTURE_POWER = 6_000, 320, 1.6
 """Bytes of a thumbnail of so many pixels, and the power of its size with which they grow."""
 
 
+VERTICES, VERTICES_OF_MANY, VERTICES_PREPARED = 2_000, 560, 9_500
+"""Of a shape in glTF: simplified, simplified of many shapes, and in full."""
+
+VERTEX, VALUE = 24, 4
+"""Bytes of a vertex in glTF with its two triangles, and of a value at it."""
+
+
 def weigh(shapes: int, config: Config) -> Weight:
     """What a site of so many shapes will weigh, by those that were measured: to a third, of odd meshes to a half."""
     many = shapes > MOST_IN_FULL
@@ -68,11 +77,22 @@ def weigh(shapes: int, config: Config) -> Weight:
     pictures = int(shapes * picture * (4 / 3 if many else 7 / 3))
     features = shapes * FEATURES // (2 if many else 1)
     of_models = shapes * (MODEL if shapes <= MANY else MODEL_OF_MANY) if config.meshes else 0
-    singles = (shapes if config.meshes else 0, 0 if many else shapes)
+    vertices = VERTICES if shapes <= MANY else VERTICES_OF_MANY
+    if config.gltf == "prepared":
+        vertices = VERTICES_PREPARED
+    values = len(find_dimensions(config.gltf_values))
+    exported = shapes * vertices * (VERTEX + VALUE * values) if config.gltf is not None else 0
+    singles = (shapes if config.meshes else 0, 0 if many else shapes, shapes if exported else 0)
     parts = shapes // 32 + shapes // 200
     return Weight(
-        bytes=BASE + pictures + features * (2 if config.parquet else 1) + shapes * FACTS + of_models,
+        bytes=BASE
+        + pictures
+        + features * (2 if config.parquet else 1)
+        + shapes * FACTS
+        + of_models
+        + exported,
         models=of_models,
+        exported=exported,
         files=BASE_FILES + sum(singles) + parts,
         folder=max(*singles, parts),
         largest=max(2_000_000, features * 3 // 4),
@@ -118,4 +138,6 @@ def note(shapes: int, config: Config) -> str | None:
     )
     if weight.models:
         text += f" Of that, 3D models are {in_words(weight.models)}, which --no-meshes leaves out."
+    if weight.exported:
+        text += f" Files of glTF are {in_words(weight.exported)} of it."
     return text

@@ -85,14 +85,22 @@ def catalogue(report: Report, description: str) -> bytes:
     whole = dataset(report, description, "../")
     if is_in_full(report):
         whole["hasPart"] = [
-            _model(report, base, *item)
-            for item in zip(report.shapes, report.labels, report.facts, report.thumbnails, strict=True)
+            _model(report, base, place, *item)
+            for place, item in enumerate(
+                zip(report.shapes, report.labels, report.facts, report.thumbnails, strict=True)
+            )
         ]
     return (json_text(whole, indent=1) + "\n").encode("utf-8", "backslashreplace")
 
 
 def _model(
-    report: Report, base: str, shape: ShapeEntry, label: str | None, facts: ShapeFacts, thumbnail: bytes
+    report: Report,
+    base: str,
+    place: int,
+    shape: ShapeEntry,
+    label: str | None,
+    facts: ShapeFacts,
+    thumbnail: bytes,
 ) -> dict[str, object]:
     columns = {column.casefold(): value for column, value in shape.metadata.items() if value.strip()}
     own = next((columns[name] for name in LICENCE_COLUMNS if name in columns), None)
@@ -106,6 +114,12 @@ def _model(
             "identifier": shape.id,
             "image": f"{base}thumbnails/{thumbnail_name(thumbnail)}",
             "keywords": label,
+            "encoding": report.exported
+            and {
+                "@type": "MediaObject",
+                "contentUrl": f"{base}gltf/{report.exported.names[place]}",
+                "encodingFormat": "model/gltf-binary",
+            },
             "license": _address(find_licence(own) if own else report.publication.licence),
             "creator": creator and {"name": creator},
             "additionalProperty": [

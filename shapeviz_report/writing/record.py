@@ -25,7 +25,7 @@ RECORD = "data/files.json"
 SUMMARY = "data/summary.json"
 """What tells a site that has no record."""
 
-FOLDERS = ("assets", "chunks", "data", "models", "paintings", "sheets", "thumbnails")
+FOLDERS = ("assets", "chunks", "data", "gltf", "models", "paintings", "sheets", "thumbnails")
 """The folders of a site; none has folders in it."""
 
 PAGE_MARK = f'<meta name="generator" content="{GENERATOR} '.encode()
@@ -40,7 +40,7 @@ _NAME = re.compile(
     r"|assets/(style\.css|icon\.svg|vega-licenses\.txt|logo\.(svg|png|webp))"
     rf"|data/({DATA_NAMES}|files\.json|catalogue\.jsonld|croissant\.json)"
     r"|chunks/[a-z]+-\d+\.js"
-    r"|models/[0-9a-f]{20}\.js|(paintings|sheets|thumbnails)/[0-9a-f]{20}\.webp"
+    r"|gltf/[0-9a-f]{20}\.glb|models/[0-9a-f]{20}\.js|(paintings|sheets|thumbnails)/[0-9a-f]{20}\.webp"
 )
 
 _SEAL = b"<!-- shapeviz-report sha256 "

@@ -131,11 +131,14 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
     for model in report.models or ():
         name = model_name(model)
         yield f"models/{name}.js", chunk_script(f"model-{name}", "bytes", model)
+    if report.exported is not None:
+        for name, file in zip(report.exported.names, report.exported.contents, strict=True):
+            yield f"gltf/{name}", file
 
 
 def whole_site(report: Report) -> bytes:
-    """The site as one HTML file. It holds no 3D models: these would be most of it."""
-    report = replace(report, models=None)
+    """The site as one HTML file. It holds no 3D models and no glTF: these would be most of it."""
+    report = replace(report, models=None, exported=None)
     contents = compute_contents(report)
     scripts = dict(join_scripts())
     inline = Inline(

@@ -184,6 +184,7 @@ declare namespace Chunk {
     volume: number | null;
     extents: number[];
     related: number[] | null;
+    gltf: string | null;
   }
   /** A group that the features make: its most central shape, and sentences on what is typical of it. */
   interface Cluster {

@@ -968,7 +968,7 @@ def test_a_map_that_was_brought_along_says_so(open_page):
     choice = page.locator("#features")
     assert choice.is_visible()
     page.locator("#methods").get_by_text("drawer").click()
-    eventually(lambda: "map=drawer" in page.url)
+    eventually(page, lambda: "map=drawer" in page.url)
     assert not choice.is_visible(), "it is of no features"
     assert "were brought along with the database" in page.locator("body").inner_text()
     page.click("#how-good summary")
@@ -976,4 +976,4 @@ def test_a_map_that_was_brought_along_says_so(open_page):
     assert "nearest neighbours on this drawer map" in said.replace("\u00a0", " ")
     assert "made from" not in said
     page.locator("#methods").get_by_text("t-SNE").click()
-    eventually(lambda: choice.is_visible())
+    eventually(page, lambda: choice.is_visible())

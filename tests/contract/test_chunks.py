@@ -14,6 +14,7 @@ from reports import (
     with_bin_search,
     with_clusters,
     with_copies,
+    with_exported,
     with_external,
     with_models,
     with_own_map,
@@ -44,7 +45,7 @@ def everything():
         with_copies(with_external(with_own_map(make_report(("ant", "bird", None)))), [(0, 1)])
     )
     report = with_bin_search(with_retrieval(with_scores(with_best(with_search(report)))))
-    return with_models(with_paintings(report))
+    return with_exported(with_models(with_paintings(report)))
 
 
 @cache

@@ -346,7 +346,7 @@ def test_own_coordinates_are_one_more_map(tmp_path, database, cache, built) -> N
     assert not report.projections["tsne"][0].brought
     last = len(places) - 1
     np.testing.assert_allclose(own.xy[[0, last]], [[-1, 1 / 3], [1, -1 / 3]])
-    assert hits.nh_s > 0.5, "shapes of a class lie side by side"
+    assert hits.nh_s == pytest.approx(hits.range.highest), "shapes of a class lie side by side"
     assert {"shelf"} < report.faithfulness.keys()
     assert "shelf" in report.separation.maps
     with (site / "data" / "projection-shelf.csv").open(newline="") as file:
@@ -356,6 +356,40 @@ def test_own_coordinates_are_one_more_map(tmp_path, database, cache, built) -> N
     assert told["projections"]["shelf"]["seed"] is None
     assert told["parameters"]["coordinates"] == ["shelf.csv"]
     assert "brought along" in (site / "about.html").read_text(encoding="utf-8")
+
+
+def test_every_shape_as_gltf(tmp_path, database, own_cache, built) -> None:
+    usual = built[1]
+    whole = shapeviz_report.build(
+        database, tmp_path / "whole", cache=own_cache, gltf="prepared", gltf_values="Agd,Sc", **OPTIONS
+    )
+    few = shapeviz_report.build(database, tmp_path / "few", cache=own_cache, gltf="decimated", **OPTIONS)
+    for report, site in ((whole, tmp_path / "whole"), (few, tmp_path / "few")):
+        with (site / "data" / "shapes.csv").open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        assert {row["gltf"] for row in rows} == {f"gltf/{path.name}" for path in (site / "gltf").iterdir()}
+        for row, facts, content in zip(rows, report.facts, report.exported.contents, strict=True):
+            assert (site / row["gltf"]).read_bytes() == content
+            (read,) = trimesh.load_scene(site / row["gltf"], process=False).geometry.values()
+            assert len(read.faces) == (min(facts.faces, 4000) if report is few else facts.faces)
+            assert np.linalg.norm(read.vertices, axis=1).max() <= 1 + 1e-3
+    described = shapeviz_report.describe(
+        usual.shapes[0].path, cache=own_cache, edge_length=OPTIONS["edge_length"]
+    )
+    (read,) = trimesh.load_scene(
+        io.BytesIO(whole.exported.contents[0]), file_type="glb", process=False
+    ).geometry.values()
+    np.testing.assert_allclose(read.vertices, described.vertices, atol=1e-6)
+    np.testing.assert_array_equal(np.ravel(read.vertex_attributes["_AGD"]), described.values["Agd"][:, 0])
+    assert "_SC_0" in read.vertex_attributes
+    model = json.loads((tmp_path / "few" / "data" / "catalogue.jsonld").read_text())["hasPart"][0]
+    assert model["encoding"]["contentUrl"] == f"../gltf/{few.exported.names[0]}"
+    kept = entries(own_cache, "exported")
+    again = shapeviz_report.build(database, tmp_path / "few", cache=own_cache, gltf="decimated", **OPTIONS)
+    assert entries(own_cache, "exported") == kept
+    assert again.exported.names == few.exported.names
+    with pytest.raises(ConfigError, match="gltf_values names 'Panorama'"):
+        shapeviz_report.build(database, tmp_path / "s", gltf="prepared", gltf_values="Panorama", **OPTIONS)
 
 
 def test_every_class_is_scored_against_the_rest(built, database, own_cache, tmp_path) -> None:

@@ -212,3 +212,10 @@ def test_without_pyarrow_the_option_says_what_to_install(monkeypatch) -> None:
         ConfigError, match=r"pip install 'shapeviz-report\[parquet\]'; or leave .* --no-parquet"
     ):
         Config(parquet=True)
+
+
+def test_values_of_gltf_need_gltf() -> None:
+    with pytest.raises(ConfigError, match="gltf must be one of decimated, prepared, not 'all'"):
+        Config(gltf="all")
+    with pytest.raises(ConfigError, match="gltf_values go along with gltf, which is not set"):
+        Config(gltf_values="Agd")

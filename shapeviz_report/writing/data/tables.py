@@ -46,6 +46,7 @@ def shape_rows(report: Report) -> Iterator[list[str]]:
         *("faces_read", "vertices_read", "faces", "vertices", "components", "watertight", "deviation"),
         *("area", "volume", "extent_x", "extent_y", "extent_z"),
         *("repairs", "sha256"),
+        *(("gltf",) if report.exported is not None else ()),
     ]
     for index, (shape, facts, label) in enumerate(
         zip(report.shapes, report.facts, report.labels, strict=True)
@@ -79,6 +80,7 @@ def shape_rows(report: Report) -> Iterator[list[str]]:
             *map(number, facts.extents),
             json_text(dict(facts.repairs)) if facts.repairs else "",
             facts.sha256,
+            *((f"gltf/{report.exported.names[index]}",) if report.exported is not None else ()),
         ]
 
 

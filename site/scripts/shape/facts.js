@@ -10,8 +10,9 @@ import { meshFacts, surfaceFacts } from "../database/facts.js";
 /** @import { ShapeLinks } from "./links.js" */
 
 /**
- * What is said of a shape under a heading: names and values; where these are of other shapes, `shapes` are their numbers.
- * @typedef {{ title: string, rows: [string, string][], note?: string, shapes?: number[] }} FactGroup
+ * What is said of a shape under a heading: names and values; where these are of other shapes, `shapes` are their numbers;
+ * and the file of it that there may be.
+ * @typedef {{ title: string, rows: [string, string][], note?: string, shapes?: number[], file?: string | null }} FactGroup
  */
 
 /** What columns of a table are called that say whose a shape is and what may be done with it; these come first. */
@@ -47,7 +48,7 @@ export class Facts {
   }
 
   /** @param {FactGroup} group */
-  #section({ title, rows, note, shapes }) {
+  #section({ title, rows, note, shapes, file }) {
     /**
      * @param {string} name
      * @param {number} place
@@ -67,7 +68,14 @@ export class Facts {
         ]),
       ),
       note && element("p", { class: "key" }, note),
+      file && element("p", { class: "on-screen" }, this.#download(file)),
     );
+  }
+
+  /** @param {string} file */
+  #download(file) {
+    const name = this.database.ids[this.state.get("shape") ?? 0].replaceAll("/", "-");
+    return element("a", { href: `gltf/${file}`, download: `${name}.glb` }, "Download the surface (glTF)");
   }
 }
 
@@ -114,6 +122,7 @@ function factGroups(database, shape, known, clusters) {
     {
       title: "Mesh",
       rows: meshFacts(known),
+      file: known.gltf,
     },
     { title: "Repairs", rows: known.repairs.map(([repair, number]) => [repair, grouped(number)]) },
   ];

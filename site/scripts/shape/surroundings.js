@@ -126,11 +126,13 @@ export class Surroundings {
    */
   #tell(shape, near, method) {
     const { database } = this;
-    const { title, hit, hitOfClass, faith } = method;
+    const { title, features, hit, hitOfClass, faith } = method;
     const kept = Math.round((faith?.kept?.[shape] ?? 0) * near.length);
     /** @type {(string | Node)[]} */
     const words = [
-      `Near on the ${title} map means alike in features. `,
+      features.length > 0
+        ? `Near on the ${title} map means alike in features. `
+        : `The places on the ${title} map were brought along. `,
       faith
         ? kept === near.length
           ? `All of the ${count(near.length, "shape")} most alike are near it here. `

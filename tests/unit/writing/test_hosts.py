@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from reports import make_report, with_models
+from reports import make_report, with_exported, with_models
 
 from shapeviz_report.config import Config
 from shapeviz_report.writing import write_site
@@ -32,7 +32,21 @@ def test_less_is_written_of_more():
 
 
 def test_files_are_counted_as_they_are_written(tmp_path):
-    report = with_models(make_report(["ant", "bird"], 30))
+    report = with_exported(with_models(make_report(["ant", "bird"], 30)))
     write_site(report, tmp_path)
     files = sum(path.is_file() for path in tmp_path.rglob("*"))
-    assert weigh(60, Config()).files == pytest.approx(files, abs=180)
+    assert weigh(60, Config(gltf="decimated")).files == pytest.approx(files, abs=180)
+    assert len(list((tmp_path / "gltf").iterdir())) == 60
+
+
+def test_files_of_gltf_are_weighed_with_their_values():
+    plain = weigh(100, Config())
+    few, all_ = (weigh(100, Config(gltf=kind)) for kind in ("decimated", "prepared"))
+    assert plain.exported == 0
+    assert few.bytes - plain.bytes == few.exported == 4_800_000
+    assert all_.exported > 4 * few.exported
+    assert few.files == plain.files + 100
+    valued = weigh(100, Config(gltf="decimated", gltf_values="Agd,FPFH"))
+    assert valued.exported == few.exported + 100 * 2000 * 4 * 34
+    text = note(60_000, Config(meshes=False, gltf="prepared"))
+    assert text.endswith("Files of glTF are 13.7 GB of it.")
