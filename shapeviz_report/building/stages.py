@@ -11,7 +11,6 @@ import io
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -21,6 +20,7 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report.cache import make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.copies import Outline, compare, outline
+from shapeviz_report.database.formats import split_name
 from shapeviz_report.descriptors import Surface
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.errors import MeshError
@@ -443,7 +443,7 @@ class Stage(Generic[R]):
 
 def identify(files: Mapping[str, bytes]) -> str:
     """What of a mesh file decides how it is read: its format and its content."""
-    return f"{Path(next(iter(files))).suffix.lower()} {content_hash(files)}"
+    return f"{split_name(next(iter(files)))[1]} {content_hash(files)}"
 
 
 EXAMINE = Stage("examine", "Outlining meshes", "examined", examine_shape, read_examined)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from abc import ABC, abstractmethod
 from collections import Counter
@@ -10,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import ClassVar
 
+from shapeviz_report.database.formats import split_name
 from shapeviz_report.order import natural
 from shapeviz_report.types import Database, ShapeEntry
 
@@ -48,16 +48,16 @@ def database_name(root: Path) -> str:
 def shape_ids(relative_paths: Sequence[str]) -> list[str]:
     """One unique id a path, in the order of the paths.
 
-    The id is the path without its suffix. It keeps the suffix where the shorter form would name two files, or
-    is the whole name of another one. Paths that are equal as text, as names that are not UTF-8 can become,
-    are numbered.
+    The id is the path without its suffix, ``.off`` or ``.off.gz``. It keeps the suffix where the shorter form would
+    name two files, or is the whole name of another one. Paths that are equal as text, as names that are not UTF-8 can
+    become, are numbered.
 
     Parameters
     ----------
     relative_paths : sequence of str
         With ``/`` between folders.
     """
-    stems = [os.path.splitext(path)[0] for path in relative_paths]
+    stems = [split_name(path)[0] for path in relative_paths]
     times = Counter(stems)
     times.update(set(relative_paths))
     taken: Counter[str] = Counter()

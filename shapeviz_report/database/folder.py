@@ -7,7 +7,14 @@ from collections import Counter, deque
 from dataclasses import dataclass
 from pathlib import Path
 
-from shapeviz_report.database.formats import is_read, is_unread_mesh, why_not_read
+from shapeviz_report.database.formats import (
+    PACKED,
+    is_read,
+    is_unread_mesh,
+    split_name,
+    suffix_of,
+    why_not_read,
+)
 from shapeviz_report.database.text import readable
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.order import natural
@@ -39,7 +46,7 @@ class MeshFile:
     @property
     def stem(self) -> str:
         """The file's name without suffix."""
-        return os.path.splitext(self.relative.rpartition("/")[2])[0]
+        return split_name(self.relative.rpartition("/")[2])[0]
 
 
 @dataclass(frozen=True)
@@ -121,7 +128,8 @@ def scan_folder(root: Path, outside: bool) -> Found:
             fail(prefix.rstrip("/"), f"this folder cannot be opened: {error.strerror}")
             continue
         # A file that begins with the name of a mesh beside it (.step, .solid.binvox) is that mesh's companion.
-        stems = {os.path.splitext(entry.name)[0] for entry in entries if is_read(entry.name)}
+        stems = {split_name(entry.name)[0] for entry in entries if is_read(entry.name)}
+        names = {entry.name for entry in entries}
         for entry in entries:
             if entry.name.startswith(".") or entry.name in _NEVER_SHAPES:
                 continue
@@ -143,6 +151,8 @@ def scan_folder(root: Path, outside: bool) -> Found:
             elif not is_read(entry.name):
                 if is_unread_mesh(entry.name) and not _begins_with(entry.name, stems):
                     fail(relative, why_not_read(entry.name))
+            elif suffix_of(entry.name) in PACKED and os.path.splitext(entry.name)[0] in names:
+                pass  # the same mesh lies beside it
             elif is_file:
                 files.append(MeshFile(entry.path, relative))
             elif entry.is_symlink():

@@ -25,7 +25,7 @@ from pathlib import Path
 
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import MeshFile, leads_outside, scan_folder
-from shapeviz_report.database.formats import MESH_FORMATS, suffix_of
+from shapeviz_report.database.formats import MESH_SUFFIXES, split_name, suffix_of
 from shapeviz_report.database.text import clean, decode
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.files import read_regular
@@ -320,12 +320,12 @@ def _find_models(models: Mapping[str, Path], root: Path, outside: bool) -> tuple
 
     The model 123 is the file ``m123.off`` as in the benchmark, or else ``123.off``, or else the only one whose
     name is that number after other letters or zeros, as ``D00123.off``. Of several such files the
-    one with the first suffix in ``MESH_FORMATS`` is taken, then the first path.
+    one with the first suffix in ``MESH_SUFFIXES`` is taken, then the first path.
     """
-    suffixes = list(MESH_FORMATS)
+    suffixes = list(MESH_SUFFIXES)
     files = scan_folder(root, outside).files
     by_stem: dict[str, MeshFile] = {}
-    for file in sorted(files, key=lambda file: (suffixes.index(suffix_of(file.relative)), file.relative)):
+    for file in sorted(files, key=lambda file: (suffixes.index(split_name(file.relative)[1]), file.relative)):
         by_stem.setdefault(file.stem, file)
     padded: dict[str, list[MeshFile]] = {}
     for stem, file in by_stem.items():

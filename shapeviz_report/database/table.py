@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, TypeGuard
 from shapeviz_report.arrow import column_texts, frame_table, read_parquet, require_pyarrow
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.folder import leads_outside, scan_folder
-from shapeviz_report.database.formats import MESH_FORMATS, is_read, suffix_of, why_not_read
+from shapeviz_report.database.formats import MESH_SUFFIXES, is_read, split_name, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
 from shapeviz_report.errors import ConfigError, DatabaseError
 from shapeviz_report.files import read_regular
@@ -269,7 +269,7 @@ def passed_over(folder: Path, outside: bool, used: Collection[str | Path]) -> li
     Companions of meshes and tables of other things are passed over in silence.
     """
     try:
-        stems = {os.path.splitext(name)[0] for name in os.listdir(folder) if is_read(name)}
+        stems = {split_name(name)[0] for name in os.listdir(folder) if is_read(name)}
     except OSError:
         return []
     judged = {
@@ -611,7 +611,7 @@ class _Finder:
         spellings = list(dict.fromkeys((file, file.replace("\\", "/"))))
         for spelling in spellings:
             path = os.path.normpath(os.path.join(self.root, spelling))
-            for suffix in ("", *MESH_FORMATS):
+            for suffix in ("", *MESH_SUFFIXES):
                 if os.path.isfile(path + suffix):
                     return Path(path + suffix)
             if os.path.lexists(path):
@@ -633,7 +633,7 @@ class _Finder:
                     return None
                 exact = os.path.join(path, alike[0])
             path = exact
-        for names in ({like(name)}, {like(name + suffix) for suffix in MESH_FORMATS}):
+        for names in ({like(name)}, {like(name + suffix) for suffix in MESH_SUFFIXES}):
             alike = [entry for known in names for entry in self._list(path, like).get(known, [])]
             if alike:
                 return Path(path, alike[0]) if len(alike) == 1 else None

@@ -10,12 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
-from shapeviz_report.database.formats import MESH_FORMATS, suffix_of, why_not_read
+from shapeviz_report.database.formats import PACKED, format_of, is_read, split_name, suffix_of, why_not_read
 from shapeviz_report.errors import MeshError
 from shapeviz_report.files import MOST_BYTES, TooLargeError, read_regular
 from shapeviz_report.mesh.readers import READERS
-from shapeviz_report.mesh.readers.gltf import buffer_files, read_gltf, read_header
+from shapeviz_report.mesh.readers.gltf import list_buffers, read_gltf
 from shapeviz_report.mesh.readers.limits import check_faces
+from shapeviz_report.mesh.readers.packed import GLTF, unpack
 from shapeviz_report.mesh.readers.polygons import PolygonMesh, check_indices, triangulate
 from shapeviz_report.mesh.readers.sniff import what_it_seems
 from shapeviz_report.types import Mesh
@@ -30,7 +31,7 @@ def read_mesh(path: Path) -> Mesh:
     Parameters
     ----------
     path : Path
-        A file with one of the suffixes in ``database.MESH_FORMATS``, in any case.
+        A file with one of the suffixes in ``database.MESH_FORMATS``, in any case, packed or not.
 
     Raises
     ------
@@ -41,7 +42,8 @@ def read_mesh(path: Path) -> Mesh:
 
 
 def collect_files(path: Path, within: Path | None = None) -> dict[str, bytes]:
-    """The content of all files that make up a mesh: the mesh file, and the buffers of a glTF.
+    """The content of all files that make up a mesh: the mesh file, and the buffers of a glTF, which a packed one has in
+    it.
 
     Parameters
     ----------
@@ -61,8 +63,7 @@ def collect_files(path: Path, within: Path | None = None) -> dict[str, bytes]:
         If a file cannot be opened, or lies outside ``within``, or a buffer outside the mesh file's folder, links
         resolved.
     """
-    suffix = suffix_of(path.name)
-    if suffix not in MESH_FORMATS:
+    if not is_read(path.name):
         raise MeshError(why_not_read(path.name))
     if within is not None and not path.resolve().is_relative_to(within.resolve()):
         raise MeshError(
@@ -70,16 +71,10 @@ def collect_files(path: Path, within: Path | None = None) -> dict[str, bytes]:
             "read by --outside"
         )
     files = {path.name: _read_bytes(path)}
-    if MESH_FORMATS[suffix] == "glTF" and files[path.name].strip():
+    if split_name(path.name)[1] in GLTF and files[path.name].strip():
         folder = path.parent.resolve()
-        try:
-            names = buffer_files(read_header(files[path.name])).values()
-        except (AttributeError, KeyError, TypeError, ValueError) as error:
-            raise MeshError(
-                "it is not glTF, or damaged: its buffers are not listed as they should be"
-            ) from error
         left = MOST_BYTES - len(files[path.name])
-        for name in names:
+        for name in list_buffers(files[path.name]):
             if name in files:
                 continue
             try:
@@ -117,9 +112,14 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
         otherwise broken, has no faces, has faces without vertices, or too many.
     """
     name, data = next(iter(files.items()))
-    suffix = suffix_of(name)
     if not data.strip():
         raise MeshError("the file is empty")
+    if suffix_of(name) in PACKED:
+        files = unpack(name, data)
+        name, data = next(iter(files.items()))
+        if not data.strip():
+            raise MeshError("the file in it is empty")
+    suffix, format = suffix_of(name), format_of(name)
     try:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
@@ -137,12 +137,12 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
         Exception
     ) as error:  # a broken file can make a parser fail in any way; none of them may end a build
         seems = what_it_seems(data)
-        if seems is not None and not seems.endswith(MESH_FORMATS[suffix]):
-            raise MeshError(f"it is not {MESH_FORMATS[suffix]}, but seems to be {seems}") from error
+        if seems is not None and not seems.endswith(format):
+            raise MeshError(f"it is not {format}, but seems to be {seems}") from error
         if isinstance(error, MeshError):
             raise
         raise MeshError(
-            f"it is damaged, cut off, or not {MESH_FORMATS[suffix]} at all{_explanation(error)}; "
+            f"it is damaged, cut off, or not {format} at all{_explanation(error)}; "
             "open it in the program it comes from, and export it anew"
         ) from error
     return Mesh(
@@ -161,9 +161,7 @@ def content_hash(files: Mapping[str, bytes]) -> str:
 
 
 def _read_polygons(suffix: str, data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
-    if MESH_FORMATS[suffix] == "glTF":
-        return read_gltf(data, files)
-    return READERS[suffix](data)
+    return READERS[suffix](data) if suffix in READERS else read_gltf(data, files)
 
 
 def _explanation(error: Exception) -> str:

@@ -147,6 +147,15 @@ def buffer_files(header: Document) -> dict[str, str]:
     return files
 
 
+def list_buffers(data: bytes) -> list[str]:
+    """The paths of :func:`buffer_files` for a glTF that is not empty. Raises ``MeshError``, also for one that does not
+    list them as it should."""
+    try:
+        return list(buffer_files(read_header(data)).values())
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
+        raise MeshError("it is not glTF, or damaged: its buffers are not listed as they should be") from error
+
+
 def _is_data(uri: str) -> bool:
     return uri[:5].lower() == "data:"
 

@@ -117,9 +117,9 @@ def test_what_is_no_mesh_is_passed_over(tmp_path):
 
 
 def test_other_3d_formats_are_failures_that_say_what_is_read(tmp_path):
-    database = read_database(make(tmp_path, "cup/1.off", "cup/2.max", "cup/3.stl.gz", "4.FBX"))
+    database = read_database(make(tmp_path, "cup/1.off", "cup/2.max", "cup/3.stl.bz2", "4.FBX"))
     assert [shape.id for shape in database.shapes] == ["cup/1"]
-    assert list(failures(database)) == ["4.FBX", "cup/2.max", "cup/3.stl.gz"]
+    assert list(failures(database)) == ["4.FBX", "cup/2.max", "cup/3.stl.bz2"]
     assert all(suffix in failures(database)["cup/2.max"] for suffix in (".max", ".off", ".gltf", ".3mf"))
 
 
@@ -336,3 +336,27 @@ def test_companions_of_a_mesh_are_no_failures(tmp_path):
     files = ["a/cup.obj", "a/cup.solid.binvox", "a/cup.step", "a/cup.obj.gz", "a/ant.step", "b/cup.binvox"]
     database = read_database(make(tmp_path / "net", *files))
     assert set(failures(database)) == {"a/ant.step", "b/cup.binvox"}
+
+
+def test_packed_meshes_are_called_as_what_is_in_them(tmp_path):
+    database = read_database(make(tmp_path, "cup/1.off.gz", "cup/2.OBJ.zip", "ant/1.ply", "ant/other.zip"))
+    assert database.layout == "class-folders"
+    assert [shape.id for shape in database.shapes] == ["ant/1", "cup/1", "cup/2"]
+    assert not database.failures
+
+
+def test_a_mesh_and_the_same_packed_beside_it_are_one_shape(tmp_path):
+    database = read_database(make(tmp_path, "cup/1.off", "cup/1.off.gz", "cup/1.obj.gz", "cup/2.off.zip"))
+    assert [shape.id for shape in database.shapes] == ["cup/1.obj.gz", "cup/1.off", "cup/2"]
+
+
+def test_tables_and_classifications_find_packed_meshes(tmp_path):
+    make(tmp_path, "a.off.gz", "b.stl.zip", "c.zip")
+    (tmp_path / "t.csv").write_text("file,label\na,x\nb.stl.zip,y\nc.zip,z\n")
+    database = read_database(tmp_path)
+    assert [(shape.id, shape.path.name) for shape in database.shapes] == [
+        ("a", "a.off.gz"),
+        ("b", "b.stl.zip"),
+    ]
+    assert failures(database).keys() == {"c.zip"}
+    assert "does not tell the format" in failures(database)["c.zip"]

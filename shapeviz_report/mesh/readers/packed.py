@@ -1,0 +1,121 @@
+"""A mesh in a file of gzip or ZIP. Names in it are data: nothing is ever written under them."""
+
+from __future__ import annotations
+
+import lzma
+import zlib
+from io import BytesIO
+from pathlib import PurePosixPath
+from zipfile import BadZipFile, ZipFile, ZipInfo
+
+from shapeviz_report.database.formats import split_name, suffix_of
+from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.readers.gltf import list_buffers
+from shapeviz_report.mesh.readers.limits import MOST_UNPACKED, check_unpacked
+
+GLTF = (".gltf", ".glb")
+
+_GZIP = 16 + zlib.MAX_WBITS
+"""How zlib is told of the head and the end of a file of gzip."""
+
+
+def unpack(name: str, data: bytes) -> dict[str, bytes]:
+    """The files in a packed one.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``chair.obj.gz``: it says what is in it, and how it is packed.
+    data : bytes
+
+    Returns
+    -------
+    dict of str to bytes
+        As of :func:`shapeviz_report.mesh.read.collect_files`: the mesh first, then, of a glTF in a ZIP archive, the
+        others by their paths from its folder.
+
+    Raises
+    ------
+    MeshError
+        It is not packed so, damaged, holds none or several meshes of the format, or unpacks to too much.
+    """
+    stem, suffix = split_name(name)
+    format, packed = suffix.rsplit(".", 1)
+    if packed == "gz":
+        content = _gunzip(data)
+        if format in GLTF and content.strip() and (names := list_buffers(content)):
+            raise MeshError(f"it refers to {names[0][:100]!r}, which is not in it: pack both as {format}.zip")
+        return {stem + format: content}
+    try:
+        with ZipFile(BytesIO(data)) as archive:
+            return _unzip(archive, format)
+    except BadZipFile as error:
+        raise MeshError(f"it is no ZIP archive, or damaged: {error}") from error
+
+
+def _gunzip(data: bytes) -> bytes:
+    """The content of one or several members, one after the other."""
+    parts: list[bytes] = []
+    left = MOST_UNPACKED
+    while data:
+        member = zlib.decompressobj(_GZIP)
+        try:
+            parts.append(member.decompress(data, left + 1))
+        except zlib.error as error:
+            if parts and not data.strip(b"\0"):
+                break  # some programs fill up the last block
+            raise MeshError("it is not compressed with gzip, or damaged") from error
+        left -= len(parts[-1])
+        check_unpacked(MOST_UNPACKED - left)
+        if not member.eof:
+            raise MeshError("it is cut off: its compressed content has no end")
+        data = member.unused_data
+    return parts[0] if len(parts) == 1 else b"".join(parts)
+
+
+def _unzip(archive: ZipFile, format: str) -> dict[str, bytes]:
+    entries = [info for info in archive.infolist() if not info.is_dir() and not _is_hidden(info.filename)]
+    meshes = [info for info in entries if suffix_of(info.filename) == format]
+    if len(meshes) != 1:
+        names = ", ".join(info.filename[:100] for info in (meshes or entries)[:3])
+        more = ", ..." if len(meshes or entries) > 3 else ""
+        if meshes:
+            raise MeshError(
+                f"it holds {len(meshes)} meshes ({names}{more}), and not one: give each its own file"
+            )
+        raise MeshError(f"it holds no {format} file" + (f", but {names}{more}" if names else ""))
+    path = PurePosixPath(meshes[0].filename)
+    files = {path.name: _read(archive, meshes[0], 0)}
+    if format in GLTF and files[path.name].strip():
+        there = {PurePosixPath(info.filename): info for info in entries}
+        for name in list_buffers(files[path.name]):
+            if path.parent / name not in there:
+                raise MeshError(f"it refers to {name[:100]!r}, which is not in it")
+            files[name] = _read(archive, there[path.parent / name], sum(map(len, files.values())))
+    return files
+
+
+def _is_hidden(name: str) -> bool:
+    """Whether a file is hidden, or one of those that macOS puts beside every file."""
+    return name.startswith("__MACOSX/") or PurePosixPath(name).name.startswith(".")
+
+
+def _read(archive: ZipFile, info: ZipInfo, before: int) -> bytes:
+    """A file of an archive, of which so many bytes were unpacked ``before``."""
+    name = info.filename[:100]
+    check_unpacked(before + info.file_size)
+    if info.flag_bits & 1:
+        raise MeshError("it is encrypted")
+    try:
+        with archive.open(info) as file:
+            # no more than it has announced, whatever comes
+            content = file.read(info.file_size + 1)
+    except NotImplementedError as error:
+        raise MeshError(
+            f"it is compressed in a way that is not read (method {info.compress_type}); save it anew"
+        ) from error
+    except (zlib.error, lzma.LZMAError, EOFError, OSError, ValueError, BadZipFile) as error:
+        raise MeshError(f"it is damaged: {name!r} cannot be unpacked from it") from error
+    if len(content) != info.file_size:
+        raise MeshError(f"it is damaged: {name!r} has another size than it says")
+    return content
