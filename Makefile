@@ -7,6 +7,7 @@ BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
 SCRIPT_TOOLS := node_modules/.installed
 CHECK := build/check-wheel
+LIVE := build/live
 
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
@@ -41,6 +42,19 @@ style: $(INSTALLED) $(SCRIPT_TOOLS)
 	$(BIN)/mypy
 	PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent check
 
+.PHONY: docs
+docs: $(INSTALLED) browser $(LIVE)/.made ## build the documentation in build/docs, with the demo site in it
+	rm -rf build/docs
+	$(BIN)/sphinx-build -q -E -W --keep-going -d build/doctrees docs build/docs
+	$(BIN)/python docs/links.py build/docs
+	@echo "The documentation is ready. Open $(CURDIR)/build/docs/index.html"
+
+# The demo's sites, which the documentation shows.
+$(LIVE)/.made: $(INSTALLED) $(shell find shapeviz_report site templates -type f -not -path '*/__pycache__/*')
+	$(BIN)/shapeviz-report demo -o $(LIVE)/demo
+	$(BIN)/shapeviz-report demo -o $(LIVE)/report.html --single-file
+	@touch $@
+
 .PHONY: wheel
 wheel: $(INSTALLED) ## build the wheel and the source distribution in dist/
 	$(BIN)/hatchling build
@@ -74,7 +88,7 @@ $(INSTALLED): pyproject.toml constraints.txt
 	@$(PYTHON) -c 'import ensurepip' 2>/dev/null || \
 	  $(call apt_install,$$($(PYTHON) -c 'import sys; print("python%d.%d-venv" % sys.version_info[:2])'))
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[test]'
+	$(BIN)/pip install --quiet --constraint constraints.txt --editable '.[docs,test]'
 	@# UMAP's neighbour search compiles on its first import; what it compiles stays in the environment.
 	@$(BIN)/python -W ignore -c 'import umap'
 	@touch $@
@@ -88,10 +102,12 @@ $(SCRIPT_TOOLS): package.json $(INSTALLED)
 drawing-library:
 	@PATH="$$PATH:/sbin:/usr/sbin" ldconfig -p | grep -q 'libOSMesa\.so' || $(call apt_install,libosmesa6)
 
-# Chromium, Firefox and WebKit, what drives them, and a screen in memory that they are drawn on.
-.PHONY: browsers
-browsers: $(INSTALLED)
-	@missing=$$($(BIN)/python tests/browsers.py); [ -z "$$missing" ] || $(call apt_install,$$missing)
+# For tests Chromium, Firefox and WebKit, what drives them, and a screen in memory that they are drawn on; for pictures in
+# the documentation one of them.
+.PHONY: browsers browser
+browsers browser: $(INSTALLED)
+	@missing=$$($(BIN)/python tests/browsers.py $(if $(filter browser,$@),chromium-headless-shell)); \
+	  [ -z "$$missing" ] || $(call apt_install,$$missing)
 
 # Install Debian packages. As a user without sudo, say what to ask for.
 define apt_install

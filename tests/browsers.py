@@ -9,8 +9,9 @@ import signal
 import socket
 import struct
 import subprocess
+import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -129,8 +130,8 @@ def found(package: str) -> str | None:
     return next(filter(None, map(shutil.which, PACKAGES[package])), None)
 
 
-def missing() -> list[str]:
-    return [package for package in PACKAGES if not found(package)]
+def missing(packages: Iterable[str] = PACKAGES) -> list[str]:
+    return [package for package in packages if not found(package)]
 
 
 @contextmanager
@@ -167,4 +168,4 @@ def reached(connected: Callable[[], Wire], seconds: float = 60) -> Wire:
 
 
 if __name__ == "__main__":
-    print(*missing())
+    print(*missing(sys.argv[1:] or PACKAGES))

@@ -21,6 +21,10 @@ from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).resolve().parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+INSTALLED = [
+    *PROJECT["dependencies"],
+    *(text for extra in ("docs", "test") for text in PROJECT["optional-dependencies"][extra]),
+]
 
 
 def build(source: Path, target: str, destination: Path) -> Path:
@@ -143,16 +147,14 @@ def pins() -> dict[str, str]:
 
 
 def test_the_pins_are_versions_that_the_project_asks_for(pins: dict[str, str]):
-    for text in PROJECT["dependencies"] + PROJECT["optional-dependencies"]["test"]:
+    for text in INSTALLED:
         requirement = Requirement(text)
         assert requirement.specifier.contains(pins[canonicalize_name(requirement.name)]), text
 
 
 def test_whatever_an_installation_pulls_in_is_pinned(pins: dict[str, str]):
     pulled: set[str] = set()
-    waiting = [
-        Requirement(text) for text in PROJECT["dependencies"] + PROJECT["optional-dependencies"]["test"]
-    ]
+    waiting = [Requirement(text) for text in INSTALLED]
     while waiting:
         requirement = waiting.pop()
         name = canonicalize_name(requirement.name)
