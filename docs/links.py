@@ -74,8 +74,8 @@ _page = cache(_Page)
 def faults_of_site(site: Path) -> Iterator[str]:
     """What is wrong with the links of a site's pages, and what of it would be asked for elsewhere.
 
-    A place with a "=" or a "/" is the state of a page of the demo, which that page reads; a site of one file holds the pages
-    that its links name.
+    A place with a "=" or a "/" is the state of a page of the demo, which that page reads; a site of one file holds the
+    pages that its links name.
     """
     for file in sorted(site.rglob("*.html")):
         where = file.relative_to(site)
