@@ -21,6 +21,7 @@ exclude_patterns = ["extensions"]
 extensions = [
     "myst_parser",
     "sphinx.ext.autodoc",
+    "sphinx.ext.githubpages",  # a file without which GitHub Pages leaves folders like _static out
     "sphinx.ext.viewcode",
     "numpydoc",
     "commands",
