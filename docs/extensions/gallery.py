@@ -91,14 +91,14 @@ def depart_example(writer: HTML5Translator, node: Example) -> None:
 
 
 def name_pictures(app: Sphinx, doctree: nodes.document, document: str) -> None:
-    """Name each picture by what it shows: the address, and the files of the site."""
+    """Name each picture by what it shows: the address, the files of the site, and how it is taken."""
     for node in doctree.findall(Example):
         site = live_folder(app) / node["address"].partition("#")[0]
         record = site.parent / "data" / "files.json"
         shown = record if record.is_file() else site
         if not site.is_file():
             raise GalleryError(f"{document}: the example {node['title']!r} is of {site}, which is not there")
-        content = node["address"].encode() + shown.read_bytes()
+        content = node["address"].encode() + shown.read_bytes() + Path(__file__).read_bytes()
         node["picture"] = f"{nodes.make_id(node['title'])}-{hashlib.sha256(content).hexdigest()[:8]}"
         app.env.examples[node["picture"]] = node["address"]
 
