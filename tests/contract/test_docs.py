@@ -25,7 +25,8 @@ def navigation_of(index: Path) -> list[Path]:
     (names,) = re.findall(
         r"^```\{toctree\}\n(?::.*\n)*\n(.*?)```", index.read_text("utf-8"), re.MULTILINE | re.DOTALL
     )
-    return [(index.parent / f"{name}.md").resolve() for name in names.split()]
+    documents = (re.sub(r".* <(.*)>", r"\1", line) for line in names.splitlines())
+    return [(index.parent / f"{name}.md").resolve() for name in documents]
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=named)
