@@ -8,6 +8,7 @@ machine that builds it.
 from __future__ import annotations
 
 import dataclasses
+import datetime
 import os
 import reprlib
 import tomllib
@@ -32,7 +33,7 @@ MOST_LETTERS = 5_000
 
 PRESETS = ("default", "local", "paper")
 PUBLICATION = (
-    "title", "description", "introduction", "creator", "licence", "citation", "url", "logo", "accent",
+    "title", "description", "introduction", "creator", "licence", "citation", "date", "url", "logo", "accent",
 )  # fmt: skip
 """Options that say how the site presents itself; no figure depends on them."""
 SEARCHES = ("tsne", "umap", "none")
@@ -72,6 +73,9 @@ class Config:
         "TEXT",
     )
     citation: str | None = _option(None, "how to cite the database: a reference, or a BibTeX entry", "TEXT")
+    date: str | None = _option(
+        None, "day of publication, such as 2026-11-30; with a licence, it makes the site an RO-Crate", "DAY"
+    )
     url: str | None = _option(
         None,
         "where the site will be, such as https://example.org/shapes/; previews of links need it",
@@ -342,6 +346,8 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
     if key not in fields:
         raise ConfigError(f"there is no option {key[:60]!r} ({where}); there are: {', '.join(fields)}")
     kind = fields[key]
+    if isinstance(value, datetime.date) and kind.startswith("str"):
+        value = value.isoformat()  # TOML knows days
     if isinstance(value, str) and len(value) > MOST_LETTERS:
         raise ConfigError(f"{key} has {len(value):,} letters; shorten it to {MOST_LETTERS:,} ({where})")
     if kind.startswith("tuple"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from datetime import date
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -26,7 +27,7 @@ def read_publication(config: Config) -> Publication:
     Raises
     ------
     ConfigError
-        The introduction or the logo cannot be read, the accent is no colour, or the address no address.
+        The introduction or the logo cannot be read, the accent is no colour, the address no address, the date no day.
     """
     return Publication(
         description=_one_line(config.description),
@@ -37,6 +38,7 @@ def read_publication(config: Config) -> Publication:
         citation=None if config.citation is None else config.citation.strip() or None,
         creator=_one_line(config.creator),
         url=None if config.url is None else _check_url(config.url),
+        date=None if config.date is None else _check_date(config.date),
     )
 
 
@@ -94,3 +96,12 @@ def _check_url(url: str) -> str:
             f"url must be the address of the site's folder, such as https://example.org/shapes/, not {url!r}"
         )
     return url if url.endswith("/") else f"{url}/"
+
+
+def _check_date(text: str) -> str:
+    try:
+        return date.fromisoformat(text.strip()).isoformat()
+    except ValueError as error:
+        raise ConfigError(
+            f"date must be a day of the calendar, such as 2026-11-30, not {text[:40]!r}"
+        ) from error

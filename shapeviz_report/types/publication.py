@@ -65,6 +65,8 @@ class Publication:
         Who made the database.
     url : str or None
         Where the site will be, with a slash at the end.
+    date : str or None
+        The day of publication, as ``2026-11-30``.
     """
 
     description: str | None = None
@@ -75,3 +77,4 @@ class Publication:
     citation: str | None = None
     creator: str | None = None
     url: str | None = None
+    date: str | None = None

@@ -63,6 +63,7 @@ def dataset(report: Report, description: str, folder: str = "") -> dict[str, obj
             # A name alone does not tell a person from an institution.
             "creator": said.creator and {"name": said.creator},
             "citation": said.citation,
+            "datePublished": said.date,
             "isAccessibleForFree": True,
             "keywords": list(class_names(report)) or None,
             "distribution": [

@@ -36,7 +36,7 @@ PAGE_MARK_WITHIN = 8192
 _PAGES = "|".join(re.escape(page.file) for page in PAGES)
 _SCRIPTS = "|".join(re.escape(page.name) for page in PAGES)
 _NAME = re.compile(
-    rf"{_PAGES}|preview\.png|assets/(first|shared|vega|{_SCRIPTS}|chunk-[\w-]+)\.js"
+    rf"{_PAGES}|preview\.png|ro-crate-metadata\.json|assets/(first|shared|vega|{_SCRIPTS}|chunk-[\w-]+)\.js"
     r"|assets/(style\.css|icon\.svg|vega-licenses\.txt|logo\.(svg|png|webp))"
     rf"|data/({DATA_NAMES}|files\.json|catalogue\.jsonld|croissant\.json)"
     r"|chunks/[a-z]+-\d+\.js"

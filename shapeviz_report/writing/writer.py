@@ -38,6 +38,7 @@ from shapeviz_report.writing.rendering import (
     render_pages,
 )
 from shapeviz_report.writing.resources import site_folder
+from shapeviz_report.writing.ro_crate import RO_CRATE, is_crate, ro_crate
 from shapeviz_report.writing.sheets import write_sheets
 from shapeviz_report.writing.single_file import (
     Inline,
@@ -77,12 +78,19 @@ def write_site(report: Report, destination: Path, *, single_file: bool = False) 
             write_atomically(destination.resolve(), sealed(whole_site(report)))
             return
         with replaced_folder(destination, find_own) as folder:
-            hashes = {}
-            for name, content in _files(report):
+            sizes: dict[str, int] = {}
+            hashes: dict[str, str] = {}
+
+            def write(name: str, content: bytes) -> None:
                 path = folder / name
                 path.parent.mkdir(exist_ok=True)
                 path.write_bytes(content)
-                hashes[name] = sha256(content).hexdigest()
+                sizes[name], hashes[name] = len(content), sha256(content).hexdigest()
+
+            for name, content in _files(report):
+                write(name, content)
+            if is_crate(report.publication):
+                write(RO_CRATE, ro_crate(report, describe(report), sizes, hashes))
             (folder / RECORD).write_bytes(record_text(hashes))
     except OSError as error:
         raise SiteError(f"the site cannot be written to {destination}: {explain(error)}") from error

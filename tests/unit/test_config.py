@@ -219,3 +219,8 @@ def test_values_of_gltf_need_gltf() -> None:
         Config(gltf="all")
     with pytest.raises(ConfigError, match="gltf_values go along with gltf, which is not set"):
         Config(gltf_values="Agd")
+
+
+def test_a_day_may_be_one_of_toml(database) -> None:
+    write(database, "date = 2026-11-30")
+    assert load_config(database, {}).date == "2026-11-30"

@@ -85,3 +85,13 @@ def test_an_entry_in_bibtex_is_kept_and_one_is_made_where_there_is_none():
         "  note = {Words},",
         "}",
     ]
+
+
+@pytest.mark.parametrize("day", ["2026-02-30", "30.11.2026", "2026", "", "yesterday"])
+def test_dates_that_are_no_day(day):
+    with pytest.raises(ConfigError, match="date must be a day of the calendar"):
+        read_publication(Config(date=day))
+
+
+def test_a_day_of_publication():
+    assert read_publication(Config(date=" 2026-11-30 ")).date == "2026-11-30"

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from page_markup import Markup
 from PIL import Image
-from reports import NASTY_LABELS, make_report
+from reports import NASTY_LABELS, make_report, with_exported
+from rocrate.rocrate import ROCrate
 
 from shapeviz_report.pages import PAGES
 from shapeviz_report.types import Accent, Licence, Logo, Projection, Publication
@@ -127,6 +128,67 @@ def test_loaders_of_data_sets_read_the_tables(tmp_path):
     for axis, letter in enumerate("xy"):
         found = [row[f"projection-tsne/{letter}"] for row in places]
         assert found == pytest.approx(report.projections["tsne"][0].xy[:, axis].tolist())
+
+
+@pytest.mark.slow
+def test_archives_read_the_site_as_a_crate(tmp_path):
+    report = with_exported(
+        replace(make_report(["ant", None], 3), publication=replace(SAID, date="2026-11-30"))
+    )
+    site = tmp_path / "site"
+    write_site(report, site)
+    crate = ROCrate(site)
+    root = crate.root_dataset
+    assert crate.version == "1.2"
+    assert root["name"] == report.database.name
+    assert root["datePublished"].startswith("2026-11-30")
+    assert root["license"]["name"] == LICENCE.text
+    assert root["license"].id == LICENCE.url
+    assert root["author"]["name"] == SAID.creator
+    assert not json_misfits(site / "ro-crate-metadata.json")
+    parts = {part.id: part for part in root["hasPart"]}
+    there = {path.relative_to(site).as_posix() for path in site.rglob("*") if path.is_file()}
+    folders = tuple(name for name in parts if name.endswith("/"))
+    assert "gltf/" in folders
+    told = {name for name in there if not name.startswith(folders)}
+    assert told == parts.keys() - {*folders} | {"ro-crate-metadata.json", "data/files.json"}
+    for name, part in parts.items():
+        if name in folders or name in ("about.html", "data/summary.json"):
+            assert "sha256" not in part.properties()
+            continue
+        content = (site / name).read_bytes()
+        assert part["contentSize"] == str(len(content))
+        assert part["sha256"] == sha256(content).hexdigest()
+    write_site(replace(report, seconds={"read": 99.0}), tmp_path / "again")
+    crates = [(folder / "ro-crate-metadata.json").read_bytes() for folder in (site, tmp_path / "again")]
+    assert crates[0] == crates[1]
+    write_site(report, site)
+    assert (site / "ro-crate-metadata.json").read_bytes() == crates[0], "a rebuild replaces it"
+
+
+def json_misfits(path):
+    """References of a crate that lead to none of its entities, and entities without what each must have."""
+    graph = json.loads(path.read_text())["@graph"]
+    ids = [entity["@id"] for entity in graph]
+    assert len(set(ids)) == len(ids)
+    references = [
+        value["@id"]
+        for entity in graph
+        for values in entity.values()
+        for value in (values if isinstance(values, list) else [values])
+        if isinstance(value, dict)
+    ]
+    return [
+        *(one for one in references if one not in ids and one != "https://w3id.org/ro/crate/1.2"),
+        *(entity for entity in graph if not {"@id", "@type"} <= entity.keys()),
+    ]
+
+
+@pytest.mark.parametrize("said", [{"date": None}, {"licence": None}])
+def test_what_lacks_a_date_or_a_licence_is_no_crate(tmp_path, said):
+    publication = replace(SAID, **{"date": "2026-11-30", **said})
+    write_site(replace(make_report(["ant"], 3), publication=publication), tmp_path)
+    assert not (tmp_path / "ro-crate-metadata.json").exists()
 
 
 def test_without_an_address_the_catalogue_is_relative_to_its_folder(tmp_path):
