@@ -1,6 +1,7 @@
 // The bins of all features: their names, what they mean, and their value for every shape.
 
 import { chunk } from "../base/chunks.js";
+import { entry } from "../base/entry.js";
 import { currentTheme } from "../base/theme.js";
 import { measured, percent, percents, shortened } from "../base/words.js";
 import { BinWords } from "./bin-words.js";
@@ -120,23 +121,25 @@ export class Bins {
    * @param {number} shape
    */
   value(column, shape) {
-    return this.#valueAt(column, this.#stepOf(column, shape));
+    return this.valueAt(column, this.at(column, shape));
   }
 
   /**
+   * The step of a shape in a column; no number where it is not of the sample.
    * @param {number} column
    * @param {number} shape
    */
-  #stepOf(column, shape) {
+  at(column, shape) {
     const row = this.rowOf(shape);
     return row < 0 ? NaN : this.steps[column * this.rows + row];
   }
 
   /**
+   * The compared value at a step of a column.
    * @param {number} column
    * @param {number} step
    */
-  #valueAt(column, step) {
+  valueAt(column, step) {
     const { low, high } = this.features[this.#featureOf[column]];
     return low + ((high - low) * step) / STEPS;
   }
@@ -156,8 +159,43 @@ export class Bins {
    */
   column(column) {
     return Float32Array.from({ length: this.rows }, (_, row) =>
-      this.#valueAt(column, this.steps[column * this.rows + row]),
+      this.valueAt(column, this.steps[column * this.rows + row]),
     );
+  }
+
+  /** @type {Map<number, number>} */
+  #variances = new Map();
+
+  /**
+   * The variance of the compared values in a column.
+   * @param {number} column
+   */
+  variance(column) {
+    return entry(this.#variances, column, () => {
+      const { steps, rows } = this;
+      const start = column * rows;
+      let total = 0;
+      for (let row = 0; row < rows; row += 1) total += steps[start + row];
+      const mean = total / rows;
+      let squares = 0;
+      for (let row = 0; row < rows; row += 1) squares += (steps[start + row] - mean) ** 2;
+      return (squares / rows) * this.stepOf(column) ** 2;
+    });
+  }
+
+  /**
+   * Have the values of some shapes at hand.
+   * @param {Iterable<number>} _shapes
+   */
+  async know(_shapes) {}
+
+  /**
+   * What `share` gives for every shape.
+   * @param {number} column
+   * @returns {Promise<number[]>}
+   */
+  async shares(column) {
+    return Array.from({ length: this.rows }, (_, row) => this.share(column, row));
   }
 
   /** All compared values, column after column, as the engine wants them. */
@@ -177,7 +215,7 @@ export class Bins {
    * @param {number} shape
    */
   share(column, shape) {
-    return this.shareAt(column, this.#stepOf(column, shape));
+    return this.shareAt(column, this.at(column, shape));
   }
 
   /**
@@ -186,7 +224,7 @@ export class Bins {
    * @param {number} step
    */
   shareAt(column, step) {
-    const value = this.#valueAt(column, step);
+    const value = this.valueAt(column, step);
     const { rooted } = this.features[this.#featureOf[column]];
     return rooted || (this.balanced && this.isShare(column)) ? value * value : value;
   }

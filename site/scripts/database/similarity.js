@@ -24,7 +24,7 @@ import { entry } from "../base/entry.js";
 const TIE = 1e-9;
 
 /** A spread below this is rounding: the column or feature is the same for all shapes, and tells nothing. */
-const NOTHING = 1e-12;
+export const NOTHING = 1e-12;
 
 export class Similarity {
   /** @param {Bins} bins */
@@ -107,7 +107,7 @@ export class Similarity {
   typical({ features, columns }) {
     const { bins } = this;
     const spread = columns
-      ? columns.reduce((sum, column) => sum + this.#variance(column) * this.#columnWeight(column), 0)
+      ? columns.reduce((sum, column) => sum + this.bins.variance(column) * this.#columnWeight(column), 0)
       : features.reduce((sum, feature) => sum + this.#size(feature) * this.#featureWeight(feature), 0);
     return Math.sqrt((2 * spread * bins.rows) / Math.max(bins.rows - 1, 1));
   }
@@ -181,7 +181,7 @@ export class Similarity {
   #columnWeight(column) {
     if (!this.bins.balanced) return 1;
     return entry(this.#columnWeights, column, () => {
-      const variance = this.#variance(column);
+      const variance = this.bins.variance(column);
       return Math.sqrt(variance) > NOTHING ? 1 / variance : 0;
     });
   }
@@ -200,31 +200,22 @@ export class Similarity {
    * @param {number} feature
    */
   #size(feature) {
-    return this.#columns(feature).reduce((sum, column) => sum + this.#variance(column), 0);
-  }
-
-  /** @param {number} column */
-  #variance(column) {
-    const { steps, rows } = this.bins;
-    const start = column * rows;
-    let total = 0;
-    for (let row = 0; row < rows; row += 1) total += steps[start + row];
-    const mean = total / rows;
-    let squares = 0;
-    for (let row = 0; row < rows; row += 1) squares += (steps[start + row] - mean) ** 2;
-    return (squares / rows) * this.bins.stepOf(column) ** 2;
+    return this.#columns(feature).reduce((sum, column) => sum + this.bins.variance(column), 0);
   }
 }
 
 /**
- * The rows with the lowest values, but one.
+ * The rows with the lowest values, but one; of equal ones those that come first.
  * @param {Float64Array} squared
  * @param {number} row
  * @param {number} count
  * @param {(row: number) => boolean} [among]
  */
-function first(squared, row, count, among = () => true) {
-  const rows = [...squared.keys()].filter((other) => other !== row && among(other));
+export function first(squared, row, count, among = () => true) {
+  // A comparison of two rows costs as much as sorting many numbers: only what is low enough is put in order.
+  const rising = squared.filter((_, other) => other !== row && among(other)).sort();
+  const limit = rising[Math.min(count, rising.length) - 1] ?? -1;
+  const rows = [...squared.keys()].filter((other) => other !== row && squared[other] <= limit && among(other));
   return rows.sort((a, b) => squared[a] - squared[b] || a - b).slice(0, count);
 }
 

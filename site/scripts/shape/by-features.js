@@ -1,11 +1,12 @@
 // What is known of a shape by its features: how it differs, and which shapes are like it.
 
-import { chunks } from "../base/chunks.js";
+import { chunk } from "../base/chunks.js";
 import { grouped } from "../base/words.js";
-import { Bins } from "../database/bins.js";
-import { Similarity } from "../database/similarity.js";
+import { LevelBins, loadAllBins } from "../database/level-bins.js";
+import { similarityOf } from "../database/level-similarity.js";
 import { Comparison } from "./comparison.js";
 import { Histograms } from "./histograms.js";
+import { LevelSpread } from "./level-spread.js";
 import { kind } from "../database/kind.js";
 import { SideBySide } from "./side-by-side.js";
 import { SimilarShapes } from "./similar-shapes.js";
@@ -47,16 +48,15 @@ export async function showFeatures(database, state, { links, portrait }) {
   const waiting = document.getElementById("waiting");
   waiting.textContent =
     database.count === 1 ? "Reading its features …" : `Reading the features of all ${grouped(database.count)} shapes …`;
-  const [data, bytes, selection] = await chunks("workbench", "bins", "selection");
+  const [data, bins, selection] = await Promise.all([chunk("workbench"), loadAllBins(), chunk("selection")]);
   const { related } = await database.details(state.get("shape") ?? 0);
-  const bins = new Bins(data, bytes);
   const comparison = new Comparison(data, selection.path.at(-1)?.bins ?? null, related !== null, state);
   const histograms = new Histograms(database, bins, state, {
-    spread: new Spread(database, bins),
+    spread: bins instanceof LevelBins ? new LevelSpread(database, bins) : new Spread(database, bins),
     dimensions: selection.dimensions,
     card: new ValueCard(bins, kind(database)),
   });
-  const similarity = new Similarity(bins);
+  const similarity = similarityOf(bins);
   const known = { database, bins, state, links, comparison, similarity };
   const similar = new SimilarShapes(known);
   const beside = new SideBySide(known, selection);

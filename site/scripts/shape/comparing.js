@@ -6,6 +6,7 @@ import { copyEvidence } from "../database/facts.js";
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { LevelSimilarity } from "../database/level-similarity.js" */
 /** @import { Similarity } from "../database/similarity.js" */
 /** @import { Comparison } from "./comparison.js" */
 /** @import { ShapeLinks } from "./links.js" */
@@ -18,7 +19,7 @@ export class Comparing {
    * @param {ShapeState} known.state
    * @param {ShapeLinks} known.links
    * @param {Comparison} known.comparison
-   * @param {Similarity} known.similarity
+   * @param {Similarity | LevelSimilarity} known.similarity
    */
   constructor({ database, bins, state, links, comparison, similarity }) {
     this.database = database;

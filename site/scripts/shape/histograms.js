@@ -13,6 +13,7 @@ import { kind } from "../database/kind.js";
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { LevelSpread } from "./level-spread.js" */
 /** @import { Spread } from "./spread.js" */
 /** @import { ValueCard } from "./value-card.js" */
 
@@ -31,7 +32,7 @@ export class Histograms {
    * @param {Database} database
    * @param {Bins} bins
    * @param {ShapeState} state
-   * @param {{ spread: Spread, dimensions: Chunk.Dimension[], card: ValueCard }} parts
+   * @param {{ spread: Spread | LevelSpread, dimensions: Chunk.Dimension[], card: ValueCard }} parts
    */
   constructor(database, bins, state, { spread, dimensions, card }) {
     this.database = database;
@@ -60,9 +61,11 @@ export class Histograms {
     });
   }
 
-  render() {
+  async render() {
     const shape = this.state.get("shape");
     if (shape === null) return;
+    await this.spread.know(shape);
+    if (this.state.get("shape") !== shape) return;
     document.getElementById("histogram-key").replaceChildren(...this.#key(shape));
     for (const { feature, panel } of this.panels) this.#fill(panel, feature, shape);
     this.#mark();

@@ -9,7 +9,7 @@ import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
 import { copyEvidence } from "../database/facts.js";
 import { Comparing, isNone } from "./comparing.js";
 
-/** @import { FeaturePart } from "../bins-kit/difference.js" */
+/** @import { FeaturePart, Part } from "../bins-kit/difference.js" */
 
 const LONGEST = 40;
 
@@ -46,6 +46,11 @@ export class SideBySide extends Comparing {
     });
   }
 
+  /** @type {Part[]} what the two in sight differ in */
+  parts = [];
+  /** @type {symbol | null} */
+  #asked = null;
+
   /** This shape and the one beside it; null where there is none. */
   get pair() {
     const { state } = this;
@@ -53,15 +58,19 @@ export class SideBySide extends Comparing {
     return own === null || other === null || own === other ? null : /** @type {[number, number]} */ ([own, other]);
   }
 
-  render() {
+  async render() {
     const { pair } = this;
     this.section.hidden = pair === null;
+    this.parts = [];
     if (pair === null) {
       this.surfaces.leave();
       for (const stage of this.surfaces.stages) stage.rest();
       return;
     }
-    const parts = this.#parts(pair);
+    const asked = (this.#asked = Symbol("asked"));
+    const parts = await this.#parts(pair);
+    if (asked !== this.#asked || this.pair === null) return;
+    this.parts = parts;
     const features = byFeature(parts, this.bins, pair);
     const within =
       features.find(({ feature }) => this.bins.features[feature].name === this.state.get("within")) ?? null;
@@ -79,8 +88,8 @@ export class SideBySide extends Comparing {
    * What the two differ in; nothing where their distance is none.
    * @param {[number, number]} pair
    */
-  #parts(pair) {
-    const parts = this.similarity.differences(...pair, this.comparison.choice);
+  async #parts(pair) {
+    const parts = await this.similarity.differences(...pair, this.comparison.choice);
     return isNone(Math.sqrt(sumOf(parts))) ? [] : parts;
   }
 
@@ -88,7 +97,7 @@ export class SideBySide extends Comparing {
   rows() {
     const { pair, bins } = this;
     if (pair === null) return [];
-    return byFeature(this.#parts(pair), bins, pair).map(({ feature, share, on, beside }) => [
+    return byFeature(this.parts, bins, pair).map(({ feature, share, on, beside }) => [
       bins.features[feature].name,
       wholePercent(share),
       ...on.map((own) => (beside > 0 ? "–" : wholePercent(own))),

@@ -56,6 +56,8 @@ export class SimilarShapes extends Comparing {
   found = [];
   /** @type {number | null} the shape that they are like */
   #of = null;
+  /** @type {symbol | null} */
+  #asked = null;
 
   get #called() {
     return this.database.names[this.state.get("shape") ?? 0];
@@ -82,10 +84,12 @@ export class SimilarShapes extends Comparing {
     if (state.get("shape") !== shape) return;
     this.#of = shape;
     const { choice, byNeighbourhood } = this.comparison;
-    this.found =
-      known.related && byNeighbourhood
-        ? this.similarity.tell(shape, known.related.slice(0, this.shown), choice)
-        : this.similarity.rank(shape, choice, this.shown);
+    const asked = (this.#asked = Symbol("asked"));
+    const found = await (known.related && byNeighbourhood
+      ? this.similarity.tell(shape, known.related.slice(0, this.shown), choice)
+      : this.similarity.rank(shape, choice, this.shown));
+    if (asked !== this.#asked) return;
+    this.found = found;
     this.#offer();
     document.getElementById("similar-words").replaceChildren(...this.#tell(shape, choice));
     this.list.replaceChildren(...this.found.map((found) => this.#card(shape, known, found)));

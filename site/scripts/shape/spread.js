@@ -31,6 +31,12 @@ export class Spread {
   }
 
   /**
+   * Have at hand what is told of a shape.
+   * @param {number} _shape
+   */
+  async know(_shape) {}
+
+  /**
    * The quarters of all shapes in a column.
    * @param {number} column
    */

@@ -1,0 +1,157 @@
+// The bins of a database that has more values than a page can hold: they come shape by shape, or bin by bin, when asked
+// for, each in levels from the lowest to the highest value of its column. shapeviz_report/pages/levels.py writes them.
+
+import { chunk, part } from "../base/chunks.js";
+import { Bins, loadBins } from "./bins.js";
+
+const LEVELS = 255;
+
+/** Shapes that are kept at hand, at least; 2.7 kB each. */
+const MOST_KNOWN = 4000;
+
+/** @type {Promise<Bins> | null} */
+let loaded = null;
+
+/** The bins of all shapes of the site, whatever its size. */
+export function loadAllBins() {
+  loaded ??= load();
+  return loaded;
+}
+
+async function load() {
+  const work = await chunk("workbench");
+  return work.sample === null ? loadBins() : new LevelBins(work, await chunk("levels"));
+}
+
+export class LevelBins extends Bins {
+  /**
+   * @param {Chunk.Workbench} work
+   * @param {Chunk.Levels} levels
+   */
+  constructor(work, levels) {
+    super({ ...work, sample: new Int32Array() }, new ArrayBuffer(0));
+    this.levels = levels;
+    /** How many shapes there are. */
+    this.shapes = levels.order.length;
+    this.#firstPart = firstParts(work.features, levels.columnsAPart);
+  }
+
+  /** @type {number[]} the first part of each feature's columns */
+  #firstPart;
+  /** @type {Map<number, Uint8Array>} the levels of a shape; the one that was asked for last comes last */
+  #known = new Map();
+  /** @type {Int32Array | null} */
+  #places = null;
+
+  /** @param {Iterable<number>} shapes */
+  async know(shapes) {
+    const { order, rowsAPart } = this.levels;
+    const places = (this.#places ??= placesIn(order));
+    const wanted = new Set(shapes);
+    /** @type {Map<number, number[]>} */
+    const byPart = new Map();
+    for (const shape of wanted) {
+      const known = this.#known.get(shape);
+      if (known !== undefined) this.#keep(shape, known);
+      else {
+        const number = Math.floor(places[shape] / rowsAPart);
+        byPart.set(number, [...(byPart.get(number) ?? []), shape]);
+      }
+    }
+    await Promise.all(
+      [...byPart].map(async ([number, missing]) => {
+        const rows = await part("rows", number);
+        for (const shape of missing) {
+          const start = (places[shape] - number * rowsAPart) * this.count;
+          // A copy, as what it is a part of need not stay.
+          this.#keep(shape, new Uint8Array(rows, start, this.count).slice());
+        }
+      }),
+    );
+    for (const shape of this.#known.keys()) {
+      if (this.#known.size <= Math.max(MOST_KNOWN, wanted.size)) break;
+      this.#known.delete(shape);
+    }
+  }
+
+  /**
+   * @param {number} shape
+   * @param {Uint8Array} levels
+   */
+  #keep(shape, levels) {
+    this.#known.delete(shape);
+    this.#known.set(shape, levels);
+  }
+
+  /**
+   * The level of a shape in a column; no number where it is not at hand.
+   * @param {number} column
+   * @param {number} shape
+   */
+  at(column, shape) {
+    return this.#known.get(shape)?.[column] ?? NaN;
+  }
+
+  /**
+   * @param {number} column
+   * @param {number} level
+   */
+  valueAt(column, level) {
+    return this.levels.low[column] + this.stepOf(column) * level;
+  }
+
+  /** @param {number} column */
+  stepOf(column) {
+    return (this.levels.high[column] - this.levels.low[column]) / LEVELS;
+  }
+
+  /** @param {number} column */
+  variance(column) {
+    return this.levels.variances[column];
+  }
+
+  /**
+   * The levels of all shapes in a column.
+   * @param {number} column
+   */
+  async levelsOf(column) {
+    const { columnsAPart } = this.levels;
+    const feature = this.featureOf(column);
+    const place = column - this.features[feature].start;
+    const columns = await part("columns", this.#firstPart[feature] + Math.floor(place / columnsAPart));
+    return new Uint8Array(columns, (place % columnsAPart) * this.shapes, this.shapes);
+  }
+
+  /** @param {number} column */
+  async shares(column) {
+    const levels = await this.levelsOf(column);
+    const told = Array.from({ length: LEVELS + 1 }, (_, level) => this.shareAt(column, level));
+    return Array.from(levels, (level) => told[level]);
+  }
+}
+
+/**
+ * The place of every shape in an order.
+ * @param {Int32Array} order
+ */
+function placesIn(order) {
+  const places = new Int32Array(order.length);
+  order.forEach((shape, place) => {
+    places[shape] = place;
+  });
+  return places;
+}
+
+/**
+ * The first part of each feature's columns: no part has columns of two.
+ * @param {Chunk.Feature[]} features
+ * @param {number} aPart
+ */
+function firstParts(features, aPart) {
+  let next = 0;
+  return features.map(({ dimensions, bins }) => {
+    const own = next;
+    next += Math.ceil((dimensions * bins) / aPart);
+    return own;
+  });
+}
