@@ -396,9 +396,9 @@ class Comparison(TypedDict):
     Attributes
     ----------
     k : int
-        Numbers a shape in each part of the chunk "neighbours".
+        Numbers a shape in each of the parts "neighbours".
     spaces : list of str
-        The order of its parts.
+        The order of these parts.
     order : list of int
         The classes, alike ones beside each other.
     fit, rival : list
@@ -856,8 +856,6 @@ class Chunks(TypedDict, total=False):
         Where the search laid out a sample.
     texts : list of str
         What a search finds a shape by beside its id, name and class: labels and metadata.
-    neighbours : bytes
-        Of each of the ``spaces`` of a comparison, the nearest shapes of every shape; little-endian uint32.
     bins : bytes
         The compared values, column after column, in 65,535 steps from ``low`` to ``high`` of the feature; uint16. Of
         the shapes of ``Workbench.sample`` where there are too many for a browser.
@@ -880,7 +878,6 @@ class Chunks(TypedDict, total=False):
     fields: Fields
     hierarchy: Hierarchy
     compare: Comparison
-    neighbours: bytes
     retrieval: Retrieval
     search: Search
     subsets: SubsetMaps
@@ -934,7 +931,8 @@ class ClassPart(TypedDict):
 
 
 class Parts(TypedDict, total=False):
-    """Chunks that come in parts: what one of each holds. All but the first two only with the chunk "levels".
+    """Chunks that come in parts: what one of each holds. Those from ``rows`` on are only there with the chunk
+    "levels".
 
     Attributes
     ----------
@@ -943,6 +941,8 @@ class Parts(TypedDict, total=False):
     pictures : PicturePart
         Class by class, first those without one; of a class in the order of the shapes. Not in a site of one file that
         has them as files.
+    neighbours : bytes
+        A part a space of a comparison: the nearest shapes of every shape; uint32.
     rows : bytes
         The levels of all compared values, shape after shape, in the order of ``Levels``; uint8.
     columns : bytes
@@ -955,6 +955,7 @@ class Parts(TypedDict, total=False):
 
     details: list[ShapeDetails]
     pictures: PicturePart
+    neighbours: bytes
     rows: bytes
     columns: bytes
     components: ComponentPart

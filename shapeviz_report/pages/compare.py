@@ -43,11 +43,11 @@ class ComparePage:
                 # Where all others are neighbours of each shape, they say nothing of classes.
                 "too_few": len(report.shapes) if hits.k >= len(report.shapes) - 1 else None,
             },
-            chunks={
-                "compare": _compare(report, points, codes, hits.k, list(spaces)),
-                "neighbours": b"".join(
+            chunks={"compare": _compare(report, points, codes, hits.k, list(spaces))},
+            parts={
+                "neighbours": (
                     find_nearest(place, hits.k).astype("<u4").tobytes() for place in spaces.values()
-                ),
+                )
             },
         )
 
@@ -73,7 +73,7 @@ def _compare(report: Report, points: FloatArray, codes: IntArray, k: int, spaces
     fits = find_fits(points, codes)
     return {
         "k": k,
-        # The order of the parts of the chunk "neighbours", each with k numbers a shape.
+        # The order of the parts "neighbours", each with k numbers a shape.
         "spaces": spaces,
         "order": order_classes(points, codes),
         "fit": rounded(fits.fit, FIT_DECIMALS),

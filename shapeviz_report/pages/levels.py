@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from shapeviz_report.pages.base import class_codes, class_names
 from shapeviz_report.pages.chunks import ClassPart, ComponentPart, Levels
+from shapeviz_report.pages.sampling import scatter
 from shapeviz_report.presets import Preset, compared_values
 from shapeviz_report.similarity import weight_of_size
 from shapeviz_report.types import FeatureTable, FloatArray, IntArray, Report
@@ -57,8 +58,8 @@ class LevelTable:
         The class of every shape, -1 without one.
     classes : int
     order : (n,) int32 array
-        The shapes class by class, first those without one; within a class scattered, so that its first ones speak for
-        it as a sample.
+        The shapes class by class, first those without one; within a class in the order of
+        :func:`~shapeviz_report.pages.sampling.sample_rows`, so that a sample of it lies in few parts.
     low, high : (w,) float64 array
         Compared values of each column.
     values : (n, w) uint8 array
@@ -91,7 +92,7 @@ class LevelTable:
         )
 
 
-def level_table(report: Report, preset: Preset, seed: int = 0) -> LevelTable:
+def level_table(report: Report, preset: Preset) -> LevelTable:
     """Bring all values of a report to levels.
 
     Parameters
@@ -99,8 +100,6 @@ def level_table(report: Report, preset: Preset, seed: int = 0) -> LevelTable:
     report : Report
     preset : Preset
         How its values are compared.
-    seed : int
-        Of the order within a class.
     """
     table, codes = report.features, class_codes(report)
     # Compared values rise with those of the table.
@@ -117,13 +116,12 @@ def level_table(report: Report, preset: Preset, seed: int = 0) -> LevelTable:
         sums += (compared - low).sum(axis=0)
         squares += ((compared - low) ** 2).sum(axis=0)
     means = sums / len(values)
-    scattered = np.random.default_rng(seed).permutation(len(values))
     return LevelTable(
         preset,
         table,
         codes,
         len(class_names(report)),
-        np.lexsort((scattered, codes)).astype(np.int32),
+        np.lexsort((scatter(len(codes)), codes)).astype(np.int32),
         low,
         high,
         values,

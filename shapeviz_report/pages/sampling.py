@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.types import IntArray
 
@@ -27,7 +28,7 @@ def sample_rows(groups: IntArray, most: int = MOST_SAMPLED) -> IntArray:
     """
     if len(groups) <= most:
         return np.arange(len(groups), dtype=np.int32)
-    scattered = _scatter(np.arange(len(groups), dtype=np.uint32))
+    scattered = scatter(len(groups))
     order = np.lexsort((scattered, groups))
     _, first, sizes = np.unique(groups[order], return_index=True, return_counts=True)
     ranks = np.empty(len(groups))
@@ -35,8 +36,8 @@ def sample_rows(groups: IntArray, most: int = MOST_SAMPLED) -> IntArray:
     return np.sort(np.lexsort((scattered, ranks))[:most]).astype(np.int32)
 
 
-def _scatter(rows: np.ndarray) -> np.ndarray:
-    """A different uint32 for each row, which has nothing to do with where it stands."""
-    mixed = (rows + np.uint32(1)) * np.uint32(0x9E3779B1)
+def scatter(count: int) -> npt.NDArray[np.uint32]:
+    """A different number for each of so many rows, which has nothing to do with where it stands."""
+    mixed = (np.arange(count, dtype=np.uint32) + np.uint32(1)) * np.uint32(0x9E3779B1)
     mixed = (mixed ^ (mixed >> np.uint32(15))) * np.uint32(0x85EBCA6B)
     return mixed ^ (mixed >> np.uint32(13))

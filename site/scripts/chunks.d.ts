@@ -564,7 +564,6 @@ declare namespace Chunk {
     fields: Fields;
     hierarchy: Hierarchy;
     compare: Comparison;
-    neighbours: ArrayBuffer;
     retrieval: Retrieval;
     search: Search;
     subsets: SubsetMaps;
@@ -594,10 +593,11 @@ declare namespace Chunk {
     variances: Float32Array;
     cells: Uint32Array;
   }
-  /** Chunks that come in parts: what one of each holds. All but the first two only with the chunk "levels". */
+  /** Chunks that come in parts: what one of each holds. Those from `rows` on are only there with the chunk */
   interface Parts {
     details: ShapeDetails[];
     pictures: PicturePart;
+    neighbours: ArrayBuffer;
     rows: ArrayBuffer;
     columns: ArrayBuffer;
     components: ComponentPart;

@@ -5,8 +5,8 @@ import { missField } from "../addresses/fields.js";
 import { chunk, chunks } from "../base/chunks.js";
 import { Finder } from "../base/finder.js";
 import { binName } from "../bins-kit/bin-name.js";
-import { loadBins } from "../database/bins.js";
 import { Fields } from "../database/fields.js";
+import { loadAllBins } from "../database/level-bins.js";
 import { binColoring, fieldColoring, trustColoring } from "../map/coloring.js";
 import { showLegend } from "./legend.js";
 
@@ -46,7 +46,7 @@ export async function isKnown(key, database, miss) {
   if (offered().includes(key)) return true;
   if (key.startsWith(BIN)) {
     const name = key.slice(BIN.length);
-    if ((await loadBins()).names.includes(name)) return true;
+    if ((await loadAllBins()).names.includes(name)) return true;
     miss("bin", name);
   } else if (!key.startsWith(TRUST)) missField(key, database, await loadFields(database), miss);
   return false;
@@ -89,7 +89,7 @@ export class Colors {
     }
     // To begin with, the first of those that keep the classes apart best, where a build found some.
     const { found } = await chunk("workbench");
-    const bins = await loadBins();
+    const bins = await loadAllBins();
     this.choose(BIN + bins.names[found?.bins[0] ?? 0]);
     await this.make();
     this.field.focus();
@@ -129,7 +129,7 @@ export class Colors {
 
   /** @param {string} name */
   async #ofBin(name) {
-    const bins = await loadBins();
+    const bins = await loadAllBins();
     this.#finder ??= new Finder("color-search", "color-found", {
       find: (text) => bins.find(text),
       prepare: () => bins.prepareToFind(),
@@ -139,7 +139,7 @@ export class Colors {
     });
     this.field.value = name;
     const column = bins.names.indexOf(name);
-    return column < 0 ? null : binColoring(this.database, bins, column);
+    return column < 0 ? null : binColoring(this.database, bins, column, await bins.shares(column));
   }
 
   /** @param {string} key */

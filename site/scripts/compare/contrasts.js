@@ -69,6 +69,7 @@ export class Contrasts {
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
       const sample = { a: this.#sample(a), b: this.#sample(b), rest: this.#sample(outside) };
       const rows = [...sample.a, ...sample.b, ...sample.rest];
+      await bins.know(rows);
       /**
        * @param {number} from
        * @param {number} count

@@ -68,9 +68,12 @@ export class Matrix {
     return checked?.value === this.neighbours.spaces[0] ? `compared by ${title}` : `on the map by ${title}`;
   }
 
-  render() {
+  async render() {
     const { state, node } = this;
     if (state.get("view") !== "classes" || node === null) return;
+    const space = state.get("space");
+    await this.neighbours.know(space);
+    if (state.get("space") !== space) return;
     for (const input of document.querySelectorAll("#spaces input")) input.checked = input.value === state.get("space");
     this.counts = this.neighbours.matrix(state.get("space"));
     this.#likest();

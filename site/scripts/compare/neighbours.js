@@ -1,19 +1,31 @@
 // The nearest neighbours of every shape, in the space of all features and on every map.
 
+import { part } from "../base/chunks.js";
+
 /** @import { Database } from "../database/database.js" */
 
 export class Neighbours {
   /**
-   * `data` is the chunk "compare", `bytes` the ArrayBuffer of the chunk "neighbours".
+   * `comparison` is the chunk "compare".
    * @param {Database} database
    * @param {Chunk.Comparison} comparison
-   * @param {ArrayBuffer} bytes
    */
-  constructor(database, { k, spaces }, bytes) {
+  constructor(database, { k, spaces }) {
     this.database = database;
     this.k = k;
     this.spaces = spaces;
-    this.rows = new Uint32Array(bytes);
+  }
+
+  /** @type {Map<string, Uint32Array>} by space, as many of each shape */
+  #rows = new Map();
+
+  /**
+   * Have the neighbours in a space at hand.
+   * @param {string} [space]
+   */
+  async know(space = this.spaces[0]) {
+    if (!this.#rows.has(space))
+      this.#rows.set(space, new Uint32Array(await part("neighbours", this.spaces.indexOf(space))));
   }
 
   /** Whether all other shapes are neighbours of each, so that who they are says nothing. */
@@ -27,8 +39,8 @@ export class Neighbours {
    * @param {any} [space]
    */
   of(index, space = this.spaces[0]) {
-    const start = (this.spaces.indexOf(space) * this.database.count + index) * this.k;
-    return this.rows.subarray(start, start + this.k);
+    const rows = /** @type {Uint32Array} */ (this.#rows.get(space));
+    return rows.subarray(index * this.k, (index + 1) * this.k);
   }
 
   /**

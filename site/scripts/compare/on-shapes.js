@@ -13,12 +13,14 @@ import { showingBin, UNPAINTED } from "../bins-kit/on-surface.js";
 import { Stage } from "../bins-kit/stage.js";
 import { modelsOf, TwoSurfaces } from "../bins-kit/two-surfaces.js";
 import { copyEvidence } from "../database/facts.js";
-import { Similarity } from "../database/similarity.js";
+import { similarityOf } from "../database/level-similarity.js";
 import { Paint } from "../viewer/paint.js";
 import { meaning } from "./words.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
+/** @import { LevelSimilarity } from "../database/level-similarity.js" */
+/** @import { Similarity } from "../database/similarity.js" */
 /** @import { View } from "./groups-view.js" */
 /** @import { Side } from "./groups.js" */
 
@@ -37,7 +39,7 @@ export class OnShapes {
   stages = null;
   /** @type {TwoSurfaces | null} */
   surfaces = null;
-  /** @type {Similarity | null} */
+  /** @type {Similarity | LevelSimilarity | null} */
   similarity = null;
   /** @type {Legend} */
   legend;
@@ -175,8 +177,10 @@ export class OnShapes {
       stages: [stages.a, stages.b],
       legend: document.getElementById("apart-legend"),
     });
-    this.similarity ??= new Similarity(bins);
-    const parts = this.similarity.differences(...pair, { features: [...bins.features.keys()] });
+    this.similarity ??= similarityOf(bins);
+    const parts = await this.similarity.differences(...pair, { features: [...bins.features.keys()] });
+    if (view !== this.view || chosen.a !== pair[0] || chosen.b !== pair[1] || this.state.get("reading") !== "apart")
+      return;
     const evidence = copyEvidence(known, chosen.b);
     const nowhere = byFeature(parts, bins, pair).reduce((sum, { beside }) => sum + beside, 0);
     document

@@ -8,6 +8,7 @@ import { count, figure, grouped } from "../base/words.js";
 import { inWords } from "../bins-kit/bin-name.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { kind } from "../database/kind.js";
+import { sampled } from "../database/sample.js";
 import { distribution, mean } from "./distribution.js";
 import { groupName } from "./groups.js";
 
@@ -106,7 +107,7 @@ export class Outliers {
   }
 
   async render() {
-    const { state, list } = this;
+    const { database, data, state, list } = this;
     if (state.get("view") !== "outliers" || list === null) return;
     const of = state.get("of");
     this.filter.value = of === null ? "" : String(of);
@@ -127,7 +128,10 @@ export class Outliers {
     const bins = await this.load();
     for (const item of list.children) {
       const node = item.querySelector(".reasons");
-      if (node.childElementCount === 0) node.replaceChildren(...this.#reasons(Number(item.dataset.index), bins));
+      const index = Number(item.dataset.index);
+      if (node.childElementCount > 0) continue;
+      await bins.know([index, ...[database.groups[index], data.rival[index]].flatMap((group) => this.#rowsOf(group))]);
+      node.replaceChildren(...this.#reasons(index, bins));
     }
   }
 
@@ -263,7 +267,7 @@ export class Outliers {
       const value = bins.value(column, index);
       // The class without the shape itself.
       const usual = own.rows.includes(index) ? (own.means[column] * (size + 1) - value) / size : own.means[column];
-      const spread = Math.max(own.spreads[column], LEAST_SPREAD * this.#spread(column, bins), 1e-9);
+      const spread = Math.max(own.spreads[column], LEAST_SPREAD * Math.sqrt(bins.variance(column)), 1e-9);
       const [away, near] = [(value - usual) / spread, (value - rival.means[column]) / spread];
       if ((value - usual) * (rival.means[column] - usual) <= 0) continue;
       if (bins.isShare(column) && Math.abs(bins.share(column, index) - own.shares[column]) < TELLING) continue;
@@ -336,6 +340,16 @@ export class Outliers {
   }
 
   /**
+   * The shapes that tell what is usual in a class.
+   * @param {number} group
+   */
+  #rowsOf(group) {
+    const { groups } = this.database;
+    const own = [...groups.keys()].filter((index) => groups[index] === group);
+    return [...sampled(own, groups, MOST_USUAL)];
+  }
+
+  /**
    * Means and spreads of a class in every bin.
    * @param {number} group
    * @param {Bins} bins
@@ -344,9 +358,7 @@ export class Outliers {
   #usualOf(group, bins) {
     const known = this.#usual.get(group);
     if (known !== undefined) return known;
-    const all = [...this.database.ids.keys()].filter((index) => this.database.groups[index] === group);
-    const step = Math.max(all.length / MOST_USUAL, 1);
-    const rows = Array.from({ length: Math.min(all.length, MOST_USUAL) }, (_, place) => all[Math.floor(place * step)]);
+    const rows = this.#rowsOf(group);
     const usual = {
       rows,
       means: new Float64Array(bins.count),
@@ -361,29 +373,6 @@ export class Outliers {
     }
     this.#usual.set(group, usual);
     return usual;
-  }
-
-  /** @type {Float64Array | null} */
-  #spreads = null;
-
-  /**
-   * The spread of a bin over some shapes from all over the database.
-   * @param {number} column
-   * @param {Bins} bins
-   */
-  #spread(column, bins) {
-    let spreads = this.#spreads;
-    if (spreads === null) {
-      const step = Math.max(bins.rows / MOST_USUAL, 1);
-      const rows = Array.from({ length: Math.min(bins.rows, MOST_USUAL) }, (_, place) => Math.floor(place * step));
-      spreads = Float64Array.from({ length: bins.count }, (_, at) => {
-        const values = rows.map((row) => bins.value(at, row));
-        const middle = mean(values);
-        return Math.sqrt(mean(values.map((value) => (value - middle) ** 2)));
-      });
-      this.#spreads = spreads;
-    }
-    return spreads[column];
   }
 }
 

@@ -3,8 +3,7 @@
 
 import { chunk, part } from "../base/chunks.js";
 import { Bins, loadBins } from "./bins.js";
-
-const LEVELS = 255;
+import { levelsOf, STEPS } from "./levels.js";
 
 /** Shapes that are kept at hand, at least; 2.7 kB each. */
 const MOST_KNOWN = 4000;
@@ -33,11 +32,8 @@ export class LevelBins extends Bins {
     this.levels = levels;
     /** How many shapes there are. */
     this.shapes = levels.order.length;
-    this.#firstPart = firstParts(work.features, levels.columnsAPart);
   }
 
-  /** @type {number[]} the first part of each feature's columns */
-  #firstPart;
   /** @type {Map<number, Uint8Array>} the levels of a shape; the one that was asked for last comes last */
   #known = new Map();
   /** @type {Int32Array | null} */
@@ -102,7 +98,7 @@ export class LevelBins extends Bins {
 
   /** @param {number} column */
   stepOf(column) {
-    return (this.levels.high[column] - this.levels.low[column]) / LEVELS;
+    return (this.levels.high[column] - this.levels.low[column]) / STEPS;
   }
 
   /** @param {number} column */
@@ -110,22 +106,10 @@ export class LevelBins extends Bins {
     return this.levels.variances[column];
   }
 
-  /**
-   * The levels of all shapes in a column.
-   * @param {number} column
-   */
-  async levelsOf(column) {
-    const { columnsAPart } = this.levels;
-    const feature = this.featureOf(column);
-    const place = column - this.features[feature].start;
-    const columns = await part("columns", this.#firstPart[feature] + Math.floor(place / columnsAPart));
-    return new Uint8Array(columns, (place % columnsAPart) * this.shapes, this.shapes);
-  }
-
   /** @param {number} column */
   async shares(column) {
-    const levels = await this.levelsOf(column);
-    const told = Array.from({ length: LEVELS + 1 }, (_, level) => this.shareAt(column, level));
+    const levels = await levelsOf(this, column);
+    const told = Array.from({ length: STEPS + 1 }, (_, level) => this.shareAt(column, level));
     return Array.from(levels, (level) => told[level]);
   }
 }
@@ -140,18 +124,4 @@ function placesIn(order) {
     places[shape] = place;
   });
   return places;
-}
-
-/**
- * The first part of each feature's columns: no part has columns of two.
- * @param {Chunk.Feature[]} features
- * @param {number} aPart
- */
-function firstParts(features, aPart) {
-  let next = 0;
-  return features.map(({ dimensions, bins }) => {
-    const own = next;
-    next += Math.ceil((dimensions * bins) / aPart);
-    return own;
-  });
 }

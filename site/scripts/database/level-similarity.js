@@ -4,6 +4,7 @@
 import { part } from "../base/chunks.js";
 import { entry } from "../base/entry.js";
 import { LevelBins } from "./level-bins.js";
+import { levelsOf } from "./levels.js";
 import { first, NOTHING, Similarity } from "./similarity.js";
 
 /** @import { Bins } from "./bins.js" */
@@ -27,9 +28,6 @@ export function similarityOf(bins) {
 }
 
 export class LevelSimilarity {
-  /** Whether shapes may be missed. */
-  approximate = true;
-
   /** @param {LevelBins} bins */
   constructor(bins) {
     this.bins = bins;
@@ -142,7 +140,7 @@ export class LevelSimilarity {
     const { bins } = this;
     const total = new Float64Array(bins.shapes);
     for (const column of columns) {
-      const levels = await bins.levelsOf(column);
+      const levels = await levelsOf(bins, column);
       const unit = bins.stepOf(column) ** 2 * this.#weight(column, { columns });
       const own = levels[row];
       for (let other = 0; other < total.length; other += 1) total[other] += (levels[other] - own) ** 2 * unit;

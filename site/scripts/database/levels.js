@@ -1,14 +1,12 @@
 // The values of all shapes of a database that has too many of them for one chunk, in parts that are loaded when asked for.
 
 import { chunk, part } from "../base/chunks.js";
+import { NOTHING } from "./similarity.js";
 
 /** @import { Bins } from "./bins.js" */
 
 /** Numbers of all shapes, and what a squared difference of one counts in squared distances. */
 /** @typedef {{ values: Uint8Array, unit: number }} Numbers */
-
-/** A spread below this is rounding, as in `similarity.js`. */
-const NOTHING = 1e-12;
 
 /**
  * What maps of some bins compare, a column each.
@@ -43,14 +41,14 @@ export async function numbersOfFeatures(features, count) {
 }
 
 /** From the lowest to the highest value of a column. */
-const STEPS = 255;
+export const STEPS = 255;
 
 /**
  * The level of every shape in a column.
  * @param {Bins} bins
  * @param {number} column
  */
-async function levelsOf(bins, column) {
+export async function levelsOf(bins, column) {
   const { order, columnsAPart } = await chunk("levels");
   const feature = bins.featureOf(column);
   const before = bins.features

@@ -1,16 +1,16 @@
 // Who is most alike to a shape by what a map compares, whatever the map shows: fetched, or found, when first asked for.
 
-import { chunk } from "../base/chunks.js";
-import { Similarity } from "./similarity.js";
+import { part } from "../base/chunks.js";
+import { LevelSimilarity, similarityOf } from "./level-similarity.js";
 
 /** @import { Bins } from "./bins.js" */
 /** @import { Database, ShapeMap } from "./database.js" */
-/** @import { Choice } from "./similarity.js" */
+/** @import { Choice, Similarity } from "./similarity.js" */
 
 export class TrueNeighbours {
   /** @type {Uint32Array | null} those by all features, as many of each shape */
   #given = null;
-  /** @type {{ bins: Bins, similarity: Similarity } | null} */
+  /** @type {{ bins: Bins, similarity: Similarity | LevelSimilarity } | null} */
   #by = null;
   /** @type {Set<string>} */
   #fetched = new Set();
@@ -50,13 +50,11 @@ export class TrueNeighbours {
   #all(index, { neighbours }) {
     if (this.#given === null) {
       this.#fetch("given", async () => {
-        this.#given = new Uint32Array(await chunk("neighbours"));
+        this.#given = new Uint32Array(await part("neighbours", 0));
       });
       return null;
     }
-    // One part for all features and one for every map, of which each has as many numbers a shape.
-    const { count, data } = this.database;
-    const each = this.#given.length / count / (1 + data.methods.length);
+    const each = this.#given.length / this.database.count;
     return [...this.#given.subarray(index * each, index * each + neighbours)];
   }
 
@@ -68,7 +66,7 @@ export class TrueNeighbours {
     if (this.#by === null) {
       this.#fetch("bins", async () => {
         const bins = await this.loadBins();
-        this.#by = { bins, similarity: new Similarity(bins) };
+        this.#by = { bins, similarity: similarityOf(bins) };
       });
       return null;
     }
@@ -77,11 +75,33 @@ export class TrueNeighbours {
     const choice = map.compares ?? {
       features: [...bins.features.keys()].filter((feature) => map.features.includes(bins.features[feature].name)),
     };
+    /** @param {number} other */
+    const placed = (other) => !Number.isNaN(map.x[other]);
+    if (similarity instanceof LevelSimilarity) {
+      this.#look(index, map, similarity.nearest(index, choice, map.neighbours, placed));
+      return null;
+    }
     const row = bins.rowOf(index);
     if (row < 0) return null;
     return similarity
-      .nearest(row, choice, map.neighbours, (other) => !Number.isNaN(map.x[bins.shapeOf(other)]))
+      .nearest(row, choice, map.neighbours, (other) => placed(bins.shapeOf(other)))
       .map((other) => bins.shapeOf(other));
+  }
+
+  /** @type {{ index: number, map: ShapeMap } | null} what is looked for */
+  #asked = null;
+
+  /**
+   * @param {number} index
+   * @param {ShapeMap} map
+   * @param {Promise<number[]>} looking
+   */
+  async #look(index, map, looking) {
+    const asked = (this.#asked = { index, map });
+    const found = await looking;
+    if (asked !== this.#asked) return;
+    this.#last = { index, map, found };
+    this.heard();
   }
 
   /**

@@ -2,7 +2,7 @@
 
 import { watchSize } from "../base/dom.js";
 import { chosenColors } from "../colors/choice.js";
-import { loadBins } from "../database/bins.js";
+import { loadAllBins } from "../database/level-bins.js";
 import { TrueNeighbours } from "../database/true-neighbours.js";
 import { Card } from "../map/card.js";
 import { watchDragging } from "../map/dragging.js";
@@ -70,7 +70,7 @@ export class ChosenMap {
     const scene = new Scene(database, state);
     // Of a sample nobody can be shown who is most alike among all shapes.
     if (subsets.data.rows === null)
-      scene.alike = new TrueNeighbours(database, loadBins, () => state.set({ alike: {} }));
+      scene.alike = new TrueNeighbours(database, loadAllBins, () => state.set({ alike: {} }));
     const figure = document.querySelector("figure.map");
     this.view = new MapView(scene, figure, { charted: false });
     scene.views = [this.view];

@@ -154,10 +154,10 @@ export function fieldColoring(database, field) {
  * @param {Database} database
  * @param {Bins} bins
  * @param {number} column
+ * @param {number[]} values of all shapes
  * @returns {Coloring}
  */
-export function binColoring(database, bins, column) {
-  const values = database.ids.map((_, row) => bins.share(column, row));
+export function binColoring(database, bins, column, values) {
   return { ...numberColoring(database, bins.names[column], values, bins.telling(column)), note: bins.sentence(column) };
 }
 

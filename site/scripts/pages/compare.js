@@ -12,20 +12,17 @@ import { Neighbours } from "../compare/neighbours.js";
 import { Outliers } from "../compare/outliers.js";
 import { compareTables } from "../compare/tables.js";
 import { Tabs } from "../compare/tabs.js";
-import { binNames, Bins } from "../database/bins.js";
+import { binNames } from "../database/bins.js";
 import { Database } from "../database/database.js";
+import { loadAllBins } from "../database/level-bins.js";
 import { carryView, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
-  const [overview, data, bytes, clusters] = await chunks("overview", "compare", "neighbours", "clusters");
+  const [overview, data, clusters] = await chunks("overview", "compare", "clusters");
   const database = new Database(overview, currentTheme);
-  const neighbours = new Neighbours(database, data, bytes);
-  // The values of all bins are large where shapes are many: they come when they are first needed.
-  /** @type {Promise<Bins> | null} */
-  let loaded = null;
-  const bins = () =>
-    (loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then(([work, values]) => new Bins(work, values)));
+  const neighbours = new Neighbours(database, data);
+  await neighbours.know();
   const { state, written, announce, ready } = await openPage({
     address: comparePageAddress(
       database,
@@ -37,8 +34,8 @@ async function main() {
       if (bin !== null && !binNames((await chunk("workbench")).features).includes(bin)) miss("bin", bin);
     },
   });
-  const groups = new GroupsView(database, data, clusters, neighbours, state, { bins, announce });
-  const outliers = new Outliers(database, data, neighbours, state, { bins, announce });
+  const groups = new GroupsView(database, data, clusters, neighbours, state, { bins: loadAllBins, announce });
+  const outliers = new Outliers(database, data, neighbours, state, { bins: loadAllBins, announce });
   const matrix = new Matrix(database, data, neighbours, state, { announce });
   new Tabs(state);
   /** @param {number} index */

@@ -6,7 +6,7 @@ import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
 import { firstKey } from "../colors/colors.js";
-import { loadBins } from "../database/bins.js";
+import { loadAllBins } from "../database/level-bins.js";
 import { Database } from "../database/database.js";
 import { TrueNeighbours } from "../database/true-neighbours.js";
 import { Card } from "../map/card.js";
@@ -55,7 +55,7 @@ async function main() {
   watchTables(() => mapTables(database, state, state.get("coloring") ?? null));
   if (database.data.subsets) new FeatureChoice(database, state);
   watchIntroduction();
-  maps.scene.alike = new TrueNeighbours(database, loadBins, () => state.set({ alike: {} }));
+  maps.scene.alike = new TrueNeighbours(database, loadAllBins, () => state.set({ alike: {} }));
   watchLines(state);
   watchControls(database, state, maps);
   watchKeys(state, maps);

@@ -18,10 +18,11 @@ def parts(report):
     """The neighbours by space, as the script reads them."""
     content = ComparePage().content(report)
     data = content.chunks["compare"]
-    numbers = np.frombuffer(content.chunks["neighbours"], "<u4")
-    return data, dict(
-        zip(data["spaces"], numbers.reshape(len(data["spaces"]), len(report.labels), data["k"]))
-    )
+    held = [
+        np.frombuffer(part, "<u4").reshape(len(report.labels), data["k"])
+        for part in content.parts["neighbours"]
+    ]
+    return data, dict(zip(data["spaces"], held, strict=True))
 
 
 def test_neighbours_are_those_of_every_map_and_of_all_features():
