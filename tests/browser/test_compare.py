@@ -124,6 +124,23 @@ class TestEngine:
         # One in a hundred by its definition; more than three of forty would be one in a thousand times.
         assert found <= 3
 
+    def test_chance_is_as_well_known_by_a_part_of_large_groups(self, engine_page):
+        """Few rows are dealt out in place of many: what all would reach follows from it."""
+        random = np.random.default_rng(4)
+        values = random.normal(0, 1, (700, 20)) @ random.normal(0, 1, (20, 20))
+        first, second = np.arange(400), np.arange(400, 700)
+        answer = self.contrast(engine_page, values, first, second, shuffles=499)
+        spread = ((values - values.mean(axis=0)) ** 2).sum(axis=0)
+        dealt = []
+        for _ in range(2000):
+            order = random.permutation(700)
+            dealt.append(shares_between(values, order[:400], order[400:]))
+        highest = np.quantile(np.max(dealt, axis=1), 0.99)
+        whole = np.quantile(np.average(dealt, axis=1, weights=spread), [0.5, 0.99])
+        assert answer["limit"] == pytest.approx(highest, rel=0.25)
+        assert answer["all"]["limit"] == pytest.approx(whole[1], rel=0.25)
+        assert answer["all"]["chance"] == pytest.approx(1 / 699, rel=0.15)
+
     def test_a_true_difference_is_beyond_chance(self, engine_page):
         values = np.random.default_rng(3).random((24, 30))
         values[:12, 4] += 1.5

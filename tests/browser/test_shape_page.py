@@ -13,6 +13,7 @@ from similar_cases import similar_cases
 from waiting import drawn_again, eventually
 
 from shapeviz_report.neighbours import find_related
+from shapeviz_report.pages import base
 from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.similarity import rank_similar, typical_distance
 from shapeviz_report.wording import WORDINGS
@@ -23,7 +24,10 @@ SIMILAR = Path(__file__).parent / "similar.js"
 
 
 @pytest.mark.parametrize("preset", PRESETS)
-def test_similar_shapes_are_those_of_python(preset, browser, tmp_path):
+@pytest.mark.parametrize("large", [False, True])
+def test_similar_shapes_are_those_of_python(preset, large, browser, tmp_path, monkeypatch):
+    if large:
+        monkeypatch.setattr(base, "MOST_IN_FULL", 10)
     report = with_external(make_report(["ant", "bird"], 9, features=("Gc", "Sc", "PFH")))
     report = replace(report, parameters={**report.parameters, "preset": preset})
     write_site(report, tmp_path / "site")
@@ -39,8 +43,8 @@ def test_similar_shapes_are_those_of_python(preset, browser, tmp_path):
         assert [other["row"] for other in found] == [other["row"] for other in expected]
         distances = [other["distance"] for other in answer["found"]]
         assert distances == sorted(distances)
-        # The site has the values in 65 536 steps.
-        near = {"rel": 1e-4, "abs": 1e-4}
+        # The site has the values in 65 536 steps, in 256 where they are too many.
+        near = {"rel": 1e-2, "abs": 3e-2} if large else {"rel": 1e-4, "abs": 1e-4}
         assert [other["distance"] for other in found] == pytest.approx(
             [other["distance"] for other in expected], **near
         )
@@ -48,7 +52,8 @@ def test_similar_shapes_are_those_of_python(preset, browser, tmp_path):
             np.array([other["closer"] for other in others]) for others in (found, expected)
         )
         # Two shapes that are equally far but for such a step may change places.
-        assert np.abs(closer - closer_expected).max() <= 1.01 / (len(expected) - 1)
+        places = 3 if large else 1
+        assert np.abs(closer - closer_expected).max() <= 1.01 * places / (len(expected) - 1)
         assert answer["typical"] == pytest.approx(
             typical_distance(report.features, PRESETS[preset], features=case["features"], bins=case["bins"]),
             rel=1e-3,
