@@ -58,6 +58,9 @@ MODEL, MODEL_OF_MANY, FEATURES, FACTS = 80_000, 27_000, 14_000, 1_500
 """Bytes of a shape: its 3D model, its features for download and for the browser, what is known of it. Of more shapes
 than are written in full, features take half."""
 
+OF_COLUMNS = 300
+"""Files of single bins, where the values of all do not go into one."""
+
 PICTURE, PICTURE_SIZE, PICTURE_POWER = 6_000, 320, 1.6
 """Bytes of a thumbnail of so many pixels, and the power of its size with which they grow."""
 
@@ -83,7 +86,7 @@ def weigh(shapes: int, config: Config) -> Weight:
     values = len(find_dimensions(config.gltf_values))
     exported = shapes * vertices * (VERTEX + VALUE * values) if config.gltf is not None else 0
     singles = (shapes if config.meshes else 0, 0 if many else shapes, shapes if exported else 0)
-    parts = shapes // 32 + shapes // 200
+    parts = shapes // 32 + shapes // 200 + (shapes // 25 + OF_COLUMNS if many else 0)
     return Weight(
         bytes=BASE
         + pictures
@@ -95,7 +98,7 @@ def weigh(shapes: int, config: Config) -> Weight:
         exported=exported,
         files=BASE_FILES + sum(singles) + parts,
         folder=max(*singles, parts),
-        largest=max(2_000_000, features * 3 // 4),
+        largest=max(2_000_000, features * 2 // 5 if many else features * 3 // 4),
     )
 
 

@@ -5,6 +5,7 @@ import { element, pause, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
 import { count, figure, grouped, listed, shortened, wholePercent } from "../base/words.js";
+import { LevelSimilarity } from "../database/level-similarity.js";
 import { writeSelection } from "../database/selection.js";
 import { Comparing, isNone } from "./comparing.js";
 import { hue } from "./hue.js";
@@ -184,6 +185,10 @@ export class SimilarShapes extends Comparing {
     if (this.comparison.byNeighbourhood)
       words.push(
         "First come shapes that are near and have the same neighbours. Such an order finds more of a kind, but no feature can be said to make it: distances and bars below are those of all features, and need not rise in step. ",
+      );
+    else if (this.similarity instanceof LevelSimilarity && !choice.columns)
+      words.push(
+        "Of so many shapes, similar ones are found by an approximation, which misses fewer than one in ten of the most similar. ",
       );
     return [
       ...words,
