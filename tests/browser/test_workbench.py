@@ -560,7 +560,7 @@ def test_a_low_window_leaves_its_height_to_the_maps(bench):
 def test_of_very_many_shapes_a_sample_is_laid_out_and_the_others_stand_beside_it(open_page):
     page = open_page("very many", "workbench.html#bins=Sc")
     answered(page)
-    words = "Maps and scores of 3 000 of 12 000 shapes, each class in proportion".replace(" 000", "\u202f000")
+    words = "made here are of 3 000 of 12 000 shapes, each class in proportion".replace(" 000", "\u202f000")
     assert words in page.inner_text("#picked")
     for which in ("original", "refined"):
         told = page.inner_text(f"figure[data-map={which}] .nh")

@@ -30,8 +30,9 @@ import { turned } from "./turned.js";
 
 const SCORE_STEPS = 65535;
 
-/** As many engines score at once, beside the one that lays out; each holds the whole table. */
+/** At most as many engines score at once, beside the one that lays out; each holds the whole table, and all no more bytes. */
 const SCORING = Math.min(Math.max((navigator.hardwareConcurrency ?? 2) - 1, 1), 3);
+const HELD = 120e6;
 
 const MOST_CONTESTS = 500;
 
@@ -336,7 +337,8 @@ export class Answers {
           tell(number, 1);
         }
       };
-      await Promise.all(Array.from({ length: Math.min(SCORING, asked.length) }, (_, place) => lane(1 + place)));
+      const held = Math.max(Math.floor(HELD / (Float32Array.BYTES_PER_ELEMENT * this.bins.steps.length)), 1);
+      await Promise.all(Array.from({ length: Math.min(SCORING, held, asked.length) }, (_, place) => lane(1 + place)));
       const all = new Float64Array(this.bins.count).fill(NaN);
       for (const [place, column] of columns.entries()) {
         all[column] = found.reduce((sum, scores) => sum + scores[place], 0) / found.length;

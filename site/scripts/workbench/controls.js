@@ -122,7 +122,7 @@ function watchPicked(state, desk) {
   const show = () => {
     node.textContent = state.get("brushing")
       ? `${count(state.get("selection").size, "shape")} selected`
-      : desk.sampleWords && `Maps and scores of ${desk.sampleWords}; other shapes stand beside the most alike of these`;
+      : desk.sampleWords && `Maps and scores made here are of ${desk.sampleWords}; the others stand beside these`;
   };
   state.listen((changed) => ["selection", "brushing", "hidden"].some((name) => changed.has(name)) && show());
   show();

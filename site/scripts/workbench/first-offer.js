@@ -41,7 +41,7 @@ export function firstOffer(intended, state, answers, desk) {
         {},
         intended,
         shapes > SEARCHED_SHAPES &&
-          ` A search looks at ${grouped(SEARCHED_SHAPES)} of ${count(shapes, "shape")}; NH is then that of the map of all.`,
+          ` A search looks at ${grouped(SEARCHED_SHAPES)} of ${count(shapes, "shape")}; NH is then that of all of these.`,
       ),
       offering("Find a few that keep these classes apart", desk.canFind, () => desk.findBins()),
     ];
