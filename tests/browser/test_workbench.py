@@ -1,16 +1,23 @@
 """The Workbench as a reader uses it: from file://, with the real engine."""
 
+import csv
 import re
+from functools import partial
 
 import numpy as np
 import pytest
 from reports import make_report
+from scipy.spatial.distance import cdist
 from waiting import drawn_again, eventually
 
 from shapeviz_report.bins import read_bins
 from shapeviz_report.faithfulness import rate_maps
+from shapeviz_report.pages import base, workbench
+from shapeviz_report.pages.base import class_codes
+from shapeviz_report.pages.sampling import sample_rows
 from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
+from shapeviz_report.writing import write_site
 
 FEATURES = ("Gc", "Sc", "PFH")
 REFINED = "figure[data-map=refined] .empty"
@@ -557,30 +564,88 @@ def test_a_low_window_leaves_its_height_to_the_maps(bench):
     assert all(box["x"] + box["width"] <= line["x"] + line["width"] for box in shown)
 
 
-def test_of_very_many_shapes_a_sample_is_laid_out_and_the_others_stand_beside_it(open_page):
-    page = open_page("very many", "workbench.html#bins=Sc")
-    answered(page)
-    words = "made here are of 3 000 of 12 000 shapes, each class in proportion".replace(" 000", "\u202f000")
-    assert words in page.inner_text("#picked")
-    for which in ("original", "refined"):
-        told = page.inner_text(f"figure[data-map={which}] .nh")
-        assert "of 3\u202f000 shapes" in told
-        assert nh(page, which) is not None
-    page.click("#open-tables")
-    shown = page.locator("#tables table", has_text="refined x").locator("tbody tr").all_inner_texts()
-    rows = [text.split("\t") for text in shown]
-    # These are copies of one shape, of which every fourth or so is of the sample.
-    assert len(rows) == 500
-    places = np.array([[float(value) for value in row[4:]] for row in rows])
-    assert np.abs(places).max() <= 1.1
-    assert len(np.unique(places, axis=0)) > 400
-    assert np.ptp(places, axis=0).max() < 0.9
+SAMPLED = 90
 
 
-def test_of_very_many_shapes_some_features_are_compared_too(open_page):
-    page = open_page("very many", "workbench.html#features=Gc")
+@pytest.fixture(scope="module")
+def large_report():
+    return make_report(KINDS, 60, features=FEATURES)
+
+
+@pytest.fixture(scope="module")
+def large(large_report, tmp_path_factory):
+    """The address of a site that holds the values of a sample, and of all shapes in parts, as those of very many do."""
+    folder = tmp_path_factory.mktemp("large") / "site"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(base, "MOST_IN_FULL", 100)
+        patch.setattr(workbench, "sample_rows", partial(sample_rows, most=SAMPLED))
+        write_site(large_report, folder)
+    return folder.as_uri()
+
+
+def maps_of(page) -> list[dict[str, str]]:
+    """The rows of both maps as they are saved."""
+    page.click("#open-export")
+    with page.expect_download() as saved:
+        page.click("[data-file='maps.csv']")
+    page.keyboard.press("Escape")
+    return list(csv.DictReader(saved.value.path().read_text(encoding="utf-8").splitlines()))
+
+
+@pytest.mark.parametrize(
+    ("address", "which", "columns"),
+    [
+        ("bins=Gc:3+Sc[1]:2+PFH:4-6", "refined", [2, 21, 33, 34, 35]),
+        ("features=Gc+Sc", "original", range(30)),
+    ],
+    ids=["bins", "features"],
+)
+def test_of_very_many_a_sample_is_laid_out_and_each_other_stands_beside_the_most_alike(
+    open_page, large, large_report, address, which, columns
+):
+    page = open_page("large", "workbench.html", f"{large}/workbench.html#{address}")
+    answered(page)
+    assert f"are of {SAMPLED} of 300 shapes, each class in proportion" in page.inner_text("#of-a-sample")
+    assert nh(page, which) is not None
+    rows = maps_of(page)
+    assert [row["id"] for row in rows] == [shape.id for shape in large_report.shapes]
+    sample = sample_rows(class_codes(large_report), SAMPLED)
+    # NH is of the sample alone.
+    assert np.flatnonzero([row[f"{which}:nh"] != "" for row in rows]).tolist() == sample.tolist()
+    places = np.array([[float(row[f"{which}:x"]), float(row[f"{which}:y"])] for row in rows])
+    compared = compared_values(large_report.features, PRESETS["default"])[:, columns]
+    if which == "refined":
+        compared = compared / compared.std(axis=0)
+    else:
+        # Gc has one dimension, Sc two: each feature by its spread over all its values.
+        parts = np.split(compared, [10], axis=1)
+        compared = np.hstack([part / np.sqrt(part.var(axis=0).sum()) for part in parts])
+    others = np.setdiff1d(np.arange(300), sample)
+    beside = cdist(places[others], places[sample]).argmin(axis=1)
+    apart = cdist(compared[others], compared[sample])
+    alike = apart[np.arange(len(others)), beside] <= apart.min(axis=1) * 1.02
+    # What is held is rounded, and of features only their principal components.
+    assert alike.mean() > (0.95 if which == "refined" else 0.9)
+
+
+def test_of_very_many_scores_are_of_the_sample(open_page, large, large_report):
+    page = open_page(
+        "large", "workbench.html", f"{large}/workbench.html#scorer=anova&separate=kind+a&together="
+    )
     answered(page)
     page.click("#open-tables")
-    shown = page.locator("#tables table", has_text="original x").locator("tbody tr").all_inner_texts()
-    places = np.array([[float(value) for value in text.split("\t")[2:4]] for text in shown])
-    assert np.isfinite(places).all()
+    rows = page.locator("#tables table", has_text="Score").locator("tbody tr").all_inner_texts()
+    shown = {row.split("\t")[0]: float(row.split("\t")[2]) for row in rows}
+    sample = sample_rows(class_codes(large_report), SAMPLED)
+    values = compared_values(large_report.features, PRESETS["default"])[sample]
+    labels = [large_report.labels[row] for row in sample]
+    scorer = next(scorer for scorer in SCORERS if scorer.name == "anova")
+    expected = dict(
+        zip(
+            large_report.features.columns,
+            score_separation(scorer, values, as_one_group(labels, ["kind a"])),
+            strict=True,
+        )
+    )
+    assert shown == pytest.approx({name: expected[name] for name in shown}, abs=0.002)
+    assert len(shown) == len(expected)

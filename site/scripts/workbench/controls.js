@@ -27,7 +27,8 @@ export function watchControls(database, data, state, desk) {
   check();
   watchDragging(state);
   watchRamp(database, state);
-  watchPicked(state, desk);
+  watchPicked(state);
+  watchSample(state, desk);
   if (database.separable) {
     watchScorer(data, state, desk);
     watchSeparation(database, state, desk);
@@ -113,18 +114,31 @@ function missing({ from, against, each }, groups) {
 }
 
 /**
- * How many shapes the brush has so far, before the tray shows them; else of how many the maps and scores are, if not of all.
+ * How many shapes the brush has so far, before the tray shows them.
+ * @param {WorkState} state
+ */
+function watchPicked(state) {
+  const node = document.getElementById("picked");
+  const show = () => {
+    node.textContent = state.get("brushing") ? `${count(state.get("selection").size, "shape")} selected` : "";
+  };
+  state.listen((changed) => ["selection", "brushing"].some((name) => changed.has(name)) && show());
+  show();
+}
+
+/**
+ * Of how many shapes the maps and scores are, where not of all in use.
  * @param {WorkState} state
  * @param {Desk} desk
  */
-function watchPicked(state, desk) {
-  const node = document.getElementById("picked");
+function watchSample(state, desk) {
+  const node = document.getElementById("of-a-sample");
   const show = () => {
-    node.textContent = state.get("brushing")
-      ? `${count(state.get("selection").size, "shape")} selected`
-      : desk.sampleWords && `Maps and scores made here are of ${desk.sampleWords}; the others stand beside these`;
+    const words = desk.sampleWords;
+    node.hidden = words === "";
+    node.textContent = `NH of both maps, and scores made here, are of ${words}. On maps made here each other shape stands beside the one of these that is most like it.`;
   };
-  state.listen((changed) => ["selection", "brushing", "hidden"].some((name) => changed.has(name)) && show());
+  state.listen((changed) => changed.has("hidden") && show());
   show();
 }
 

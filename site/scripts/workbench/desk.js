@@ -226,11 +226,8 @@ export class Desk {
 
   /** Of how many shapes in use maps and scores are made, in words; empty where of all. */
   get sampleWords() {
-    const { answers } = this;
-    const [{ length: taken }, { length: all }] = [
-      answers.shapes(this.history.current),
-      answers.inUse(this.history.current),
-    ];
+    const use = { hidden: this.state.get("hidden") };
+    const [taken, all] = [this.answers.shapes(use), this.answers.inUse(use)].map(({ length }) => length);
     return taken < all ? `${grouped(taken)} of ${count(all, "shape")}, each class in proportion` : "";
   }
 

@@ -150,15 +150,6 @@ class MapPanel {
                     ),
                   ]
                 : []),
-              ...(map.sample
-                ? [
-                    element(
-                      "span",
-                      { class: "chance", title: "Of the same shapes on both maps: NH of more shapes is another" },
-                      `of ${count(map.sample.length, "shape")}`,
-                    ),
-                  ]
-                : []),
             ]),
     );
   }
