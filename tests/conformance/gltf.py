@@ -5,9 +5,11 @@ from __future__ import annotations
 import base64
 import json
 import struct
+from dataclasses import replace
 from typing import Any
 from urllib.parse import quote
 
+import DracoPy
 import numpy as np
 import numpy.typing as npt
 from conformance.cases import BOX, BOX_TRIANGLES, TWO_BOXES, Case, Extents, box
@@ -31,6 +33,7 @@ class File:
             "accessors": [],
             "bufferViews": [],
         }
+        self.further_buffers: list[Json] = []
 
     def view(self, content: bytes, **more: Any) -> int:
         self.data += b"\0" * (-len(self.data) % 4)
@@ -68,7 +71,8 @@ class File:
 
     def text(self, uri: str | None = None) -> bytes:
         uri = uri or "data:application/octet-stream;base64," + base64.b64encode(self.data).decode()
-        return json.dumps(self.document | {"buffers": [{"byteLength": len(self.data), "uri": uri}]}).encode()
+        buffers = [{"byteLength": len(self.data), "uri": uri}, *self.further_buffers]
+        return json.dumps(self.document | {"buffers": buffers}).encode()
 
     def binary(self, *extra: tuple[bytes, bytes], length: int | None = None) -> bytes:
         text = json.dumps(self.document | {"buffers": [{"byteLength": len(self.data)}]}).encode()
@@ -109,6 +113,64 @@ def nodes(*entries: Json, roots: list[int] | None = None) -> File:
     return one_box(
         nodes=list(entries), scenes=[{"nodes": list(range(len(entries))) if roots is None else roots}]
     )
+
+
+POSITIONS, EXPONENTIAL, TRIANGLES, INDICES = map(
+    base64.b64decode,
+    (
+        "oAAAAAEAwAAAgAAAAQzMAACAf4ABDMwAAIB/gAAAAT//AAD/////////AT//AACAf4B/gH+AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=",
+        "oAABAP8AAAgDBAMAATZmAADOAAIAxVDFAAAAAAABNmYAAM4AAgh4eHgAAAAAAAE2ZgAAzgAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAkQAAAJEAAACR",
+        "4f4A/w8HFqECBxORBQ8G/wIEAgMAdodWZ3iphmWJaJgBaQAA",
+        "0QAECAoMAggIBAoMBhIQBBIUDgQEEBIUAhYIEBYYBgoQCBYYDgAAAAA=",
+    ),
+)
+"""The box as meshoptimizer compresses it: its corners, the same after its exponential filter, and its triangles twice."""
+
+
+def with_draco(content: bytes, vertices: int | None = None, attribute: int = 0, mode: int = 4) -> File:
+    """The box, or what else is in the content, compressed with Draco and no other way."""
+    file = File()
+    count = 8 if vertices is None else vertices
+    told = {"bufferView": file.view(content), "attributes": {"POSITION": attribute}}
+    file.document["accessors"] = [
+        {"componentType": 5126, "count": count, "type": "VEC3"},
+        {"componentType": 5125, "count": 36, "type": "SCALAR"},
+    ]
+    extensions = {"KHR_draco_mesh_compression": told}
+    file.mesh({"attributes": {"POSITION": 0}, "indices": 1, "mode": mode, "extensions": extensions})
+    file.document["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+    return file
+
+
+def with_meshopt(
+    points: bytes = POSITIONS,
+    filter: str = "NONE",
+    corners: tuple[bytes, str] = (TRIANGLES, "TRIANGLES"),
+    extension: str = "EXT_meshopt_compression",
+) -> File:
+    """The box compressed with meshopt; the buffer that stands for what it unpacks to has no content."""
+    file = File()
+    file.mesh({"attributes": {"POSITION": 0}, "indices": 1})
+    file.document["extensionsRequired"] = [extension]
+    file.further_buffers = [{"byteLength": 168, "extensions": {extension: {"fallback": True}}}]
+    places = [(0, 96, 12, 8, points, "ATTRIBUTES", filter), (96, 72, 2, 36, *corners, "NONE")]
+    for offset, length, stride, count, content, mode, own in places:
+        packed = file.view(content)
+        told = {
+            **file.document["bufferViews"][packed],
+            "byteStride": stride,
+            "count": count,
+            "mode": mode,
+            "filter": own,
+        }
+        file.document["bufferViews"][packed] = {
+            "buffer": 1, "byteOffset": offset, "byteLength": length, "extensions": {extension: told}
+        }  # fmt: skip
+    file.document["accessors"] = [
+        {"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3"},
+        {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
+    ]
+    return file
 
 
 MOVED = {"mesh": 0, "translation": [10, 0, 0]}
@@ -366,15 +428,13 @@ def extensions() -> list[Case]:
         return one_box(extensionsRequired=list(names))
 
     turned = [0, 0, 2**-0.5, 2**-0.5]
-    draco = one_box()
-    draco.document["meshes"][0]["primitives"][0]["extensions"] = {
+    beside = one_box()
+    beside.document["meshes"][0]["primitives"][0]["extensions"] = {
         "KHR_draco_mesh_compression": {"bufferView": 0}
     }
-    without = one_box()
-    without.document["meshes"][0]["primitives"][0]["extensions"] = {
-        "KHR_draco_mesh_compression": {"bufferView": 0}
-    }
-    del without.document["accessors"][0]["bufferView"]
+    content = DracoPy.encode(
+        box(), BOX_TRIANGLES.astype(np.uint32), quantization_bits=16, preserve_order=True
+    )
     spare = one_box()
     spare.document["bufferViews"][0]["extensions"] = {"EXT_meshopt_compression": {"buffer": 0}}
     return [
@@ -394,13 +454,27 @@ def extensions() -> list[Case]:
         one("KHR_materials_*", required("KHR_materials_unlit", "KHR_materials_variants")),
         one("KHR_texture_*", required("KHR_texture_transform", "KHR_texture_basisu")),
         one("KHR_lights_punctual", required("KHR_lights_punctual")),
-        one("KHR_draco_mesh_compression beside plain content", draco),
-        bad(
-            "KHR_draco_mesh_compression", required("KHR_draco_mesh_compression"), "compressed with KHR_draco"
-        ),
-        bad("KHR_draco_mesh_compression alone, not required", without, "compressed with KHR_draco"),
+        one("KHR_draco_mesh_compression beside plain content", beside),
+        replace(one("KHR_draco_mesh_compression", with_draco(content)), precision=1e-4),
+        bad("damaged content of Draco", with_draco(content[:-9]), "with Draco is damaged"),
+        bad("other numbers of vertices than Draco has", with_draco(content, vertices=9), "9 elements, but"),
+        bad("attributes that Draco does not have", with_draco(content, attribute=7), "no attribute 7"),
+        bad("strips compressed with Draco", with_draco(content, mode=5), "strips or fans compressed"),
         one("EXT_meshopt_compression with its fallback", spare),
-        bad("EXT_meshopt_compression", required("EXT_meshopt_compression"), "compressed with EXT_meshopt"),
+        one("EXT_meshopt_compression", with_meshopt()),
+        one("EXT_meshopt_compression of single corners", with_meshopt(corners=(INDICES, "INDICES"))),
+        one("EXT_meshopt_compression with an exponential filter", with_meshopt(EXPONENTIAL, "EXPONENTIAL")),
+        one("KHR_meshopt_compression", with_meshopt(extension="KHR_meshopt_compression")),
+        bad(
+            "damaged content of meshopt", with_meshopt(POSITIONS[:-9]), "with meshopt is damaged, cut off, or"
+        ),
+        bad("a later version of meshopt", with_meshopt(b"\xa1" + POSITIONS[1:]), "or of a later version"),
+        bad("filters of meshopt for directions", with_meshopt(filter="OCTAHEDRAL"), "filter 'OCTAHEDRAL'"),
+        bad(
+            "an unknown mode of meshopt",
+            with_meshopt(corners=(TRIANGLES, "STRIPS")),
+            "in a way that is not read",
+        ),
         bad("unknown required extensions", required("ACME_teapot"), "requires the extension ACME_teapot"),
     ]
 

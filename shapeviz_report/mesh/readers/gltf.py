@@ -15,7 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.readers.limits import check_faces, check_json
+from shapeviz_report.mesh.readers.draco import decode_draco
+from shapeviz_report.mesh.readers.limits import check_faces, check_json, check_unpacked
+from shapeviz_report.mesh.readers.meshopt import decode_meshopt
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, cut_fan, cut_strip
 from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, place_nodes
 from shapeviz_report.types import FloatArray
@@ -23,10 +25,11 @@ from shapeviz_report.types import FloatArray
 _BINARY_MAGIC = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
 
-_COMPRESSIONS = ("KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression")
+_DRACO = "KHR_draco_mesh_compression"
+_MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 _INSTANCING = "EXT_mesh_gpu_instancing"
 _VISIBILITY = "KHR_node_visibility"
-_READ_EXTENSIONS = frozenset({_INSTANCING, _VISIBILITY, "KHR_mesh_quantization"})
+_READ_EXTENSIONS = frozenset({_DRACO, *_MESHOPT, _INSTANCING, _VISIBILITY, "KHR_mesh_quantization"})
 _SURFACE_UNTOUCHED = re.compile(
     r"(KHR|EXT|ADOBE|MSFT|FB)_(materials|texture|lights|packing)_\w+|KHR_animation_pointer|KHR_xmp(_json_ld)?"
     r"|KHR_techniques_webgl|KHR_audio_emitter|KHR_audio|EXT_mesh_features|EXT_instance_features"
@@ -193,13 +196,13 @@ class _Reader:
                     f"{len(content):,}"
                 )
             self.buffers.append(content)
+        self.unpacked: dict[int, npt.NDArray[np.generic]] = {}
+        """The elements of accessors that were compressed with Draco."""
+        self.views: dict[int, bytes] = {}
+        """The content of buffer views that were compressed with meshopt."""
 
     def read(self) -> PolygonMesh:
         for extension in self.document.get("extensionsRequired", []):
-            if extension in _COMPRESSIONS:
-                raise MeshError(
-                    f"its geometry is compressed with {extension}, which is not read; export it without"
-                )
             if extension not in _READ_EXTENSIONS and not _SURFACE_UNTOUCHED.fullmatch(extension):
                 raise MeshError(
                     f"it requires the extension {extension[:60]}, which is not read; export it without"
@@ -326,7 +329,7 @@ class _Reader:
         if mode not in (_TRIANGLES, _TRIANGLE_STRIP, _TRIANGLE_FAN):
             raise MeshError(f"a primitive has the mode {mode}, which glTF does not know")
         if "POSITION" not in primitive["attributes"]:
-            raise MeshError(f"a primitive has no positions{self.compression(primitive)}")
+            raise MeshError("a primitive has no positions")
         corners = primitive.get("indices", primitive["attributes"]["POSITION"])
         count = _whole(self.entry("accessors", corners)["count"])
         if mode != _TRIANGLES:
@@ -335,11 +338,36 @@ class _Reader:
             raise MeshError(f"a primitive of triangles has {count} corners, which is no multiple of three")
         return count // 3
 
-    def compression(self, described: Document) -> str:
-        for name in described.get("extensions", {}):
-            if name in _COMPRESSIONS:
-                return f": it is compressed with {name}, which is not read; export it without"
-        return ""
+    def unpack_primitive(self, primitive: Document) -> None:
+        """Decompress the accessors of a primitive that has no content but with Draco."""
+        told = primitive["extensions"][_DRACO]
+        if primitive.get("mode", _TRIANGLES) != _TRIANGLES:
+            raise MeshError(
+                "it has strips or fans compressed with Draco, which are not read; export it without"
+            )
+        corners, attributes = decode_draco(self.region(self.entry("bufferViews", told["bufferView"])))
+        if primitive.get("indices") is None:
+            raise MeshError("what it has compressed with Draco has no accessor for its corners")
+        self.unpacked[primitive["indices"]] = corners
+        for name, identity in told["attributes"].items():
+            if identity not in attributes:
+                raise MeshError(f"what it has compressed with Draco has no attribute {identity!r:.20}")
+            if name in primitive["attributes"]:
+                self.unpacked[primitive["attributes"][name]] = attributes[identity]
+
+    def unpack_view(self, number: int, view: Document) -> bytes | None:
+        """What a buffer view has compressed with meshopt; None if it has nothing."""
+        if number not in self.views:
+            told = next(
+                (view["extensions"][name] for name in _MESHOPT if name in view.get("extensions", {})), None
+            )
+            if told is None:
+                return None
+            count, stride = _whole(told["count"]), _whole(told["byteStride"])
+            check_unpacked(count * stride + sum(map(len, self.views.values())))
+            mode, filter = str(told["mode"]), str(told.get("filter", "NONE"))
+            self.views[number] = decode_meshopt(self.region(told), count, stride, mode, filter)
+        return self.views[number]
 
     def read_mesh(
         self,
@@ -365,8 +393,16 @@ class _Reader:
         accessor = self.entry("accessors", attributes["POSITION"])
         for used in (attributes["POSITION"], primitive.get("indices")):
             described = None if used is None else self.entry("accessors", used)
-            if described is not None and "bufferView" not in described and "sparse" not in described:
-                raise MeshError(f"accessor {used} of a primitive has no content{self.compression(primitive)}")
+            if (
+                described is None
+                or "bufferView" in described
+                or "sparse" in described
+                or used in self.unpacked
+            ):
+                continue
+            if _DRACO not in primitive.get("extensions", {}):
+                raise MeshError(f"accessor {used} of a primitive has no content")
+            self.unpack_primitive(primitive)
         count = _whole(accessor["count"])
         corners = (
             np.arange(count) if primitive.get("indices") is None else self.read_indices(primitive["indices"])
@@ -426,7 +462,14 @@ class _Reader:
         kind, count = _component(accessor), _whole(accessor["count"])
         if len(rows) and rows.max() >= count:
             raise MeshError(f"accessor {number} has {count} elements, fewer than are asked of it")
-        if accessor.get("bufferView") is None:
+        if number in self.unpacked:
+            elements = self.unpacked[number]
+            if elements.shape != (count, width):
+                raise MeshError(
+                    f"accessor {number} has {count:,} elements, but {len(elements):,} compressed with Draco"
+                )
+            stored = elements[rows]
+        elif accessor.get("bufferView") is None:
             stored = np.zeros((len(rows), width), kind)
         else:
             stored = self.view(accessor, count, kind, width)[rows]
@@ -448,6 +491,19 @@ class _Reader:
             values = np.maximum(values / np.iinfo(kind).max, -1)
         return values
 
+    def region(self, view: Document) -> bytes:
+        """All that stands in a part of a buffer."""
+        self.entry("buffers", view["buffer"])
+        content = self.buffers[view["buffer"]]
+        if content is None:
+            raise MeshError(f"buffer {view['buffer']} has no content")
+        start, length = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
+        if start + length > len(content):
+            raise MeshError(
+                f"a compressed part leads past the end of buffer {view['buffer']}; it may be cut off"
+            )
+        return content[start : start + length]
+
     def view(self, described: Document, count: int, kind: np.dtype[Any], width: int) -> npt.NDArray[Any]:
         """What stands in a buffer, not copied, as (count, width)."""
         number = described["bufferView"]
@@ -455,11 +511,13 @@ class _Reader:
         buffer_number = view["buffer"]
         self.entry("buffers", buffer_number)
         content = self.buffers[buffer_number]
-        if content is None:
-            raise MeshError(f"buffer {buffer_number} has no content{self.compression(view)}")
         size = width * kind.itemsize
         stride = _whole(view.get("byteStride") or size)
         start, length = _whole(view.get("byteOffset", 0)), _whole(view["byteLength"])
+        if content is None:
+            content, start = self.unpack_view(number, view), 0
+        if content is None:
+            raise MeshError(f"buffer {buffer_number} has no content")
         offset = _whole(described.get("byteOffset", 0))
         if stride < size:
             raise MeshError(f"buffer view {number} has elements that overlap")
