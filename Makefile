@@ -39,7 +39,7 @@ style: $(INSTALLED) $(SCRIPT_TOOLS)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
-	$(BIN)/mypy
+	for system in linux darwin win32; do $(BIN)/mypy --platform $$system --cache-dir .mypy_cache/$$system || exit; done
 	PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent check
 
 .PHONY: docs

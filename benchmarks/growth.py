@@ -119,7 +119,7 @@ def _build(database: Path, folder: Path, address: str, edge_length: str) -> dict
     threading.Thread(target=read, daemon=True).start()
     while process.poll() is None:
         status = Path(f"/proc/{process.pid}/status")
-        resident = re.search(r"VmRSS:\s+(\d+)", status.read_text() if status.exists() else "")
+        resident = re.search(r"VmRSS:\s+(\d+)", status.read_text(encoding="utf-8") if status.exists() else "")
         if resident:
             memory.append((round(time.monotonic() - begun, 1), int(resident[1]) // 1024, doing[0]))
         time.sleep(1)

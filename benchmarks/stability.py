@@ -86,7 +86,7 @@ def noise(mesh: Mesh, histograms: FloatArray) -> FloatArray:
 
 def write(mesh: Mesh, path: Path) -> Path:
     """Write a mesh as OFF, with the digits of float32."""
-    with path.open("w") as file:
+    with path.open("w", encoding="utf-8") as file:
         file.write(f"OFF\n{len(mesh.vertices)} {len(mesh.faces)} 0\n")
         np.savetxt(file, mesh.vertices.astype(np.float32), fmt="%.9g")
         np.savetxt(file, np.column_stack([np.full(len(mesh.faces), 3), mesh.faces]), fmt="%d")

@@ -21,6 +21,7 @@ from pathlib import Path
 from shapeviz_report.errors import CacheError
 from shapeviz_report.files import read_regular
 from shapeviz_report.staging import write_atomically
+from shapeviz_report.system import cache_folder, open_for_reading
 
 logger = logging.getLogger(__name__)
 
@@ -40,9 +41,8 @@ _FULL = (errno.ENOSPC, errno.EDQUOT)
 
 
 def default_root() -> Path:
-    """Where results are kept unless told otherwise: below ``$XDG_CACHE_HOME`` or ``~/.cache``."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "shapeviz-report"
+    """Where results are kept unless told otherwise."""
+    return cache_folder() / "shapeviz-report"
 
 
 def make_key(*parts: object) -> str:
@@ -160,8 +160,7 @@ def is_entry(path: Path) -> bool:
     OSError
         It cannot be read.
     """
-    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-    with os.fdopen(descriptor, "rb") as file:
+    with os.fdopen(open_for_reading(path, follow=False), "rb") as file:
         return file.read(len(_MARK)) == _MARK
 
 

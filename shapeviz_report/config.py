@@ -21,6 +21,7 @@ from shapeviz_report.arrow import require_pyarrow
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
 from shapeviz_report.places import refuse_no_path
+from shapeviz_report.system import core_count
 
 FILE_NAME = "shapeviz.toml"
 """The options' file; it lies in the database's folder."""
@@ -223,8 +224,7 @@ class Config:
         """Number of worker processes: as asked for, or as many as this process may use cores."""
         if self.jobs is not None:
             return self.jobs
-        # macOS and Windows do not say on which cores a process may run.
-        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        return core_count()
 
     @property
     def memory_bytes(self) -> int | None:
@@ -300,7 +300,9 @@ def _database_options(file: Path) -> dict[str, Any]:
 
 def _check_inside(path: Path, what: str, folder: Path) -> None:
     try:
-        inside = path.resolve().is_relative_to(folder.resolve())
+        # another machine is not asked whether it has the file: Windows would tell it who asks
+        near = path.absolute().drive == folder.absolute().drive
+        inside = near and path.resolve().is_relative_to(folder.resolve())
     except (OSError, RuntimeError, ValueError) as error:
         raise ConfigError(f"{what} is no path that can be followed: {error}") from error
     if not inside:

@@ -9,8 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""The signals that ask a program to end."""
+from shapeviz_report.system import ASKING
 
 STOPPED = "Stopped. What was computed is kept: the same command continues from here."
 

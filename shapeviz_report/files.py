@@ -6,6 +6,8 @@ import os
 import stat
 from pathlib import Path
 
+from shapeviz_report.system import open_for_reading
+
 MOST_BYTES = 1024**3
 """Size of the largest file that is read, in bytes: ten million triangles as text take this much or less."""
 
@@ -35,8 +37,7 @@ def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:
     OSError
         It cannot be opened, is no regular file, or is larger. ``strerror`` says which, in words for its owner.
     """
-    # without O_NONBLOCK, opening a pipe waits for a writer
-    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    descriptor = open_for_reading(path)
     with os.fdopen(descriptor, "rb") as file:
         status = os.fstat(descriptor)
         if stat.S_ISDIR(status.st_mode):

@@ -44,4 +44,4 @@ def is_program() -> bool:
     if sys.argv[:1] == ["-m"]:
         # so it is while `python -m NAME` looks for the module
         return any(word.removeprefix("-m").split(".")[0] == "shapeviz_report" for word in sys.orig_argv[1:])
-    return os.path.basename(sys.argv[0] if sys.argv else "") == "shapeviz-report"
+    return os.path.basename(sys.argv[0] if sys.argv else "").removesuffix(".exe") == "shapeviz-report"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import re
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -25,6 +24,8 @@ _ADVICE = {
     errno.EINVAL: "choose a name that the system takes",
     errno.EILSEQ: "choose a name that the system takes",
 }
+_IN_USE = 32
+"""What Windows says of a file that a program has open."""
 
 
 def explain(error: OSError) -> str:
@@ -33,6 +34,8 @@ def explain(error: OSError) -> str:
         f" ({os.fsdecode(error.filename)})" if isinstance(error.filename, str | bytes | os.PathLike) else ""
     )
     advice = _ADVICE.get(error.errno or 0, "choose another place, or make this one writable")
+    if getattr(error, "winerror", None) == _IN_USE:
+        advice = "close the program that has it open, or choose another place"
     return f"{error.strerror or error}{where}; {advice}"
 
 
@@ -52,17 +55,6 @@ def holds(folder: Path, path: Path) -> bool:
         return Path(os.path.realpath(path)).is_relative_to(os.path.realpath(folder))
     except ValueError:
         return False
-
-
-def is_mount_point(path: Path) -> bool:
-    """Whether something is mounted at a path, a part of the same file system (a bind mount) too where Linux tells."""
-    try:
-        lines = Path("/proc/self/mountinfo").read_bytes().splitlines()
-    except OSError:
-        return os.path.ismount(path)
-    # blanks and backslashes stand as octal numbers
-    points = (re.sub(rb"\\(\d{3})", lambda m: bytes([int(m[1], 8)]), line.split()[4]) for line in lines)
-    return os.fsencode(os.path.abspath(path)) in points
 
 
 @contextmanager

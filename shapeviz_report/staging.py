@@ -6,13 +6,14 @@ nobody holds.
 
 from __future__ import annotations
 
-import fcntl
 import os
 import secrets
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
+
+from shapeviz_report.system import claimed, held
 
 
 def hidden_prefix(name: str, state: str) -> str:
@@ -42,23 +43,15 @@ def created(folder: Path, prefix: str, make: Callable[[Path], object]) -> Iterat
     OSError
         It cannot be made.
     """
-    while True:
-        path = new_path(folder, prefix)
-        make(path)
-        try:
-            handle = os.open(path, os.O_RDONLY)
-        except FileNotFoundError:
-            # somebody took it for a leftover in the instant before it was held
-            continue
-        with suppress(OSError):  # a file system without locks has no leftovers either
-            fcntl.flock(handle, fcntl.LOCK_EX)
-        if os.path.lexists(path):
-            break
-        os.close(handle)
-    try:
+    with ExitStack() as stack:
+        while True:
+            path = new_path(folder, prefix)
+            make(path)
+            # somebody may take it for a leftover in the instant before it is held
+            with suppress(FileNotFoundError):
+                stack.enter_context(held(path))
+                break
         yield path
-    finally:
-        os.close(handle)
 
 
 def leftovers(folder: Path, prefix: str) -> Iterator[Path]:
@@ -72,14 +65,8 @@ def leftovers(folder: Path, prefix: str) -> Iterator[Path]:
     for name in sorted(os.listdir(folder)):
         if not name.startswith(prefix):
             continue
-        with suppress(OSError):
-            # a pipe of this name would be waited for, and nobody here makes one
-            handle = os.open(folder / name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-            try:
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                yield folder / name
-            finally:
-                os.close(handle)
+        with suppress(OSError), claimed(folder / name):
+            yield folder / name
 
 
 def write_atomically(path: Path, content: bytes) -> None:

@@ -18,6 +18,8 @@ from shapeviz_report.database.formats import (
 from shapeviz_report.database.text import readable
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.order import natural
+from shapeviz_report.places import holds
+from shapeviz_report.system import is_link
 from shapeviz_report.types import Failure
 
 MOST_WAYS = 10
@@ -77,8 +79,7 @@ def _begins_with(name: str, stems: set[str]) -> bool:
 
 def leads_outside(path: str | Path, folder: str | Path) -> bool:
     """Whether a path is not in a folder, links resolved."""
-    real, base = os.path.realpath(path), os.path.realpath(folder)
-    return os.path.commonpath((real, base)) != base
+    return not holds(Path(folder), Path(path))
 
 
 def scan_folder(root: Path, outside: bool) -> Found:
@@ -139,7 +140,7 @@ def scan_folder(root: Path, outside: bool) -> Found:
             except OSError as error:
                 fail(relative, f"this link leads nowhere: {error.strerror}")
                 continue
-            if is_folder and not outside and entry.is_symlink() and leads_outside(entry.path, root):
+            if is_folder and not outside and is_link(entry) and leads_outside(entry.path, root):
                 place = os.path.realpath(entry.path)
                 fail(
                     relative,

@@ -561,9 +561,14 @@ def _sort_out(
     by_file: dict[str, Listed] = {}
     failures = []
     for row in rows:
-        if row.file:
+        if row.file and not _spellings(row.file):
+            reason = (
+                f"{table.name} lists it ({row.place}), but it is on another machine; copy it into the folder"
+            )
+            failures.append(Failure(readable(row.file), "read", reason))
+        elif row.file:
             path = finder.find(row.file) or Path(os.path.normpath(os.path.join(root, row.file)))
-            relative = readable(os.path.relpath(path, root)).replace(os.sep, "/")
+            relative = readable(_from(root, path))
             by_file.setdefault(relative, Listed(path, [])).rows.append(row)
         else:
             failures.append(
@@ -588,6 +593,14 @@ def _sort_out(
     return taken, tuple(sorted(failures, key=lambda failure: (failure.path, failure.reason)))
 
 
+def _from(root: Path, path: Path) -> str:
+    """A path as seen from a folder, ``/`` between; one of another drive as it is."""
+    try:
+        return Path(os.path.relpath(path, root)).as_posix()
+    except ValueError:
+        return path.as_posix()
+
+
 class _Finder:
     """Where listed files are; it looks into each folder once."""
 
@@ -608,7 +621,7 @@ class _Finder:
         return self.found[file]
 
     def _find(self, file: str) -> Path | None:
-        spellings = list(dict.fromkeys((file, file.replace("\\", "/"))))
+        spellings = _spellings(file)
         for spelling in spellings:
             path = os.path.normpath(os.path.join(self.root, spelling))
             for suffix in ("", *MESH_SUFFIXES):
@@ -623,8 +636,9 @@ class _Finder:
         return None
 
     def _find_like(self, file: str, like: Callable[[str], str]) -> Path | None:
-        path = "/" if os.path.isabs(file) else self.root
-        *folders, name = os.path.normpath(file).lstrip("/").split("/")
+        normal = Path(os.path.normpath(file))
+        path = normal.anchor or self.root
+        *folders, name = normal.parts[1:] if normal.anchor else normal.parts or ("",)
         for folder in folders:
             exact = os.path.normpath(os.path.join(path, folder))
             if not os.path.isdir(exact):
@@ -648,6 +662,15 @@ class _Finder:
                     listing.setdefault(like(name), []).append(name)
             self.listings[folder, like] = listing
         return self.listings[folder, like]
+
+
+def _spellings(file: str) -> list[str]:
+    """A path as it stands in a table, and with Windows' separators turned; none if it leads to another machine.
+
+    Windows would ask that machine for the file, and tell it who asks.
+    """
+    turned = file.replace("\\", "/")
+    return [] if turned.startswith("//") else list(dict.fromkeys((file, turned)))
 
 
 def _composed(name: str) -> str:

@@ -7,22 +7,19 @@ down takes one task with it and nothing else, and a caller's script is not impor
 from __future__ import annotations
 
 import os
-import pickle
-import signal
-import socket
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Pipe, wait
 from typing import Any, cast
 
-from shapeviz_report.ending import ASKING
 from shapeviz_report.errors import ShapevizError, WorkerError
 from shapeviz_report.executor.base import Outcome
-from shapeviz_report.executor.memory import bound
+from shapeviz_report.executor.channel import Channel
 from shapeviz_report.imports import trusted_path
+from shapeviz_report.system import LACKING_MEMORY, PipeEnd, bound_memory, fate, start_process
 
 
 class LocalExecutor:
@@ -62,7 +59,7 @@ class LocalExecutor:
         waiting, count = iter(tasks), 0
         limit = self.time_limit * patience
         idle = list(self._workers)
-        busy: dict[Connection, tuple[_Worker, int, float]] = {}
+        busy: dict[PipeEnd, tuple[_Worker, int, float]] = {}
         try:
             while True:
                 while len(busy) < self.jobs and (task := next(waiting, None)) is not None:
@@ -73,9 +70,7 @@ class LocalExecutor:
                 if not busy:
                     return
                 soonest = min(deadline for _, _, deadline in busy.values())
-                ready = cast(
-                    "list[Connection]", wait(list(busy), timeout=max(0.0, soonest - time.monotonic()))
-                )
+                ready = cast("list[PipeEnd]", wait(list(busy), timeout=max(0.0, soonest - time.monotonic())))
                 now = time.monotonic()
                 late = [c for c, (_, _, deadline) in busy.items() if deadline <= now and c not in ready]
                 for connection in [*ready, *late]:
@@ -93,7 +88,7 @@ class LocalExecutor:
                         worker.stop()
                         self._workers.remove(worker)
                         reason = f"the process working on it ended ({worker.fate})"
-                        if worker.process.returncode in _WANTING:
+                        if worker.process.returncode in LACKING_MEMORY:
                             reason += f", perhaps for want of memory: {self._advice}"
                         yield Outcome(index, None, reason, 0.0)
                         continue
@@ -135,7 +130,7 @@ class LocalExecutor:
         """Give a task to an idle worker, or to a new one."""
         while idle:
             worker = idle.pop()
-            bound(worker.process.pid, self.memory_limit)
+            bound_memory(worker.process.pid, self.memory_limit)
             try:
                 worker.send(message)
                 return worker
@@ -145,22 +140,18 @@ class LocalExecutor:
                 self._workers.remove(worker)
         worker = _Worker()
         self._workers.append(worker)
-        bound(worker.process.pid, self.memory_limit)
+        bound_memory(worker.process.pid, self.memory_limit)
         # If it ended or refused before it had read all, its answer or its end says so.
         with suppress(ConnectionError):
             worker.send(message)
         return worker
 
 
-_WANTING = (-signal.SIGABRT, -signal.SIGKILL, -signal.SIGSEGV)
-"""How a process ends that gets no memory: C++ aborts, C uses what it did not get, and the system kills."""
-
-
 class _Worker:
     """One process and the pipe to it."""
 
     def __init__(self) -> None:
-        ours, theirs = socket.socketpair()
+        self.connection, theirs = Pipe()
         with theirs:
             # The same modules as here, whatever put them on the path, but none of the current folder; one thread
             # each, for there is one process a core.
@@ -172,13 +163,11 @@ class _Worker:
                 "NUMBA_NUM_THREADS",
             ):
                 environment[variable] = "1"
-            # What comes while it starts waits until it can decide.
-            before = signal.pthread_sigmask(signal.SIG_BLOCK, ASKING)
             try:
                 # Standard input is its lifeline: it closes when this process ends, however that comes.
-                self.process = subprocess.Popen(
-                    [sys.executable, "-P", "-m", "shapeviz_report.executor.worker", str(theirs.fileno())],
-                    pass_fds=[theirs.fileno()],
+                self.process = start_process(
+                    [sys.executable, "-P", "-m", "shapeviz_report.executor.worker"],
+                    theirs,
                     env=environment,
                     # numba obeys a file of the current folder, and no task needs one of it
                     cwd=os.path.dirname(os.path.abspath(__file__)),
@@ -186,33 +175,24 @@ class _Worker:
                     stdout=subprocess.DEVNULL,
                 )
             except OSError as error:
-                ours.close()
+                self.connection.close()
                 raise WorkerError(
                     f"A worker process cannot be started: {error.strerror}. End other programs, or use fewer --jobs."
                 ) from error
-            finally:
-                signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        self.connection = Connection(ours.detach())
-        self._tasks = os.fdopen(os.dup(self.connection.fileno()), "wb")
+        self._tasks = Channel(self.connection)
 
     def send(self, message: tuple[Any, ...]) -> None:
-        """Send a task: the files in it go straight into the pipe, where `Connection.send` would copy all first."""
-        pickle.dump(message, self._tasks, pickle.HIGHEST_PROTOCOL)
-        self._tasks.flush()
+        """Send a task."""
+        self._tasks.send(message)
 
     @property
     def fate(self) -> str:
         """How the process ended."""
-        code = self.process.returncode
-        if code is not None and code < 0:
-            return f"signal {-code}"
-        return f"exit code {code}"
+        return fate(self.process.returncode)
 
     def stop(self) -> None:
         """End the process."""
         self.connection.close()
-        # without what it did not take: it may never take it
-        self._tasks.raw.close()
         try:
             # An idle worker sees the closed pipe and goes.
             self.process.wait(timeout=0.2)

@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from shapeviz_report.errors import SiteError
-from shapeviz_report.places import explain, holds, is_mount_point, refuse_no_path, tried
+from shapeviz_report.places import explain, holds, refuse_no_path, tried
+from shapeviz_report.system import is_mount_point
 from shapeviz_report.writing.record import (
     FOLDERS,
     find_own,

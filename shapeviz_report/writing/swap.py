@@ -7,9 +7,7 @@ before the exchange and, should a writer be killed between two moves, given back
 
 from __future__ import annotations
 
-import ctypes
 import errno
-import fcntl
 import logging
 import os
 import shutil
@@ -18,12 +16,11 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from shapeviz_report.staging import created, hidden_prefix, leftovers, new_path
+from shapeviz_report.system import alone_in, exchange
 from shapeviz_report.writing.record import FOLDERS, RECORD, SUMMARY, list_entries
 
 logger = logging.getLogger(__name__)
 
-_AT_FDCWD = -100
-_RENAME_EXCHANGE = 2
 _WRITING, _PLACING = "writing", "placing"
 
 FindOwn = Callable[[Path], Set[str]]
@@ -62,7 +59,8 @@ def replaced_folder(destination: Path, find_own: FindOwn) -> Iterator[Path]:
     with created(destination.parent, hidden_prefix(destination.name, _WRITING), Path.mkdir) as folder:
         try:
             yield folder
-            with _placing(destination):
+            # two who place at once would take each other's files for their owner's
+            with alone_in(destination.parent):
                 _place(folder, destination, find_own)
         finally:
             shutil.rmtree(folder, ignore_errors=True)
@@ -77,7 +75,7 @@ def _place(folder: Path, destination: Path, find_own: FindOwn) -> None:
         return
     try:
         _carry(destination, placed, find_own(destination))
-        if not _exchange(placed, destination):
+        if not exchange(placed, destination):
             old = new_path(destination.parent, hidden_prefix(destination.name, _PLACING))
             destination.rename(old)
             placed.rename(destination)
@@ -90,22 +88,10 @@ def _place(folder: Path, destination: Path, find_own: FindOwn) -> None:
             logger.warning("%s stays, until the next build can clear it: %s", placed, error)
 
 
-@contextmanager
-def _placing(destination: Path) -> Iterator[None]:
-    """Inside, no other process places a folder beside this one: two would take each other's files for their owner's."""
-    handle = os.open(destination.parent, os.O_RDONLY)
-    try:
-        with suppress(OSError):  # not every file system has locks
-            fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(handle)
-
-
 def mend(destination: Path, find_own: FindOwn) -> None:
     """Remove what killed writers left beside a folder, and give back what belongs into it. A folder whose writer
     lives is locked and stays."""
-    with _placing(destination):
+    with alone_in(destination.parent):
         for folder in leftovers(destination.parent, hidden_prefix(destination.name, _PLACING)):
             with suppress(OSError):
                 if destination.exists():
@@ -147,11 +133,3 @@ def _settle(folder: Path, destination: Path, find_own: FindOwn) -> None:
     for inner in (*(folder / name for name in FOLDERS), folder):
         with suppress(OSError):
             inner.rmdir()
-
-
-def _exchange(one: Path, other: Path) -> bool:
-    """Exchange two folders in one step; False where the system or the file system cannot."""
-    renameat2 = getattr(ctypes.CDLL(None, use_errno=True), "renameat2", None)
-    if renameat2 is None:
-        return False
-    return renameat2(_AT_FDCWD, os.fsencode(one), _AT_FDCWD, os.fsencode(other), _RENAME_EXCHANGE) == 0

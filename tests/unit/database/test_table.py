@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+import os
 import random
 from pathlib import Path
 
@@ -169,6 +170,23 @@ def test_paths_outside_the_tables_folder(root, tmp_path):
     database = read_database(table(root, f"file\n../x.off\n{root}/a.off\n"))
     assert [shape.id for shape in database.shapes] == ["../x", "a"]
     assert database.labelings == ()
+
+
+@pytest.mark.parametrize("file", ["//host/share/x.off", r"\\\\host\\share\\x.off"])
+def test_another_machine_is_not_asked(root, file, monkeypatch):
+    asked = []
+    for name in ("isfile", "isdir", "lexists"):
+        real = getattr(os.path, name)
+        monkeypatch.setattr(
+            os.path, name, lambda path, real=real: asked.append(os.fspath(path)) or real(path)
+        )
+    database = read_database(table(root, f"file\n{file}\na.off\n"))
+    assert [shape.id for shape in database.shapes] == ["a"]
+    assert [failure.reason for failure in database.failures] == [
+        "shapes.csv lists it (line 2), but it is on another machine; copy it into the folder"
+    ]
+    assert asked
+    assert not any("host" in path for path in asked)
 
 
 def test_path_in_another_normal_form(root):

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from shapeviz_report.executor.memory import LEAST, free_memory, memory_share
+from shapeviz_report.executor.memory import LEAST, memory_share
+from shapeviz_report.system import free_memory
 
 GIB = 2**30
 

@@ -11,7 +11,7 @@ from small_database import write_database
 
 import shapeviz_report
 from shapeviz_report.errors import CacheError, ConfigError, DatabaseError, ShapevizError, SiteError
-from shapeviz_report.places import is_mount_point
+from shapeviz_report.system import is_mount_point
 from shapeviz_report.writing import check_destination, write_site
 
 LONG = "a" * 300

@@ -177,7 +177,7 @@ def write_dying(site: Path, step: int, way: str) -> int:
         try:
             _die_at(step)
             if way == "two renames":
-                swap._exchange = lambda one, other: False
+                swap.exchange = lambda one, other: False
             with replaced_folder(site, find_own) as folder:
                 hashes = {}
                 for name in ("index.html", "data/summary.json", f"models/{20 * 'b'}.js"):
@@ -206,7 +206,7 @@ def _die_at(step: int) -> None:
 
     for name in ("rename", "rmdir", "unlink", "mkdir"):
         setattr(os, name, dying(getattr(os, name)))
-    swap._exchange = dying(swap._exchange)
+    swap.exchange = dying(swap.exchange)
 
 
 @pytest.mark.parametrize("way", ["exchange", "two renames"])
