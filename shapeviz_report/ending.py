@@ -9,7 +9,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from shapeviz_report.system import ASKING
+ASKING: tuple[signal.Signals, ...] = tuple(
+    getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK") if hasattr(signal, name)
+)
+"""The signals that ask a program to end: the third on POSIX, the fourth on Windows."""
 
 STOPPED = "Stopped. What was computed is kept: the same command continues from here."
 

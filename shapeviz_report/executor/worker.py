@@ -9,9 +9,10 @@ import sys
 import time
 import traceback
 
+from shapeviz_report.ending import ASKING
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.executor.channel import Channel
-from shapeviz_report.system import ASKING, PipeEnd, end_with_parent, start_listening
+from shapeviz_report.system import PipeEnd, end_with_parent, start_listening
 
 
 def serve(connection: PipeEnd) -> None:

@@ -7,7 +7,6 @@ import sys
 
 if sys.platform == "win32":
     from shapeviz_report.system.windows import (
-        ASKING,
         LACKING_MEMORY,
         PipeEnd,
         alone_in,
@@ -28,7 +27,6 @@ if sys.platform == "win32":
     )
 else:
     from shapeviz_report.system.posix import (
-        ASKING,
         LACKING_MEMORY,
         PipeEnd,
         alone_in,
@@ -49,7 +47,6 @@ else:
     )
 
 __all__ = [
-    "ASKING",
     "LACKING_MEMORY",
     "PipeEnd",
     "alone_in",

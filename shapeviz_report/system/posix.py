@@ -21,8 +21,7 @@ from multiprocessing.connection import Connection as PipeEnd
 from pathlib import Path
 from typing import Any
 
-ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""The signals that ask a program to end."""
+from shapeviz_report.ending import ASKING
 
 LACKING_MEMORY = (-signal.SIGABRT, -signal.SIGKILL, -signal.SIGSEGV)
 """Exit codes of processes that got no memory: C++ aborts, C uses what it did not get, and the system kills."""

@@ -14,7 +14,6 @@ assert sys.platform == "win32"
 import _winapi  # CreateFile, which `os.open` reaches only for files and without what others may do
 import ctypes
 import os
-import signal
 import subprocess
 import threading
 import time
@@ -23,9 +22,6 @@ from contextlib import contextmanager
 from multiprocessing.connection import PipeConnection as PipeEnd
 from pathlib import Path
 from typing import Any
-
-ASKING = (signal.SIGINT, signal.SIGTERM, signal.SIGBREAK)
-"""The signals that ask a program to end."""
 
 LACKING_MEMORY = (3, 0xC0000005, 0xC0000017, 0xC000012D)
 """Exit codes of processes that got no memory: C++ aborts, C uses what it did not get, and the system refuses."""
