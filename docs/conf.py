@@ -27,6 +27,7 @@ extensions = [
     "commands",
     "formulas",
     "gallery",
+    "titles",
 ]
 smartquotes = False  # they would make one dash of the two of an option
 

@@ -74,6 +74,12 @@ def test_every_document_is_a_page(documentation) -> None:
         assert (documentation / document.relative_to(ROOT / "docs")).with_suffix(".html").is_file()
 
 
+def test_links_to_documents_go_by_their_titles(documentation) -> None:
+    page = (documentation / "using" / "learned-features.html").read_text(encoding="utf-8")
+    assert re.search(r'href="\.\./method/method\.html"><span>Method</span>', page)
+    assert not re.search(r"\.md</(?:span|code)></a>", page)
+
+
 def test_the_reference_has_every_public_name(inventory) -> None:
     own = {name: getattr(shapeviz_report, name) for name in shapeviz_report.__all__ if name != "__version__"}
     public = {f"{thing.__module__}.{name}" for name, thing in own.items() if name != "ShapeDescriptors"}
