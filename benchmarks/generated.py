@@ -77,6 +77,8 @@ FEATURES = ("Gc", "Agd", "Nd", "Na", "Pa")
 """Those that take least room; all of them are 2705 values a shape."""
 DRAWN = 2000
 """Different drawings; each picture has bytes of its own nevertheless."""
+EMPTY = 0.67
+"""Bins of histograms of many dimensions that hold nothing, as of psb14: how well rows pack hangs on that."""
 RATED = 1000
 """Shapes whose quality is computed; the others have the figures of one of these."""
 SCORED = 4
@@ -323,6 +325,8 @@ def _features(
     parts = []
     for block in blocks:
         prototypes = random.gamma(0.5, 1, (codes.max() + 1, block.width)).astype(np.float32)
+        if block.dimensions > 1 and block.bins > 1:
+            prototypes[random.random(prototypes.shape) < EMPTY] = 0
         values = prototypes[codes] * random.gamma(4, 0.25, (len(codes), block.width)).astype(np.float32)
         if block.bins > 1:
             shares = values.reshape(len(codes), block.dimensions, block.bins) + np.float32(1e-6)
