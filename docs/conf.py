@@ -50,6 +50,7 @@ html_css_files = ["docs.css"]
 html_extra_path = ["../build/live"]
 html_context = {"default_mode": "auto"}
 html_copy_source = False
+html_show_search_summary = False  # a page that is opened from its folder may not read others
 html_show_sourcelink = False
 html_sidebars = {"index": [], "gallery": [], "tutorial": []}
 html_theme_options = {
