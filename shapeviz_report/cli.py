@@ -430,7 +430,11 @@ def _check(options: argparse.Namespace) -> int:
     config = load_config(options.database, _given(options), options.config)
     if options.list:
         database = read_database(
-            options.database, layout=config.layout, labeling=config.labeling, outside=config.outside
+            options.database,
+            layout=config.layout,
+            labeling=config.labeling,
+            outside=config.outside,
+            besides=(*config.external, *config.coordinates),
         )
         _say(*(shape.id for shape in database.shapes))
         return 0

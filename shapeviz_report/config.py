@@ -130,7 +130,7 @@ class Config:
     )
     single_file: bool = _machine_option(
         False,
-        "write one HTML file, to be mailed, instead of a folder: OUT is its name; it holds no 3D models",
+        "write one HTML file, to be mailed, instead of a folder: OUT is its name; it holds no 3D models and no glTF",
     )
     outside: bool = _machine_option(
         False,

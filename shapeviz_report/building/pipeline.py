@@ -150,7 +150,8 @@ def build_report(
                 chain.add(stages.DESCRIBE_WHOLE, [stages.PREPARE])
             return chain, files
 
-        exports: list[stages.Stage[Any]] = [stages.EXPORT] if config.gltf is not None else []
+        # a site in one file has no place for them
+        exports: list[stages.Stage[Any]] = [stages.EXPORT] if config.gltf and not config.single_file else []
         described: list[stages.Stage[Any]] = [
             stages.DESCRIBE,
             *([stages.DESCRIBE_WHOLE] if preset.whole else []),

@@ -23,6 +23,7 @@ from reports import (
     with_clusters,
     with_columns,
     with_copies,
+    with_exported,
     with_external,
     with_models,
     with_own_map,
@@ -81,8 +82,10 @@ SITES = {
     "no labels": lambda: make_report([None, None], 12),
     "clusters": lambda: with_clusters(make_report([None] * 4, 8, features=FEATURES[:3])),
     "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),
-    "own map": lambda: with_own_map(
-        with_search(make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES))
+    "own map": lambda: with_exported(
+        with_own_map(
+            with_search(make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES))
+        )
     ),
     "searched": lambda: with_search(
         make_report([f"kind {letter}" for letter in "abcde"], 10, features=FEATURES)

@@ -556,3 +556,17 @@ def test_where_two_shapes_differ_is_seen_on_both(shape):
     page.click("#beside-close")
     eventually(page, lambda: "beside" not in address(page))
     assert page.locator("#beside").is_hidden()
+
+
+def test_the_surface_can_be_taken_away(open_page, reports):
+    report = reports("own map")
+    shape = report.shapes[7]
+    page = open_page("own map", f"shape.html#id={shape.id.replace('/', '%2F')}")
+    link = page.get_by_text("Download the surface (glTF)")
+    eventually(page, lambda: link.count() == 1)
+    assert link.get_attribute("download") == f"{shape.id.replace('/', '-')}.glb"
+    assert link.get_attribute("href") == f"gltf/{report.exported.names[7]}"
+    page.locator("#maps").get_by_text("drawer").click()
+    eventually(
+        page, lambda: "The places on the drawer map were brought along" in page.locator("#nh").inner_text()
+    )
