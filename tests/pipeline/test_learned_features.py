@@ -35,7 +35,7 @@ def test_views_of_shapes_become_a_feature_of_a_site(database, cache, tmp_path) -
     np.savez(file, **{name: rows[shuffled] for name, rows in arrays.items()})
 
     report = shapeviz_report.build(shapes, tmp_path / "site", external=[file], cache=cache, **OPTIONS)
-    assert [failure.path.name for failure in report.failures] == ["broken.off"]
+    assert [failure.path for failure in report.failures] == ["ring/broken.off"]
     own = report.features.values[:, report.features.slice_of("views")]
     row_of = dict(zip(arrays["shape_ids"].tolist(), arrays["values"], strict=True))
     np.testing.assert_allclose(own, [row_of[shape.id] for shape in report.shapes], rtol=1e-6)
