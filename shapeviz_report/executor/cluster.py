@@ -82,6 +82,7 @@ class DaskExecutor:
         check: Callable[[], Any],
     ) -> None:
         try:
+            import dask
             from distributed import Client
         except ImportError as error:
             raise ConfigError(
@@ -90,7 +91,9 @@ class DaskExecutor:
         self.limits = (time_limit, memory_limit)
         self._expected = (fingerprint, fingerprint(), check)
         try:
-            self._client = Client(address, timeout=ANSWER_TIME, set_as_default=False)
+            # A client keeps its last messages for developers, a thousand of up to a megabyte: ours hold mesh files.
+            with dask.config.set({"distributed.admin.low-level-log-length": 0}):
+                self._client = Client(address, timeout=ANSWER_TIME, set_as_default=False)
         except (OSError, ValueError, TypeError, MemoryError, ImportError) as error:
             # Dask says so of schemes that it knows and cannot use here; another service's answer is read as a size
             raise ClusterError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import platform
 import signal
@@ -10,6 +11,7 @@ from functools import partial
 
 import pytest
 from cluster import lack_something, running_cluster
+from distributed.protocol import Serialized
 
 from shapeviz_report.errors import ClusterError
 from shapeviz_report.executor import cluster as module
@@ -59,6 +61,14 @@ def test_a_worker_that_can_draw_takes_part(address) -> None:
         address, 60, None, platform.python_version, partial(check_renderer, "osmesa")
     ) as executor:
         assert [outcome.value for outcome in executor.run(divmod, [(7, 2)])] == [(3, 1)]
+
+
+def test_what_was_sent_is_not_kept(address) -> None:
+    with DaskExecutor(address, 60, None, platform.python_version, os.getpid) as executor:
+        for outcome in executor.run(len, [(bytes(300_000),)] * 60):
+            assert outcome.value == 300_000
+        gc.collect()
+        assert sum(isinstance(item, Serialized) for item in gc.get_objects()) < 10
 
 
 def test_a_killed_worker_loses_nothing(tmp_path) -> None:
