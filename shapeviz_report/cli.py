@@ -62,6 +62,7 @@ GROUPS = {
         "gltf",
         "gltf_values",
         "parquet",
+        "clay",
         "single_file",
         "up",
         "thumbnail_size",

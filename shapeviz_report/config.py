@@ -128,6 +128,9 @@ class Config:
         True,
         "whether the site holds a 3D model of every shape, to be turned in the browser: some 80 kB a shape",
     )
+    clay: bool = _option(
+        False, "draw all shapes in one clay, also those whose files have colours or textures"
+    )
     single_file: bool = _machine_option(
         False,
         "write one HTML file, to be mailed, instead of a folder: OUT is its name; it holds no 3D models and no glTF",

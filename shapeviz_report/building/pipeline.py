@@ -138,7 +138,9 @@ def build_report(
             chain.add(stages.FACTS, [stages.PREPARE])
             chain.add(stages.EXAMINE)
             chain.add(stages.VIEW, [stages.PREPARE], config.up)
-            chain.add(stages.RENDER, [stages.PREPARE, stages.VIEW], config.thumbnail_size, renderer)
+            chain.add(
+                stages.RENDER, [stages.PREPARE, stages.VIEW], config.thumbnail_size, renderer, config.clay
+            )
             if edges is None:
                 chain.add(stages.SAMPLE, [stages.PREPARE], share)
             else:

@@ -238,9 +238,9 @@ def view_shape(prepared: bytes, up: UpAxis | None) -> bytes:
     return _pack_array(choose_view(_unpack(prepared), up or read_facts(tell_facts(prepared)).up))
 
 
-def render_shape(prepared: bytes, view: bytes, size: int, renderer: Renderer) -> bytes:
+def render_shape(prepared: bytes, view: bytes, size: int, renderer: Renderer, clay: bool) -> bytes:
     """The thumbnail of a prepared shape, as :func:`view_shape` found it: a WebP image of ``size`` x ``size`` pixels."""
-    return render_thumbnail(_unpack(prepared), read_array(view), size=size, renderer=renderer)
+    return render_thumbnail(_unpack(prepared), read_array(view), size=size, renderer=renderer, clay=clay)
 
 
 def paint_shape(
@@ -506,9 +506,8 @@ def fingerprint() -> str:
 
 
 def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:
-    buffer = io.BytesIO()
-    np.savez(buffer, vertices=mesh.vertices, faces=mesh.faces, note=np.array(json.dumps(note)))
-    return buffer.getvalue()
+    arrays = {} if mesh.colors is None else {"colors": mesh.colors}
+    return _pack_arrays(vertices=mesh.vertices, faces=mesh.faces, note=np.array(json.dumps(note)), **arrays)
 
 
 def _unpack(prepared: bytes) -> Mesh:
@@ -517,7 +516,7 @@ def _unpack(prepared: bytes) -> Mesh:
         note = json.loads(str(archive["note"]))
         if "refused" in note:
             raise MeshError(note["refused"])
-        return Mesh(archive["vertices"], archive["faces"])
+        return Mesh(archive["vertices"], archive["faces"], colors=archive.get("colors"))
 
 
 def _pack_arrays(**arrays: np.ndarray) -> bytes:

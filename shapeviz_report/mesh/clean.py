@@ -53,20 +53,9 @@ def clean(mesh: Mesh) -> tuple[Mesh, dict[str, int]]:
         if count:
             repairs[what] = int(count)
 
-    vertices = np.asarray(mesh.vertices, dtype=np.float64)
-    faces = np.asarray(mesh.faces, dtype=np.int64)
-    finite: BoolArray = np.isfinite(vertices)
-    usable = np.all(finite, axis=1)
-    kept = usable[faces].all(axis=1)
+    scaled, kept, used = in_diagonals(mesh)
+    faces = np.asarray(mesh.faces, dtype=np.int64)[kept]
     note("faces with non-finite coordinates dropped", (~kept).sum())
-    faces = faces[kept]
-    if len(faces) == 0:
-        raise MeshError("no face has finite coordinates")
-
-    used = np.zeros(len(vertices), dtype=bool)
-    used[faces] = True
-    scaled = np.zeros_like(vertices)
-    scaled[used] = _in_diagonals(vertices[used])
 
     faces, welded = _weld(scaled, faces, used)
     note("vertices welded", welded)
@@ -126,6 +115,27 @@ def bounding_diagonal(mesh: Mesh) -> float:
     corners = mesh.vertices[mesh.faces]
     extent = np.ptp(corners[np.isfinite(corners).all(axis=(1, 2))].reshape(-1, 3), axis=0)
     return float(extent.max() * np.linalg.norm(extent / extent.max()))
+
+
+def in_diagonals(mesh: Mesh) -> tuple[FloatArray, BoolArray, BoolArray]:
+    """The vertices of a mesh as it was read where :func:`clean` has them, which of its faces are finite, and which
+    vertices these use; of the others nothing is known.
+
+    Raises
+    ------
+    MeshError
+        No face is finite, or the mesh is too large or too small.
+    """
+    vertices = np.asarray(mesh.vertices, dtype=np.float64)
+    usable: BoolArray = np.all(np.isfinite(vertices), axis=1)
+    kept: BoolArray = np.all(usable[mesh.faces], axis=1)
+    if not kept.any():
+        raise MeshError("no face has finite coordinates")
+    used = np.zeros(len(vertices), dtype=bool)
+    used[mesh.faces[kept]] = True
+    scaled = np.zeros_like(vertices)
+    scaled[used] = _in_diagonals(vertices[used])
+    return scaled, kept, used
 
 
 def _in_diagonals(vertices: FloatArray) -> FloatArray:

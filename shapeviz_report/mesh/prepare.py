@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
-from shapeviz_report.mesh.clean import bounding_diagonal, clean, count_components, is_watertight
+from shapeviz_report.mesh.clean import bounding_diagonal, clean, count_components, in_diagonals, is_watertight
 from shapeviz_report.mesh.closest import largest_distance
-from shapeviz_report.mesh.read import content_hash, parse_mesh
+from shapeviz_report.mesh.paint import Paint, bake
+from shapeviz_report.mesh.read import content_hash, parse_painted
 from shapeviz_report.mesh.remesh import MOST_VERTICES, affordable_edge_length, remesh, surface_size
 from shapeviz_report.mesh.sampling import sample_surface
 from shapeviz_report.types import FloatArray, Mesh, ShapeFacts
@@ -51,7 +54,7 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
     MeshError
         The file cannot be read, has no surface, cannot be remeshed, or the result strays from the input.
     """
-    original = parse_mesh(files)
+    original, paint = parse_painted(files)
     cleaned, repairs = clean(original)
     parts = count_components(len(cleaned.vertices), cleaned.faces)
     if parts > MAX_PARTS:
@@ -73,6 +76,7 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
             f"remeshing moved its surface by {distance:.1%} of the diagonal, more than {MAX_DEVIATION:.0%}; its parts "
             "may be thinner than an edge, or lie apart far off"
         )
+    colors = None if paint is None else _find_colors(original, paint, remeshed, repairs)
     unit = bounding_diagonal(original)
     watertight = is_watertight(cleaned.faces)
     facts = ShapeFacts(
@@ -90,7 +94,27 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
         extents=tuple((np.ptp(cleaned.vertices, axis=0) * unit).tolist()),
         up=original.up,
     )
-    return normalise(remeshed), facts
+    return replace(normalise(remeshed), colors=colors), facts
+
+
+def _find_colors(
+    original: Mesh, paint: Callable[[], Paint], prepared: Mesh, repairs: dict[str, int]
+) -> npt.NDArray[np.uint8] | None:
+    """The colours (n, 3) of a mesh as it was read at the vertices of the one that it became; None if they say nothing,
+    or cannot be read. No mesh fails for its colours: what they lack is noted."""
+    try:
+        found = paint()
+    except MemoryError:
+        raise
+    except Exception:  # what is broken in them may make their reader fail in any way
+        repairs["colours that cannot be read left out"] = 1
+        return None
+    if found.lost:
+        repairs["pictures of its surface left out, which are missing or cannot be read"] = found.lost
+    if found.is_plain:
+        return None
+    vertices, finite, _ = in_diagonals(original)
+    return bake(found.of(np.flatnonzero(finite)), vertices[original.faces[finite]], prepared)
 
 
 def _remesh_closer(mesh: Mesh, edge_length: float) -> tuple[Mesh, float, str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -13,8 +13,10 @@ import numpy as np
 from shapeviz_report.database.formats import PACKED, format_of, is_read, split_name, suffix_of, why_not_read
 from shapeviz_report.errors import MeshError
 from shapeviz_report.files import MOST_BYTES, TooLargeError, read_regular
-from shapeviz_report.mesh.readers import READERS
-from shapeviz_report.mesh.readers.gltf import list_buffers, read_gltf
+from shapeviz_report.mesh.looks import collect_looks
+from shapeviz_report.mesh.paint import Paint
+from shapeviz_report.mesh.readers import READERS, READERS_OF_SEVERAL
+from shapeviz_report.mesh.readers.gltf import list_buffers
 from shapeviz_report.mesh.readers.limits import check_faces
 from shapeviz_report.mesh.readers.packed import GLTF, unpack
 from shapeviz_report.mesh.readers.polygons import PolygonMesh, check_indices, triangulate
@@ -85,11 +87,17 @@ def collect_files(path: Path, within: Path | None = None) -> dict[str, bytes]:
                 raise MeshError(f"it refers to {name[:100]!r}, which is not a file in its own folder")
             files[name] = _read_bytes(folder / name, left)
             left -= len(files[name])
-    return files
+    looks = collect_looks(path.parent, within or path.parent, split_name(path.name)[1], files[path.name])
+    return files | {name: content for name, content in looks.items() if name not in files}
 
 
 def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
-    """The triangles of a mesh.
+    """The triangles of a mesh; see :func:`parse_painted`."""
+    return parse_painted(files)[0]
+
+
+def parse_painted(files: Mapping[str, bytes]) -> tuple[Mesh, Callable[[], Paint] | None]:
+    """The triangles of a mesh, and what reads the colours of their corners (m, 3), if it has any.
 
     Polygons are triangulated, and the parts of a scene are put together where their transformations place
     them. Nothing else is done: no vertex is merged or removed, and nothing is validated except that every
@@ -102,8 +110,9 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
 
     Returns
     -------
-    Mesh
+    mesh : Mesh
         At least one face.
+    paint : callable or None
 
     Raises
     ------
@@ -128,7 +137,8 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
             polygons = _read_polygons(suffix, data, files)
             check_indices(polygons.vertices, polygons.corners)
             check_faces(int(np.maximum(polygons.sizes - 2, 0).sum()))
-            vertices, faces = polygons.vertices, triangulate(polygons)
+            vertices, triangles = polygons.vertices, triangulate(polygons)
+            faces = polygons.corners[triangles]
         if not len(faces):
             raise MeshError("it has vertices, but no faces" if len(vertices) else "it has no faces")
     except (MemoryError, ImportError):  # the machine's fault, not the file's
@@ -145,11 +155,13 @@ def parse_mesh(files: Mapping[str, bytes]) -> Mesh:
             f"it is damaged, cut off, or not {format} at all{_explanation(error)}; "
             "open it in the program it comes from, and export it anew"
         ) from error
-    return Mesh(
+    mesh = Mesh(
         vertices=np.ascontiguousarray(vertices, dtype=np.float64),
         faces=np.ascontiguousarray(faces, np.int32),
         up=polygons.up,
     )
+    paint = polygons.paint
+    return mesh, None if paint is None else lambda: paint().of(triangles)
 
 
 def content_hash(files: Mapping[str, bytes]) -> str:
@@ -161,7 +173,9 @@ def content_hash(files: Mapping[str, bytes]) -> str:
 
 
 def _read_polygons(suffix: str, data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
-    return READERS[suffix](data) if suffix in READERS else read_gltf(data, files)
+    if suffix in READERS_OF_SEVERAL:
+        return READERS_OF_SEVERAL[suffix](data, files)
+    return READERS[suffix](data)
 
 
 def _explanation(error: Exception) -> str:

@@ -34,6 +34,15 @@ _OCCLUSION_STRENGTH = 1.25
 _OCCLUSION_BIAS = 0.03  # of the radius: a surface does not darken itself
 _OCCLUSION_SAMPLES = 10
 
+_DARKEST, _BRIGHTEST = 0.03, 0.72
+"""What black and white reflect: so much that light and shade are seen on either, and both on any page."""
+
+
+def reflect(colors: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
+    """Linear reflectance of sRGB colours in [0, 1], between that of black and that of white things (IEC 61966-2-1)."""
+    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+    return (_DARKEST + (_BRIGHTEST - _DARKEST) * linear).astype(np.float32)
+
 
 def shade(
     depth: npt.NDArray[np.float32],

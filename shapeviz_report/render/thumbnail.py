@@ -12,7 +12,7 @@ from shapeviz_report.compilation import kernel
 from shapeviz_report.render.camera import frame
 from shapeviz_report.render.normals import split_at_creases
 from shapeviz_report.render.rasteriser import Renderer, rasterise
-from shapeviz_report.render.shading import CLAY, shade
+from shapeviz_report.render.shading import CLAY, reflect, shade
 from shapeviz_report.types import FloatArray, Mesh
 
 WEBP_QUALITY = 84
@@ -34,9 +34,9 @@ _SRGB = _encode_srgb()
 
 
 def render_thumbnail(
-    mesh: Mesh, view: FloatArray, *, size: int = 320, renderer: Renderer = "osmesa"
+    mesh: Mesh, view: FloatArray, *, size: int = 320, renderer: Renderer = "osmesa", clay: bool = False
 ) -> bytes:
-    """Draw a shape on nothing.
+    """Draw a shape on nothing, in its colours if it has some.
 
     The same mesh and view give the same bytes, in any process.
 
@@ -50,6 +50,8 @@ def render_thumbnail(
         Width and height in pixels.
     renderer : {"osmesa", "zbuffer"}
         As :data:`~shapeviz_report.render.rasteriser.RENDERERS` has them; each gives bytes of its own.
+    clay : bool
+        Draw it as if it had no colours.
 
     Returns
     -------
@@ -66,6 +68,9 @@ def render_thumbnail(
     camera_normals = surface.normals @ camera.rotation.T
     buffers = rasterise(surface.positions, surface.faces, (camera_normals + 1.0) / 2.0, camera, renderer)
     albedo = np.broadcast_to(np.array(CLAY, np.float32), buffers.values.shape)
+    if mesh.colors is not None and not clay:
+        colors = mesh.colors[surface.source] / 255
+        albedo = reflect(rasterise(surface.positions, surface.faces, colors, camera, renderer).values)
     return encode_webp(shade(buffers.depth, buffers.values * 2.0 - 1.0, albedo, camera))
 
 

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+import numpy.typing as npt
+
 from shapeviz_report.types.arrays import FloatArray, IntArray
 
 UpAxis = Literal["x", "y", "z"]
@@ -23,11 +26,14 @@ class Mesh:
         Vertex indices, counter-clockwise seen from outside.
     up : {"x", "y", "z"} or None
         The axis that points up, if the file that it was read from says so.
+    colors : (n, 3) uint8 array or None
+        sRGB of each vertex of a prepared mesh, if the file has colours.
     """
 
     vertices: FloatArray
     faces: IntArray
     up: UpAxis | None = None
+    colors: npt.NDArray[np.uint8] | None = None
 
 
 @dataclass(frozen=True)

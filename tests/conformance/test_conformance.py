@@ -14,7 +14,7 @@ from shapeviz_report.database.formats import MESH_FORMATS, is_unread_mesh, suffi
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.clean import clean, count_components
 from shapeviz_report.mesh.read import read_mesh
-from shapeviz_report.mesh.readers import READERS
+from shapeviz_report.mesh.readers import READERS, READERS_OF_SEVERAL
 
 HERE = Path(__file__).parent
 DOCUMENT = HERE.parents[1] / "docs" / "using" / "formats.md"
@@ -55,7 +55,9 @@ def documented() -> dict[tuple[str, str], tuple[str, str]]:
 def test_every_format_has_a_name_a_reader_and_cases() -> None:
     for suffix in sorted({suffix_of(case.file_name) for case in CASES}):
         assert suffix in MESH_FORMATS, f"name {suffix} in MESH_FORMATS of database/formats.py"
-        assert suffix in {*READERS, ".gltf", ".glb"}, f"name {suffix} in READERS of mesh/readers/__init__.py"
+        assert suffix in {*READERS, *READERS_OF_SEVERAL}, (
+            f"name {suffix} in READERS of mesh/readers/__init__.py"
+        )
         assert not is_unread_mesh(f"mesh{suffix}"), (
             f"{suffix} is read: take it out of _UNREAD_FORMATS of formats.py"
         )

@@ -153,7 +153,7 @@ def test_what_runs_is_reached() -> None:
         prepared = call("PREPARE", files, 0.05)
         call("FACTS", prepared)
         view = call("VIEW", prepared, None)
-        call("RENDER", prepared, view, 64, "osmesa")
+        call("RENDER", prepared, view, 64, "osmesa", False)
         edges = fixed_edges()
         call("SAMPLE", prepared, 20)
         call("DESCRIBE", prepared, view, edges, True, 100)

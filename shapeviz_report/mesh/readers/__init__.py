@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from shapeviz_report.mesh.readers.collada import read_collada
+from shapeviz_report.mesh.readers.gltf import read_gltf
 from shapeviz_report.mesh.readers.obj import read_obj
 from shapeviz_report.mesh.readers.off import read_off
 from shapeviz_report.mesh.readers.ply import read_ply
@@ -14,11 +15,17 @@ from shapeviz_report.mesh.readers.threemf import read_3mf
 
 READERS: dict[str, Callable[[bytes], PolygonMesh]] = {
     ".off": read_off,
-    ".obj": read_obj,
     ".ply": read_ply,
     ".stl": read_stl,
     ".3mf": read_3mf,
     ".dae": read_collada,
 }
-"""Suffix -> what reads the content of such a file. glTF, which may have its buffers in other files, has a signature of
-its own: :func:`shapeviz_report.mesh.readers.gltf.read_gltf`."""
+"""Suffix -> what reads the content of such a file. OBJ and glTF, parts of which may be in other files, have a signature
+of their own."""
+
+READERS_OF_SEVERAL: dict[str, Callable[[bytes, Mapping[str, bytes]], PolygonMesh]] = {
+    ".obj": read_obj,
+    ".gltf": read_gltf,
+    ".glb": read_gltf,
+}
+"""Suffix -> what reads the content of such a file, and of others by their names in it."""

@@ -7,6 +7,8 @@ import json
 import re
 from base64 import b64decode
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import PurePosixPath
 from typing import Any
 from urllib.parse import unquote, unquote_to_bytes, urlsplit
@@ -15,11 +17,12 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.paint import MOST_PICTURES, Paint, from_light, read_picture
 from shapeviz_report.mesh.readers.draco import decode_draco
 from shapeviz_report.mesh.readers.limits import check_faces, check_json, check_unpacked
 from shapeviz_report.mesh.readers.meshopt import decode_meshopt
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, cut_fan, cut_strip
-from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, place_nodes
+from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, join_values, place_nodes
 from shapeviz_report.types import FloatArray
 
 _BINARY_MAGIC = b"glTF"
@@ -159,6 +162,25 @@ def list_buffers(data: bytes) -> list[str]:
         raise MeshError("it is not glTF, or damaged: its buffers are not listed as they should be") from error
 
 
+def list_pictures(data: bytes) -> list[str]:
+    """The paths, below the file's folder, of the pictures of a glTF; none of what does not list them as it should."""
+    if b'"images"' not in data:
+        return []
+    try:
+        images = [image.get("uri") for image in read_header(data).get("images", [])]
+        return [_picture_name(uri) for uri in images if isinstance(uri, str) and not _is_data(uri)]
+    except (MeshError, AttributeError, TypeError, ValueError):
+        return []
+
+
+def _picture_name(uri: str) -> str:
+    return unquote(uri).replace("\\", "/")
+
+
+def _may_have_color(primitive: Document) -> bool:
+    return "material" in primitive or "COLOR_0" in primitive["attributes"]
+
+
 def _is_data(uri: str) -> bool:
     return uri[:5].lower() == "data:"
 
@@ -196,6 +218,12 @@ class _Reader:
                     f"{len(content):,}"
                 )
             self.buffers.append(content)
+        self.files = files
+        self.sources: list[tuple[Document, Indices]] = []
+        """The primitive of every part, and which rows of its attributes its vertices are."""
+        self.pictures: dict[int, int] = {}
+        """Number of an image -> its place among ``images``; -1 for one that cannot be used."""
+        self.images: list[npt.NDArray[np.uint8]] = []
         self.unpacked: dict[int, npt.NDArray[np.generic]] = {}
         """The elements of accessors that were compressed with Draco."""
         self.views: dict[int, bytes] = {}
@@ -214,7 +242,12 @@ class _Reader:
             parts = [part for mesh in meshes for part in self.read_mesh(mesh, [], np.eye(4)[None])]
         else:
             parts = self.read_scene()
-        return PolygonMesh.of_triangles(*join_parts(parts), up="y")
+        vertices, faces = join_parts(parts)
+        looks = [primitive for primitive, _ in self.sources if _may_have_color(primitive)]
+        return replace(
+            PolygonMesh.of_triangles(vertices, faces, up="y"),
+            paint=partial(self.paint, parts, faces.ravel()) if looks else None,
+        )
 
     # scene
 
@@ -412,6 +445,7 @@ class _Reader:
                 f"a face refers to vertex {corners.max()} (counted from 0), but there are {count} vertices"
             )
         rows, corners = _used_rows(corners, count)
+        self.sources.append((primitive, rows))
         faces = _cut_triangles(corners, primitive.get("mode", _TRIANGLES))
         points = self.values(attributes["POSITION"], rows, 3)
         for weight, target in zip(weights, primitive.get("targets", [])):
@@ -449,6 +483,71 @@ class _Reader:
         if _COMPONENTS.get(accessor["componentType"], np.dtype("f4")).kind != "u":
             raise MeshError("the indices of a primitive are no unsigned whole numbers")
         return self.values(number, np.arange(_whole(accessor["count"])), 1)[:, 0].astype(np.int64)
+
+    # colours
+
+    def paint(self, parts: Sequence[Part], corners: Indices) -> Paint:
+        """The colours of the corners, which are vertices of the joined parts."""
+        looks = [self.read_looks(primitive, rows) for primitive, rows in self.sources]
+        colors, places, pictures = (
+            join_values(parts, [one[column] for one in looks])[corners] for column in range(3)
+        )
+        lost = sum(place < 0 for place in self.pictures.values())
+        if not self.images:
+            return Paint(colors, lost=lost)
+        return Paint(colors, places, pictures, tuple(self.images), lost)
+
+    def read_looks(self, primitive: Document, rows: Indices) -> tuple[npt.NDArray[Any], ...]:
+        """Colour (k, 3), place in a picture (k, 2) and picture (k,) of a primitive's vertices (3.9.2)."""
+        material = self.entry("materials", primitive["material"]) if "material" in primitive else {}
+        base = material.get("pbrMetallicRoughness", {})
+        factor, texture = base.get("baseColorFactor", [1, 1, 1]), base.get("baseColorTexture")
+        older = material.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
+        if older is not None:
+            factor, texture = older.get("diffuseFactor", [1, 1, 1]), older.get("diffuseTexture")
+        light = np.broadcast_to(np.array(factor[:3], np.float64), (len(rows), 3))
+        attributes = primitive["attributes"]
+        if "COLOR_0" in attributes:
+            accessor = self.entry("accessors", attributes["COLOR_0"])
+            values = self.values(attributes["COLOR_0"], rows, _WIDTHS.get(accessor["type"], 0))[:, :3]
+            kind = _component(accessor)
+            unscaled = kind.kind == "u" and not accessor.get("normalized")
+            light = light * (values / np.iinfo(kind).max if unscaled else values)
+        picture, places = -1, np.zeros((len(rows), 2))
+        if texture is not None:
+            picture = self.find_picture(texture["index"])
+            moved = texture.get("extensions", {}).get("KHR_texture_transform", {})
+            name = f"TEXCOORD_{moved.get('texCoord', texture.get('texCoord', 0))}"
+            if name in attributes:
+                turn = moved.get("rotation", 0.0)
+                turned = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+                scaled = self.values(attributes[name], rows, 2) * np.array(moved.get("scale", [1, 1]))
+                places = scaled @ turned.T + np.array(moved.get("offset", [0, 0]))
+            else:
+                picture = -1
+        return from_light(light), places.astype(np.float32), np.full(len(rows), picture, np.int16)
+
+    def find_picture(self, texture: int) -> int:
+        """The place of a texture's picture among ``images``; -1 if it cannot be used."""
+        described = self.entry("textures", texture)
+        instead = described.get("extensions", {}).get("EXT_texture_webp", {})
+        number = described.get("source", instead.get("source", -1))
+        if number not in self.pictures:
+            picture = None if number == -1 else self.read_image(number)
+            fits = picture is not None and len(self.images) < MOST_PICTURES
+            self.pictures[number] = len(self.images) if fits else -1
+            if picture is not None and fits:
+                self.images.append(picture)
+        return self.pictures[number]
+
+    def read_image(self, number: int) -> npt.NDArray[np.uint8] | None:
+        image = self.entry("images", number)
+        uri = image.get("uri")
+        if uri is None:
+            content = self.region(self.entry("bufferViews", image["bufferView"]))
+        else:
+            content = _embedded(uri) if _is_data(uri) else self.files.get(_picture_name(uri), b"")
+        return read_picture(content)
 
     # accessors
 

@@ -1,4 +1,5 @@
-"""Wavefront OBJ: its vertices and polygons. Materials, texture coordinates, normals, lines and points are passed over.
+"""Wavefront OBJ: its vertices and polygons, and the colours of vertices or materials. Normals, lines and points are
+passed over.
 
 Trimesh splits vertices where texture coordinates or materials change, and takes relative indices from the end
 of the file instead of from where they stand; so OBJ is read here.
@@ -7,12 +8,15 @@ of the file instead of from where they stand; so OBJ is read here.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.paint import MOST_PICTURES, Paint, as_bytes, read_picture
+from shapeviz_report.mesh.readers.mtl import WHITE, Material, list_materials, read_materials
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh
 from shapeviz_report.mesh.readers.text import (
     Characters,
@@ -28,6 +32,7 @@ Mask = npt.NDArray[np.bool_]
 
 _CONTINUED = re.compile(r"\\[ \t]*\n")
 _TEXTURE_AND_NORMAL = re.compile(r"(?<=\d)/\S*")
+_POINTED = re.compile(r"[^\s/]+(?:/([-+]?\d+))?\S*")
 _FREE_FORM = frozenset({"surf", "bzp", "bsp", "cdp"})
 _OF_NUMBERS = frozenset(
     {
@@ -54,8 +59,14 @@ _OF_NUMBERS = frozenset(
 _INDEX_OR_NUMBER = re.compile(r"[-+.\d][-+.\de/]*", re.IGNORECASE)
 
 
-def read_obj(data: bytes) -> PolygonMesh:
+def read_obj(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     """Read OBJ.
+
+    Parameters
+    ----------
+    data : bytes
+    files : mapping of str to bytes
+        By the names in it: those of its materials and pictures that were found.
 
     Raises
     ------
@@ -71,6 +82,7 @@ def read_obj(data: bytes) -> PolygonMesh:
     vertex_rows, face_rows = (
         characters[np.repeat(is_row, lengths)].tobytes().decode("latin-1") for is_row in (is_vertex, is_face)
     )
+    pointed = face_rows
     if "/" in face_rows:
         face_rows = _TEXTURE_AND_NORMAL.sub("", face_rows)
     numbers, sizes = parse_indices(face_rows), count_words(face_rows)
@@ -80,11 +92,78 @@ def read_obj(data: bytes) -> PolygonMesh:
         raise MeshError("a face refers to vertex 0, but OBJ counts from 1")
     # -1 is the last vertex before the face
     relative = np.repeat(np.cumsum(is_vertex)[is_face], sizes) + numbers
+    corners = np.where(numbers > 0, numbers - 1, relative)
+
+    def paint() -> Paint:
+        if len(named) == 0:
+            return _paint_vertices(vertex_rows, corners)
+        return _paint_materials(lines, np.flatnonzero(is_face), pointed, sizes, files)
+
+    lines = _Lines(text, starts, ends)
+    named = [name for name in list_materials(data) if name in files]
+    width = count_words(vertex_rows[: vertex_rows.find("\n") + 1])
+    painted = bool(named) or (len(width) == 1 and width[0] in (6, 7))
     return PolygonMesh(
-        vertices=parse_columns(vertex_rows, 3),
-        corners=np.where(numbers > 0, numbers - 1, relative),
-        sizes=sizes,
+        vertices=parse_columns(vertex_rows, 3), corners=corners, sizes=sizes, paint=paint if painted else None
     )
+
+
+@dataclass(frozen=True)
+class _Lines:
+    """Where the lines of a text are."""
+
+    text: str
+    starts: Indices
+    ends: Indices
+
+    def find(self, keyword: str) -> Iterator[tuple[int, str]]:
+        """Number and rest of the lines that begin so."""
+        pattern = re.compile(rf"^[ \t]*{keyword}(?:[ \t]+(.*))?$", re.MULTILINE | re.IGNORECASE)
+        for match in pattern.finditer(self.text):
+            yield int(np.searchsorted(self.ends, match.start())), (match[1] or "").strip()
+
+
+def _paint_vertices(rows: str, corners: Indices) -> Paint:
+    """Colours that stand behind the positions of vertices, as parts of 1; some programs write them up to 255."""
+    values = parse_columns(rows, 6)[:, 3:]
+    return Paint(as_bytes(values, whole=bool((values > 1).any()))[corners])
+
+
+def _paint_materials(
+    lines: _Lines, faces: Indices, rows: str, sizes: Indices, files: Mapping[str, bytes]
+) -> Paint:
+    """The colours and pictures of materials, by the corners of faces: the numbers of their lines, the lines without
+    their keyword, and the numbers of their corners."""
+    materials: dict[str, Material] = {}
+    for _, rest in lines.find("mtllib"):
+        for name in list_materials(f"mtllib {rest}".encode()):
+            materials |= read_materials(files.get(name, b""))
+    uses = [(-1, ""), *lines.find("usemtl")]
+    of_face = np.searchsorted([line for line, _ in uses], faces) - 1
+    used = [materials.get(name, WHITE) for _, name in uses]
+    colors = np.array([material.color for material in used])[of_face]
+    images: list[npt.NDArray[np.uint8]] = []
+    place_of: dict[str, int] = {"": -1}
+    for name in dict.fromkeys(material.picture for material in used):
+        if name not in place_of:
+            picture = read_picture(files.get(name, b"")) if len(images) < MOST_PICTURES else None
+            place_of[name] = -1 if picture is None else len(images)
+            images += [] if picture is None else [picture]
+    lost = sum(place < 0 for name, place in place_of.items() if name)
+    if not images:
+        return Paint(np.repeat(colors, sizes, axis=0), lost=lost)
+    pictures = np.array([place_of[material.picture] for material in used], np.int16)[of_face]
+    written = list(lines.find("vt"))
+    points = np.array([[float(word) for word in [*rest.split(), "0", "0"][:2]] for _, rest in written])
+    before = np.searchsorted([line for line, _ in written], np.repeat(faces, sizes))
+    told = np.array([int(match[1] or 0) for match in _POINTED.finditer(rows)], np.int64)
+    # -1 is the last before the face, and 0 here none
+    index = np.where(told < 0, before + told, told - 1)
+    there = (index >= 0) & (index < len(points))
+    places = np.zeros((len(index), 2), np.float32)
+    places[there] = points[index[there]] * [1, -1] + [0, 1]
+    pictures = np.where(there, np.repeat(pictures, sizes), np.int16(-1))
+    return Paint(np.repeat(colors, sizes, axis=0), places, pictures, tuple(images), lost)
 
 
 def _find_rows(text: str, characters: Characters, starts: Indices, ends: Indices) -> tuple[Mask, Mask]:

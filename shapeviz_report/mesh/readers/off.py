@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.paint import Paint, as_bytes
 from shapeviz_report.mesh.readers.polygons import PolygonMesh, whole_numbers
 from shapeviz_report.mesh.readers.text import decode, parse_columns, parse_numbers, strip_comments
 from shapeviz_report.types import FloatArray
@@ -48,8 +50,10 @@ def read_off(data: bytes) -> PolygonMesh:
     lines = [line for line in body.split("\n") if line and not line.isspace()]
     if not prefix and (len(lines) != vertex_count + face_count):
         stream = _read_stream(parse_numbers(body), vertex_count, face_count)
-        return stream or _read_lines(lines, vertex_count, face_count)
-    return _read_triangles(body, vertex_count, face_count) or _read_lines(lines, vertex_count, face_count)
+        return stream or _read_lines(lines, vertex_count, face_count, prefix)
+    return _read_triangles(body, vertex_count, face_count) or _read_lines(
+        lines, vertex_count, face_count, prefix
+    )
 
 
 def _read_triangles(body: str, vertex_count: int, face_count: int) -> PolygonMesh | None:
@@ -91,7 +95,7 @@ def _read_stream(numbers: FloatArray, vertex_count: int, face_count: int) -> Pol
     )
 
 
-def _read_lines(lines: list[str], vertex_count: int, face_count: int) -> PolygonMesh:
+def _read_lines(lines: list[str], vertex_count: int, face_count: int, prefix: str) -> PolygonMesh:
     """Line by line: what follows a vertex's position or a face's corners is colour and the like."""
     announced = f"it announces {vertex_count} vertices and {face_count} faces, and has"
     if len(lines) < vertex_count + face_count:
@@ -100,6 +104,7 @@ def _read_lines(lines: list[str], vertex_count: int, face_count: int) -> Polygon
         raise MeshError(f"{announced} {len(lines)} lines: its header is wrong, or something was appended")
     sizes: list[int] = []
     corners: list[str] = []
+    rests: list[list[str]] = []
     for line in lines[vertex_count:]:
         size, *fields = line.split()
         number = float(size)
@@ -107,8 +112,30 @@ def _read_lines(lines: list[str], vertex_count: int, face_count: int) -> Polygon
             raise MeshError(f"a face announces {size} corners, but its line has {len(fields)}")
         sizes.append(int(number))
         corners.extend(fields[: sizes[-1]])
+        rests.append(fields[sizes[-1] :])
+    places = whole_numbers(parse_numbers(" ".join(corners)))
+    counted = np.array(sizes, dtype=np.int64)
+
+    def paint() -> Paint:
+        if "C" in prefix.upper():
+            # colours come after a vertex's position and its normal, if it has one
+            first = 3 + 3 * ("N" in prefix.upper())
+            texts = [line.split()[first : first + 3] for line in lines[:vertex_count]]
+            return Paint(_read_colors(texts)[places])
+        return Paint(np.repeat(_read_colors([rest[:3] for rest in rests]), counted, axis=0))
+
+    painted = "C" in prefix.upper() or any(len(rest) >= 3 for rest in rests)
     return PolygonMesh(
         vertices=parse_columns("".join(f"{line}\n" for line in lines[:vertex_count]), 3),
-        corners=whole_numbers(parse_numbers(" ".join(corners))),
-        sizes=np.array(sizes, dtype=np.int64),
+        corners=places,
+        sizes=counted,
+        paint=paint if painted else None,
     )
+
+
+def _read_colors(texts: list[list[str]]) -> npt.NDArray[np.uint8]:
+    """Colours (n, 3) as whole numbers to 255 or parts of 1, which their points tell; white where there is none."""
+    filled = [text if len(text) == 3 else ["1.0"] * 3 for text in texts]
+    parts = np.array([any("." in word for word in text) for text in filled])
+    values = np.array(filled, np.float64)
+    return np.where(parts[:, None], as_bytes(values, whole=False), as_bytes(values, whole=True))

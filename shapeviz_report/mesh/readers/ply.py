@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.paint import Paint, as_bytes
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, whole_numbers
 from shapeviz_report.mesh.readers.text import decode, parse_numbers, without_mark
 
@@ -29,6 +30,7 @@ _FIRST_LINE = re.compile(rb"ply[ \t]*(\r\n|\r|\n)", re.IGNORECASE)
 _MOST_HEADER = 2**20
 """Bytes within which a header ends."""
 _CORNER_NAMES = ("vertex_indices", "vertex_index")
+_COLOR_NAMES = (("red", "green", "blue"), ("r", "g", "b"), ("diffuse_red", "diffuse_green", "diffuse_blue"))
 _STRIP_NAMES = ("tristrips", "tristrip")
 
 
@@ -142,11 +144,34 @@ def read_ply(data: bytes) -> PolygonMesh:
     for name in contents.keys() - {"vertex", "face", "range_grid", *_STRIP_NAMES}:
         if any(contents[name][key][0].max() > 2 for key in contents[name].keys() & set(_CORNER_NAMES)):
             raise MeshError(f"its element {name[:40]} lists corners of faces, which are not read")
-    return PolygonMesh(
-        vertices,
-        corners=np.concatenate([np.empty(0, np.int64), *(corners for _, corners in polygons)]),
-        sizes=np.concatenate([np.empty(0, np.int64), *(sizes for sizes, _ in polygons)]),
+    all_corners = np.concatenate([np.empty(0, np.int64), *(corners for _, corners in polygons)])
+    all_sizes = np.concatenate([np.empty(0, np.int64), *(sizes for sizes, _ in polygons)])
+    kinds = {listed.name: listed.kind for element in elements for listed in element.properties}
+
+    def paint() -> Paint:
+        if of_vertices := _colors(contents["vertex"], kinds):
+            return Paint(of_vertices[0][all_corners])
+        (of_faces,) = _colors(contents["face"], kinds)
+        return Paint(np.repeat(of_faces, all_sizes, axis=0))
+
+    # strips have no faces whose colours there could be
+    painted = _has_colors(contents["vertex"]) or (
+        len(polygons) == 1 and _has_colors(contents.get("face", {}))
     )
+    return PolygonMesh(vertices, all_corners, all_sizes, paint=paint if painted else None)
+
+
+def _has_colors(columns: dict[str, Column]) -> bool:
+    return any(columns.keys() >= set(names) for names in _COLOR_NAMES)
+
+
+def _colors(columns: dict[str, Column], kinds: dict[str, str]) -> list[npt.NDArray[np.uint8]]:
+    """The colours of an element's rows, if it has some: those of the first names that are there."""
+    found = [names for names in _COLOR_NAMES if columns.keys() >= set(names)]
+    return [
+        as_bytes(np.column_stack([columns[name][1] for name in names]), whole=kinds[names[0]][0] != "f")
+        for names in found[:1]
+    ]
 
 
 def _check_rest(body: TextBody | BinaryBody, row: float | None) -> None:

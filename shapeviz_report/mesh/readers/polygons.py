@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.paint import Paint
 from shapeviz_report.mesh.readers.limits import check_corners
 from shapeviz_report.types import FloatArray, UpAxis
 
@@ -39,12 +40,16 @@ class PolygonMesh:
         Number of corners of each polygon; sums to ``k``.
     up : {"x", "y", "z"} or None
         The axis that points up, if the file or its format says so.
+    paint : callable or None
+        Gives the :class:`~shapeviz_report.mesh.paint.Paint` of all corners: whoever wants no colours need not have them
+        read. None if the file has none.
     """
 
     vertices: FloatArray
     corners: Indices
     sizes: Indices
     up: UpAxis | None = None
+    paint: Callable[[], Paint] | None = None
 
     @classmethod
     def of_triangles(cls, vertices: FloatArray, faces: Indices, up: UpAxis | None = None) -> PolygonMesh:
@@ -154,17 +159,17 @@ def triangulate(mesh: PolygonMesh) -> Indices:
     Returns
     -------
     (t, 3) int64 array
-        With the orientation of the polygons.
+        Places in ``mesh.corners``, with the orientation of the polygons.
     """
-    corners, sizes = _drop_repeated(mesh.corners, mesh.sizes)
+    kept, sizes = _drop_repeated(mesh.corners, mesh.sizes)
     check_corners(int(sizes.max(initial=0)))
     starts = np.cumsum(sizes) - sizes
     triangles = [np.empty((0, 3), np.int64)]
     owners = [np.empty(0, np.int64)]
     for size in np.unique(sizes[sizes >= 3]):
         which = np.flatnonzero(sizes == size)
-        polygons = corners[starts[which, None] + np.arange(size)]
-        triangles.append(_cut(mesh.vertices, polygons).reshape(-1, 3))
+        polygons = kept[starts[which, None] + np.arange(size)]
+        triangles.append(_cut(mesh.vertices, mesh.corners, polygons).reshape(-1, 3))
         owners.append(np.repeat(which, size - 2))
     if len(owners) == 2:
         return triangles[1]
@@ -173,22 +178,21 @@ def triangulate(mesh: PolygonMesh) -> Indices:
 
 
 def _drop_repeated(corners: Indices, sizes: Indices) -> tuple[Indices, Indices]:
-    """Polygons of more than three corners without those that are the same as the next."""
+    """Places of the corners without those, of polygons of more than three, that are the same as the next; and how many
+    each polygon keeps."""
     if not (sizes > 3).any():
-        return corners, sizes
+        return np.arange(len(corners)), sizes
     following = np.roll(corners, -1)
     filled = sizes > 0
     last = np.cumsum(sizes)[filled] - 1
     following[last] = corners[last - sizes[filled] + 1]
     repeated = (corners == following) & np.repeat(sizes > 3, sizes)
-    if not repeated.any():
-        return corners, sizes
     owners = np.repeat(np.arange(len(sizes)), sizes)
-    return corners[~repeated], np.bincount(owners[~repeated], minlength=len(sizes))
+    return np.flatnonzero(~repeated), np.bincount(owners[~repeated], minlength=len(sizes))
 
 
-def _cut(vertices: FloatArray, polygons: Indices) -> Indices:
-    """Triangles (p, s - 2, 3) of p polygons (p, s) of one size."""
+def _cut(vertices: FloatArray, corners: Indices, polygons: Indices) -> Indices:
+    """Triangles (p, s - 2, 3) of p polygons (p, s) of one size, places in ``corners``."""
     size = polygons.shape[1]
     if size == 3:
         return polygons[:, None, :]
@@ -197,7 +201,7 @@ def _cut(vertices: FloatArray, polygons: Indices) -> Indices:
     step = max(1, 2**20 // size)
     for first in range(0, len(polygons), step):
         piece = slice(first, first + step)
-        triangles[piece] = _cut_piece(vertices[polygons[piece]], polygons[piece])
+        triangles[piece] = _cut_piece(vertices[corners[polygons[piece]]], polygons[piece])
     return triangles
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.readers.limits import check_faces
@@ -115,6 +116,17 @@ def _children_first(nodes: Mapping[Key, Node[Key]], roots: Iterable[Key]) -> lis
             elif not done[child]:
                 raise MeshError("a node of its scene contains itself")
     return order
+
+
+def join_values(parts: Sequence[Part], values: Sequence[npt.NDArray[Any]]) -> npt.NDArray[Any]:
+    """Rows (n, ...) for the vertices of :func:`join_parts`, of rows for the vertices of each part."""
+    joined = []
+    for part, rows in zip(parts, values, strict=True):
+        if len(part.faces):
+            used = np.zeros(len(part.vertices), bool)
+            used[part.faces] = True
+            joined += [rows[used]] * len(part.transforms)
+    return np.concatenate(joined)
 
 
 def join_parts(parts: Iterable[Part]) -> tuple[FloatArray, Indices]:

@@ -16,7 +16,7 @@ def chain_of(identity: str, edge_length: float = 0.06) -> Chain:
     chain.add(stages.PREPARE, (), edge_length)
     chain.add(stages.FACTS, [stages.PREPARE])
     chain.add(stages.VIEW, [stages.PREPARE], None)
-    chain.add(stages.RENDER, [stages.PREPARE, stages.VIEW], 64, "zbuffer")
+    chain.add(stages.RENDER, [stages.PREPARE, stages.VIEW], 64, "zbuffer", False)
     return chain
 
 
@@ -38,7 +38,7 @@ def test_stages_take_what_earlier_ones_made_and_only_what_is_wanted_comes_back()
     assert list(done.cpu_seconds) == ["prepared", "facts", "viewed", "rendered"]
     one_by_one = stages.prepare_shape(BALL, 0.06)
     view = stages.view_shape(one_by_one, None)
-    assert done.results["rendered"] == stages.render_shape(one_by_one, view, 64, "zbuffer")
+    assert done.results["rendered"] == stages.render_shape(one_by_one, view, 64, "zbuffer", False)
 
 
 def test_what_is_there_is_not_done_again():

@@ -6,6 +6,7 @@ import hashlib
 import io
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -128,3 +129,18 @@ def test_parts_that_do_not_touch_are_all_in_the_picture():
     alpha = pixels(as_mesh(apart))[..., 3]
     columns = (alpha > 127).any(axis=0)
     assert np.count_nonzero(np.diff(columns.astype(int)) == 1) == 2
+
+
+@pytest.mark.parametrize("renderer", ["osmesa", "zbuffer"])
+def test_a_shape_is_drawn_in_its_colours_unless_clay_is_asked_for(renderer) -> None:
+    view = choose_view(TORUS)
+    blue = replace(TORUS, colors=np.tile(np.array([30, 60, 230], np.uint8), (len(TORUS.vertices), 1)))
+    plain = render_thumbnail(TORUS, view, size=64, renderer=renderer)
+    assert render_thumbnail(blue, view, size=64, renderer=renderer, clay=True) == plain
+    drawn = np.asarray(Image.open(io.BytesIO(render_thumbnail(blue, view, size=64, renderer=renderer))), int)
+    clay = np.asarray(Image.open(io.BytesIO(plain)), int)
+    inside = clay[..., 3] > 250
+    assert (np.abs(drawn[..., 3] - clay[..., 3]) <= 1).all()
+    red, _, light = drawn[inside][:, :3].T
+    assert (light > red).all()
+    assert (clay[inside][:, 0] > clay[inside][:, 2]).mean() > 0.9

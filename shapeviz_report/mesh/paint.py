@@ -1,0 +1,192 @@
+"""The colours of a surface: as files have them, at corners and in pictures; and at the vertices of a prepared mesh.
+
+A prepared mesh has vertices of its own. Each takes the colour of the closest point of the surface that was read, so
+that one colour a vertex is all that pictures and models need to know.
+"""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
+from shapeviz_report.mesh.closest import find_closest
+from shapeviz_report.types import FloatArray, Mesh
+
+Bytes = npt.NDArray[np.uint8]
+Indices = npt.NDArray[np.int64]
+
+MOST_PIXELS = 2**26
+"""Of a picture in a file; it is unpacked at once."""
+
+SIDE = 1024
+"""Pixels of a picture's longer side that are kept: as fine as pictures of shapes can show."""
+
+MOST_PICTURES = 256
+"""Pictures of one surface that are unpacked."""
+
+INWARDS = 0.25
+"""How far inside a face its colour is taken, of the way from a corner to the middle."""
+
+_FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TGA")
+
+GREYS = 8
+"""Steps of 255 by which the channels of a colour may differ that says nothing: the grey or white of a program."""
+
+
+@dataclass(frozen=True)
+class Paint:
+    """What colours a surface, corner by corner.
+
+    Attributes
+    ----------
+    colors : (k, 3) uint8 array
+        sRGB, of every corner; what a picture has there is multiplied by it, as light.
+    places : (k, 2) float32 array or None
+        Where in its picture each corner is: from left to right and from top to bottom, 1 the whole; repeated beyond.
+    pictures : (k,) int16 array or None
+        The picture of each corner; -1 for none.
+    images : tuple of (h, w, 3) uint8 arrays
+    lost : int
+        How many pictures the file names and none was found, or none that can be used.
+    """
+
+    colors: Bytes
+    places: npt.NDArray[np.float32] | None = None
+    pictures: npt.NDArray[np.int16] | None = None
+    images: tuple[Bytes, ...] = ()
+    lost: int = 0
+
+    def of(self, corners: Indices) -> Paint:
+        """The paint of some corners, in any shape (...)."""
+        return Paint(
+            self.colors[corners],
+            None if self.places is None else self.places[corners],
+            None if self.pictures is None else self.pictures[corners],
+            self.images,
+            self.lost,
+        )
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether all of it is one grey, or white: nobody has chosen that."""
+        if self.images or not len(self.colors):
+            return not self.images
+        colors = self.colors.reshape(-1, 3)
+        low, high = colors.min(axis=0), colors.max(axis=0)
+        return bool((high == low).all() and int(high.max()) - int(high.min()) <= GREYS)
+
+
+def as_bytes(values: npt.NDArray[np.generic], *, whole: bool) -> Bytes:
+    """Colours (..., 3) in steps of 1/255, of numbers that are such steps (``whole``) or parts of 1."""
+    steps = np.nan_to_num(values.astype(np.float64)) * (1 if whole else 255)
+    return np.round(np.clip(steps, 0, 255)).astype(np.uint8)
+
+
+def read_picture(data: bytes) -> Bytes | None:
+    """A picture (h, w, 3), made smaller; None if it cannot be read or has more than ``MOST_PIXELS``."""
+    try:
+        with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
+            if image.width * image.height > MOST_PIXELS:
+                return None
+            image.draft("RGB", (SIDE, SIDE))
+            whole = image.convert("RGB")
+        whole.thumbnail((SIDE, SIDE), Image.Resampling.BOX)
+        return np.asarray(whole)
+    except MemoryError:
+        raise
+    except Exception:  # a broken picture can make a decoder fail in any way
+        return None
+
+
+def bake(paint: Paint, corners: FloatArray, mesh: Mesh) -> Bytes:
+    """The colours at the vertices of a mesh that lies close to a painted surface.
+
+    A vertex has the mean light of its faces, each taken a little inside: on an edge between two colours the closest
+    point alone would be of either by chance.
+
+    Parameters
+    ----------
+    paint : Paint
+        Of the corners (m, 3) of the surface's triangles.
+    corners : (m, 3, 3) float64 array
+    mesh : Mesh
+
+    Returns
+    -------
+    (n, 3) uint8 array
+        sRGB.
+    """
+    places = mesh.vertices[mesh.faces]
+    inside = places + INWARDS * (places.mean(axis=1, keepdims=True) - places)
+    light = _light(paint, corners, inside.reshape(-1, 3))
+    owners, count = mesh.faces.ravel(), len(mesh.vertices)
+    sums = np.stack([np.bincount(owners, channel, count) for channel in light.T], axis=1)
+    return from_light(sums / np.maximum(np.bincount(owners, minlength=count), 1)[:, None])
+
+
+def _light(paint: Paint, corners: FloatArray, points: FloatArray) -> FloatArray:
+    """Linear light (n, 3) of a painted surface where it is closest to some points."""
+    order = along_curve(corners[:, 0] + corners[:, 1] + corners[:, 2])
+    sorted_corners = corners[order]
+    closest, place = find_closest(points, sorted_corners, box_faces(sorted_corners), LEAF)
+    weights, used = _weigh(sorted_corners[place], closest), paint.of(order[place])
+    light = np.einsum("nc,nca->na", weights, _LINEAR[used.colors])
+    if used.places is not None and used.pictures is not None:
+        where = np.einsum("nc,nca->na", weights, used.places.astype(np.float64))
+        for number, image in enumerate(used.images):
+            rows = np.flatnonzero((used.pictures[:, 0] == number) & np.isfinite(where).all(axis=1))
+            light[rows] *= _look_up(image, where[rows])
+    return light
+
+
+def _weigh(triangles: FloatArray, points: FloatArray) -> FloatArray:
+    """Weights (n, 3) of the corners of triangles (n, 3, 3) at points (n, 3) on them."""
+    first, second = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    offset = points - triangles[:, 0]
+    a, b, c = ((x * y).sum(axis=1) for x, y in ((first, first), (first, second), (second, second)))
+    d, e = (offset * first).sum(axis=1), (offset * second).sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        weights = np.column_stack([c * d - b * e, a * e - b * d]) / (a * c - b * b)[:, None]
+    # a triangle without area has its first corner's colour
+    weights = np.clip(np.nan_to_num(weights, nan=0.0, posinf=0.0, neginf=0.0), 0, 1)
+    weights = np.column_stack([1 - weights.sum(axis=1), weights])
+    return np.clip(weights, 0, 1) / np.clip(weights, 0, 1).sum(axis=1, keepdims=True)
+
+
+def _look_up(image: Bytes, where: FloatArray) -> FloatArray:
+    """Light (n, 3) of a picture at places (n, 2), between its pixels."""
+    height, width = image.shape[:2]
+    x = (where[:, 0] % 1) * width - 0.5
+    y = (where[:, 1] % 1) * height - 0.5
+    left, top = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
+    right_share, lower_share = (x - left)[:, None], (y - top)[:, None]
+    upper, lower = (
+        _LINEAR[image[row % height, left % width]] * (1 - right_share)
+        + _LINEAR[image[row % height, (left + 1) % width]] * right_share
+        for row in (top, top + 1)
+    )
+    return np.asarray(upper * (1 - lower_share) + lower * lower_share)
+
+
+def _to_srgb(light: FloatArray) -> FloatArray:
+    """IEC 61966-2-1."""
+    light = np.clip(light, 0, 1)
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+
+
+def from_light(light: npt.ArrayLike) -> Bytes:
+    """sRGB in steps of 1/255 of linear light."""
+    return np.round(255 * _to_srgb(np.nan_to_num(np.asarray(light, np.float64)))).astype(np.uint8)
+
+
+def _linear() -> FloatArray:
+    values = np.arange(256) / 255
+    return np.where(values <= 0.04045, values / 12.92, ((values + 0.055) / 1.055) ** 2.4)
+
+
+_LINEAR = _linear()

@@ -1,0 +1,281 @@
+"""Colours: what readers find of them, where they end on a prepared mesh, and what cannot harm it."""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+import zlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from PIL import Image
+
+from shapeviz_report.mesh import collect_files, parse_mesh, prepare
+from shapeviz_report.mesh.paint import MOST_PIXELS, Paint, bake, from_light, read_picture
+from shapeviz_report.types import Mesh
+
+BOX = trimesh.creation.box(extents=(1, 2, 3))
+RED, GREEN = (220, 30, 30), (30, 160, 60)
+
+
+def png(pixels: np.ndarray) -> bytes:
+    file = io.BytesIO()
+    Image.fromarray(pixels.astype(np.uint8)).save(file, "PNG")
+    return file.getvalue()
+
+
+HALVES = png(np.array([[RED, RED, GREEN, GREEN]] * 4))
+"""Red on the left, green on the right."""
+
+
+def off(colors: list[str]) -> bytes:
+    lines = ["OFF", f"{len(BOX.vertices)} {len(BOX.faces)} 0"]
+    lines += [" ".join(f"{x:g}" for x in vertex) for vertex in BOX.vertices]
+    lines += [f"3 {a} {b} {c} {color}" for (a, b, c), color in zip(BOX.faces, colors)]
+    return "\n".join(lines).encode()
+
+
+def by_side(mesh: Mesh) -> dict[tuple[int, int], np.ndarray]:
+    """The mean colour of each side of a prepared box, its ridges left out."""
+    size = np.ptp(mesh.vertices, axis=0)
+    middle = (mesh.vertices.max(axis=0) + mesh.vertices.min(axis=0)) / 2
+    place = (mesh.vertices - middle) / size * 2
+    assert mesh.colors is not None
+    found = {}
+    for axis in range(3):
+        others = [other for other in range(3) if other != axis]
+        inner = (np.abs(place[:, others]) < 0.8).all(axis=1)
+        for sign in (-1, 1):
+            rows = inner & (place[:, axis] * sign > 0.95)
+            found[axis, sign] = mesh.colors[rows].mean(axis=0)
+    return found
+
+
+def sides_of_faces() -> list[tuple[int, int]]:
+    axes = np.abs(BOX.face_normals).argmax(axis=1)
+    return [(int(axis), int(np.sign(normal[axis]))) for axis, normal in zip(axes, BOX.face_normals)]
+
+
+def test_colours_of_faces_are_on_their_sides() -> None:
+    palette = {
+        side: (40 * number + 20, 200 - 30 * number, 90)
+        for number, side in enumerate(sorted(set(sides_of_faces())))
+    }
+    content = off([" ".join(map(str, palette[side])) for side in sides_of_faces()])
+    mesh, facts = prepare({"box.off": content}, 0.03)
+    for side, color in by_side(mesh).items():
+        np.testing.assert_allclose(color, palette[side], atol=2)
+    assert facts.repairs.keys() <= {"vertices welded"}
+
+
+@pytest.mark.parametrize("kind", ["uchar", "float"])
+@pytest.mark.parametrize("encoding", ["ascii", "binary"])
+def test_colours_of_vertices_of_ply(kind, encoding) -> None:
+    ball = trimesh.creation.icosphere(3)
+    colors = np.round((ball.vertices + 1) / 2 * 255)
+    stored = colors if kind == "uchar" else colors / 255
+    kinds = [(axis, "<f4") for axis in "xyz"] + [
+        (c, "u1" if kind == "uchar" else "<f4") for c in ("red", "green", "blue")
+    ]
+    written = {"ascii": "ascii", "binary": "binary_little_endian"}[encoding]
+    head = f"ply\nformat {written} 1.0\nelement vertex {len(colors)}\n"
+    head += "".join(f"property {'float' if name in 'xyz' else kind} {name}\n" for name, _ in kinds)
+    head += f"element face {len(ball.faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    if encoding == "ascii":
+        rows = [" ".join(f"{v:g}" for v in (*vertex, *color)) for vertex, color in zip(ball.vertices, stored)]
+        body = "\n".join(rows + [f"3 {a} {b} {c}" for a, b, c in ball.faces]).encode()
+    else:
+        table = np.zeros(len(colors), kinds)
+        for column, (name, _) in enumerate(kinds):
+            table[name] = np.column_stack([ball.vertices, stored])[:, column]
+        faces = np.zeros(len(ball.faces), [("count", "u1"), ("corners", "<i4", 3)])
+        faces["count"], faces["corners"] = 3, ball.faces
+        body = table.tobytes() + faces.tobytes()
+    mesh, _ = prepare({"ball.ply": head.encode() + body}, 0.04)
+    assert mesh.colors is not None
+    directions = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1, keepdims=True)
+    assert np.abs(mesh.colors - (directions + 1) / 2 * 255).max() < 12
+
+
+LOW = [sign < 0 for _, sign in sides_of_faces()]
+"""Of every face, whether it is on one of three sides."""
+
+CUBE = (
+    "".join(f"v {x} {y} {z}\n" for x, y, z in BOX.vertices)
+    + "vt 0 0\nvt 1 0\nvt 0.5 1\nusemtl half\n"
+    + "".join(f"f {a + 1}/1 {b + 1}/1 {c + 1}/-3\n" for a, b, c in BOX.faces[LOW])
+    + "usemtl plain\n"
+    + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in BOX.faces[np.invert(LOW)])
+)
+
+
+def write_obj(folder: Path, picture: str = "pictures/two colours.png", kd: str = "0 0 0") -> Path:
+    """A box of two materials, the first with the lower left corner of a picture all over."""
+    (folder / "box.obj").write_text("mtllib box.mtl\n" + CUBE)
+    (folder / "box.mtl").write_text(
+        f"newmtl half\nKd {kd}\nmap_Kd -s 1 1 1 {picture}\n\nnewmtl plain # the rest\nKd 0.5 0.25 1\n"
+    )
+    return folder / "box.obj"
+
+
+def colors_of_faces(files: dict[str, bytes]) -> tuple[list[np.ndarray], dict[str, int]]:
+    """The colour of each side of the box, in the order of its faces, and what was noted."""
+    mesh, facts = prepare(files, 0.03)
+    return [by_side(mesh)[side] for side in sides_of_faces()], dict(facts.repairs)
+
+
+def test_materials_and_pictures_of_obj(tmp_path) -> None:
+    path = write_obj(tmp_path)
+    (tmp_path / "pictures").mkdir()
+    (tmp_path / "pictures" / "two colours.png").write_bytes(HALVES)
+    files = collect_files(path, tmp_path)
+    assert list(files) == ["box.obj", "box.mtl", "pictures/two colours.png"]
+    colors, noted = colors_of_faces(files)
+    # at its corner a picture that is repeated meets itself
+    corner = from_light(np.mean(lights(RED, GREEN), axis=0))
+    for color, low in zip(colors, LOW):
+        np.testing.assert_allclose(color, corner if low else (128, 64, 255), atol=2)
+    assert "pictures" not in " ".join(noted)
+
+
+def lights(*colors) -> list[np.ndarray]:
+    """Linear light, to be exact where a picture is looked up between its pixels."""
+    encoded = np.array(colors) / 255
+    return list(np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4))
+
+
+@pytest.mark.parametrize(
+    "picture", ["missing.png", "../secret.png", "/etc/hostname", "//host/share/x.png", "C:/x.png", "link.png"]
+)
+def test_pictures_that_are_not_there_or_elsewhere_are_noted(tmp_path, picture) -> None:
+    (tmp_path / "secret.png").write_bytes(HALVES)
+    folder = tmp_path / "database"
+    folder.mkdir()
+    (folder / "link.png").symlink_to(tmp_path / "secret.png")
+    files = collect_files(write_obj(folder, picture, "0.2 0.4 0.6"), folder)
+    assert list(files) == ["box.obj", "box.mtl"]
+    colors, noted = colors_of_faces(files)
+    np.testing.assert_allclose(colors[LOW.index(True)], (51, 102, 153), atol=1)
+    assert noted["pictures of its surface left out, which are missing or cannot be read"] == 1
+
+
+def bomb() -> bytes:
+    """A PNG of a few bytes that announces more pixels than are unpacked."""
+    side = int(MOST_PIXELS**0.5) + 1
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
+    content = zlib.compress(bytes(1000))
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", content) + chunk(b"IEND", b"")
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"no picture", HALVES[:40], bomb(), b"%!PS-Adobe-3.0 EPSF-3.0\n"], ids=range(5)
+)
+def test_pictures_that_cannot_be_read_are_none(content) -> None:
+    assert read_picture(content) is None
+
+
+def test_large_pictures_are_made_smaller() -> None:
+    picture = read_picture(png(np.full((10, 3000, 3), 77)))
+    assert picture is not None
+    assert picture.shape == (3, 1024, 3)
+    assert (picture == 77).all()
+
+
+def gltf(primitive: dict[str, object], **more: object) -> dict[str, bytes]:
+    """A triangle and its mirror image, joined, as glTF with attributes of one colour a vertex."""
+    points = BOX.vertices.astype("<f4").tobytes()
+    faces = BOX.faces.astype("<u4").tobytes()
+    colors = np.tile(np.array([1.0, 0.25, 0.0], "<f4"), (len(BOX.vertices), 1)).tobytes()
+    places = np.tile(np.array([0.125, 0.5], "<f4"), (len(BOX.vertices), 1)).tobytes()
+    parts = [points, faces, colors, places]
+    starts = np.cumsum([0, *map(len, parts)])
+    count = len(BOX.vertices)
+    document = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": "box.bin", "byteLength": int(starts[-1])}],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": int(start), "byteLength": len(part)}
+            for start, part in zip(starts, parts)
+        ],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5125, "count": 3 * len(BOX.faces), "type": "SCALAR"},
+            {"bufferView": 2, "componentType": 5126, "count": count, "type": "VEC3"},
+            {"bufferView": 3, "componentType": 5126, "count": count, "type": "VEC2"},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1} | primitive]}],
+        "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [10, 0, 0], "scale": [-1, 1, 1]}],
+    }
+    return {"box.gltf": json.dumps(document | more).encode(), "box.bin": b"".join(parts)}
+
+
+def colors_of(files: dict[str, bytes]) -> np.ndarray:
+    mesh, _ = prepare(files, 0.03)
+    assert mesh.colors is not None
+    assert np.ptp(mesh.colors.astype(int), axis=0).max() <= 1
+    return mesh.colors[0]
+
+
+def test_colours_of_gltf_are_light_and_multiply() -> None:
+    np.testing.assert_array_equal(
+        colors_of(gltf({"attributes": {"POSITION": 0, "COLOR_0": 2}})), (255, 137, 0)
+    )
+    materials = [{"pbrMetallicRoughness": {"baseColorFactor": [0.25, 1, 0.5, 1]}}]
+    files = gltf({"attributes": {"POSITION": 0, "COLOR_0": 2}, "material": 0}, materials=materials)
+    np.testing.assert_array_equal(colors_of(files), (137, 137, 0))
+
+
+def test_pictures_of_gltf(tmp_path) -> None:
+    looks = {
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+        "textures": [{"source": 0}],
+        "images": [{"uri": "two%20colours.png"}],
+    }
+    files = gltf({"attributes": {"POSITION": 0, "TEXCOORD_0": 3}, "material": 0}, **looks)
+    for name, content in (files | {"two colours.png": HALVES}).items():
+        (tmp_path / name).write_bytes(content)
+    found = collect_files(tmp_path / "box.gltf", tmp_path)
+    assert list(found) == ["box.gltf", "box.bin", "two colours.png"]
+    np.testing.assert_allclose(colors_of(found), RED, atol=1)
+    (tmp_path / "two colours.png").unlink()
+    mesh, facts = prepare(collect_files(tmp_path / "box.gltf", tmp_path), 0.03)
+    assert mesh.colors is None
+    assert facts.repairs["pictures of its surface left out, which are missing or cannot be read"] == 1
+
+
+def test_broken_materials_fail_no_shape() -> None:
+    files = gltf({"material": 0}, materials=[{"pbrMetallicRoughness": {"baseColorFactor": "red"}}])
+    mesh, facts = prepare(files, 0.03)
+    assert mesh.colors is None
+    assert facts.repairs["colours that cannot be read left out"] == 1
+
+
+@pytest.mark.parametrize("color", ["", "255 255 255", "0.8 0.8 0.8", "128 130 126"])
+def test_no_colour_and_one_grey_are_clay(color) -> None:
+    mesh, _ = prepare({"box.off": off([color] * len(BOX.faces))}, 0.03)
+    assert mesh.colors is None
+
+
+def test_the_surface_is_the_same_with_colours() -> None:
+    plain = parse_mesh({"box.off": off([""] * 12)})
+    colored = parse_mesh({"box.off": off(["1 2 3"] * 12)})
+    np.testing.assert_array_equal(plain.vertices, colored.vertices)
+    np.testing.assert_array_equal(plain.faces, colored.faces)
+
+
+def test_a_ridge_has_the_mean_light_of_its_sides() -> None:
+    corners = np.array([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [0, -1, 0], [1, 0, 0]]], float)
+    paint = Paint(np.array([[RED] * 3, [GREEN] * 3], np.uint8))
+    mesh = Mesh(
+        np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0]], float),
+        np.array([[0, 1, 2], [0, 3, 1]], np.int32),
+    )
+    mean = from_light(np.mean(lights(RED, GREEN), axis=0))
+    np.testing.assert_array_equal(bake(paint, corners, mesh), [mean, mean, RED, GREEN])
