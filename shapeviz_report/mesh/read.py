@@ -19,7 +19,7 @@ from shapeviz_report.mesh.readers import READERS, READERS_OF_SEVERAL
 from shapeviz_report.mesh.readers.gltf import list_buffers
 from shapeviz_report.mesh.readers.limits import check_faces
 from shapeviz_report.mesh.readers.packed import GLTF, unpack
-from shapeviz_report.mesh.readers.polygons import PolygonMesh, check_indices, triangulate
+from shapeviz_report.mesh.readers.polygons import PolygonMesh, check_indices, cut_corners
 from shapeviz_report.mesh.readers.sniff import what_it_seems
 from shapeviz_report.types import Mesh
 
@@ -137,7 +137,7 @@ def parse_painted(files: Mapping[str, bytes]) -> tuple[Mesh, Callable[[], Paint]
             polygons = _read_polygons(suffix, data, files)
             check_indices(polygons.vertices, polygons.corners)
             check_faces(int(np.maximum(polygons.sizes - 2, 0).sum()))
-            vertices, triangles = polygons.vertices, triangulate(polygons)
+            vertices, triangles = polygons.vertices, cut_corners(polygons)
             faces = polygons.corners[triangles]
         if not len(faces):
             raise MeshError("it has vertices, but no faces" if len(vertices) else "it has no faces")

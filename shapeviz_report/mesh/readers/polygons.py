@@ -144,6 +144,11 @@ def check_indices(vertices: FloatArray, indices: Indices) -> None:
 
 
 def triangulate(mesh: PolygonMesh) -> Indices:
+    """The vertices (t, 3) of the triangles of :func:`cut_corners`."""
+    return mesh.corners[cut_corners(mesh)]
+
+
+def cut_corners(mesh: PolygonMesh) -> Indices:
     """Cut every polygon into triangles, in the order of the polygons.
 
     A polygon becomes a fan from its first corner, or from the corner that gives the least flat triangles if the first
