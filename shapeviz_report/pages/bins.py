@@ -17,10 +17,12 @@ from shapeviz_report.pages.base import (
     class_names,
     coordinate_steps,
     distinct_means,
+    is_in_full,
     nothing_told,
     rounded,
 )
 from shapeviz_report.pages.chunks import BinSet, Dimension, Fold, FoundBins, PathStep, Selection
+from shapeviz_report.pages.sampling import MOST_SAMPLED
 from shapeviz_report.projections import MAIN_PROJECTION
 from shapeviz_report.quality import hit_range
 from shapeviz_report.render import CLAY, MARKED, ramp_codes
@@ -49,6 +51,7 @@ class BinsPage:
                 "searched": report.parameters.get("search") != "none",
                 "selection": None if found is None else _headline(report, found),
                 "models": report.models is not None,
+                "sampled": None if is_in_full(report) else MOST_SAMPLED,
             },
             chunks={"selection": _selection(report)},
         )

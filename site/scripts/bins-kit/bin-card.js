@@ -162,7 +162,7 @@ export class BinCard {
       ),
       rows.length > shown.length && element("p", { class: "more" }, `and ${grouped(rows.length - shown.length)} more`),
       this.bins.sample &&
-        element("p", { class: "more" }, `of ${grouped(this.bins.rows)} of ${count(this.database.count, "shape")}`),
+        element("p", { class: "sampled" }, `Of ${grouped(this.bins.rows)} of ${count(this.database.count, "shape")}`),
     );
   }
 
