@@ -20,7 +20,7 @@ export class Cancelled extends Error {
 }
 
 /**
- * Start the engine on a table of features.
+ * Start the engine on a table of features, whose values are the engine's from then on: a copy would be many megabytes.
  *
  * @param {FeatureValues | null} table null where tasks bring their own
  * @returns {Promise<Engine>}
@@ -29,7 +29,7 @@ export async function startEngine(table) {
   const start = /** @type {() => Promise<Worker>} */ (window.shapeviz.startWorker);
   const engine = new Engine(await start());
   await engine.ready;
-  engine.worker.postMessage({ table });
+  engine.worker.postMessage({ table }, table === null ? [] : [table.values.buffer]);
   return engine;
 }
 
