@@ -86,7 +86,9 @@ def simplify(mesh: Mesh, faces: int = FACES) -> Model:
     return Model(positions, _sorted_faces(place[triangles]), np.asarray(tree.query(positions)[1]))
 
 
-def pack_model(model: Model, bins: npt.NDArray[np.uint8], view: FloatArray) -> bytes:
+def pack_model(
+    model: Model, bins: npt.NDArray[np.uint8], view: FloatArray, colors: npt.NDArray[np.uint8] | None = None
+) -> bytes:
     """A model for the page, to be read by ``site/scripts/viewer/model.js``. Little-endian, one part after the other:
 
     - uint32: v, f, d, the number of vertices, faces and dimensions
@@ -95,6 +97,7 @@ def pack_model(model: Model, bins: npt.NDArray[np.uint8], view: FloatArray) -> b
     - int32 (f,): first vertex of each face, as the difference to the face before
     - int32 (2, f): second and third vertex, as the difference to the first
     - uint8 (d, ceil(v / 2)): the bins from 0 in four bits each, the lower four for the earlier vertex
+    - uint8 (3, v): the colours, if there are some
 
     The parts are cut, and the differences taken, for what gzip then makes of them: a third of the bytes.
 
@@ -105,6 +108,8 @@ def pack_model(model: Model, bins: npt.NDArray[np.uint8], view: FloatArray) -> b
         From 0 to 15.
     view : (3, 3) float array
         As :func:`shapeviz_report.render.choose_view` gives it.
+    colors : (v, 3) uint8 array, optional
+        sRGB.
     """
     count = len(model.vertices)
     padded = np.pad(bins, ((0, 0), (0, count % 2)))
@@ -116,6 +121,7 @@ def pack_model(model: Model, bins: npt.NDArray[np.uint8], view: FloatArray) -> b
         np.diff(first, prepend=0).astype("<i4"),
         (model.faces[:, 1:] - first[:, None]).T.astype("<i4"),
         padded[:, 0::2] | padded[:, 1::2] << 4,
+        np.empty(0, np.uint8) if colors is None else colors.T,
     )
     return b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
 

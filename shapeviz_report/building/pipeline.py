@@ -144,7 +144,9 @@ def build_report(
             if edges is None:
                 chain.add(stages.SAMPLE, [stages.PREPARE], share)
             else:
-                chain.add(stages.DESCRIBE, [stages.PREPARE, stages.VIEW], edges, preset.by_area, faces)
+                chain.add(
+                    stages.DESCRIBE, [stages.PREPARE, stages.VIEW], edges, preset.by_area, faces, config.clay
+                )
                 if exports:
                     kept = faces if config.gltf == "decimated" else None
                     chain.add(stages.EXPORT, [stages.PREPARE, stages.VIEW], kept, exported)

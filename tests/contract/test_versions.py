@@ -156,7 +156,7 @@ def test_what_runs_is_reached() -> None:
         call("RENDER", prepared, view, 64, "osmesa", False)
         edges = fixed_edges()
         call("SAMPLE", prepared, 20)
-        call("DESCRIBE", prepared, view, edges, True, 100)
+        call("DESCRIBE", prepared, view, edges, True, 100, False)
         call("EXPORT", prepared, view, 100, {"_AGD": 1})
         call("DESCRIBE_WHOLE", prepared)
         call("MEASURE", prepared, edges, True)

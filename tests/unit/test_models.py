@@ -43,6 +43,14 @@ def test_what_is_packed_is_read_back():
     assert np.array_equal(read, bins)
 
 
+def test_colours_come_last_and_only_where_there_are_some():
+    model = simplify(ball(4), 200)
+    bins = np.zeros((3, len(model.vertices)), np.uint8)
+    colors = np.arange(3 * len(model.vertices), dtype=np.uint8).reshape(-1, 3)
+    plain = pack_model(model, bins, np.eye(3))
+    assert pack_model(model, bins, np.eye(3), colors) == plain + colors.T.tobytes()
+
+
 def test_separate_triangles_are_not_lost():
     corners = np.random.default_rng(1).normal(size=(300, 3, 3)) * 0.01
     corners += np.random.default_rng(2).uniform(-0.9, 0.9, (300, 1, 3))

@@ -23,6 +23,7 @@ export function unpackModel(buffer) {
   const first = take(Int32Array, faceCount);
   const others = take(Int32Array, 2 * faceCount);
   const nibbles = take(Uint8Array, dimensions * Math.ceil(vertexCount / 2));
+  const channels = at < buffer.byteLength ? take(Uint8Array, 3 * vertexCount) : null;
 
   const positions = new Float32Array(3 * vertexCount);
   for (let vertex = 0; vertex < vertexCount; vertex += 1) {
@@ -43,6 +44,13 @@ export function unpackModel(buffer) {
     view,
     positions,
     faces,
+    /**
+     * The colour of a vertex as its file has it, sRGB from 0 to 255; null where it has none.
+     * @param {number} vertex
+     */
+    color(vertex) {
+      return channels && [0, 1, 2].map((channel) => channels[channel * vertexCount + vertex]);
+    },
     /**
      * The bin from 0 of every vertex in one dimension of the descriptors.
      * @param {number} dimension

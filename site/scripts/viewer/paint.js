@@ -6,6 +6,9 @@
 /** How much light the darkest tone sends back of what the marked colour does. */
 const DARK = 0.3;
 
+/** What black and white send back, as in `render/shading.py`. */
+const [DARKEST, BRIGHTEST] = [0.03, 0.72];
+
 export class Paint {
   /** @param {Pick<Chunk.Selection, "ramp" | "clay" | "marked">} selection */
   constructor({ ramp, clay, marked }) {
@@ -14,9 +17,12 @@ export class Paint {
     this.marked = marked;
   }
 
-  /** @param {Model} solid */
+  /**
+   * The colours of its file, or clay.
+   * @param {Model} solid
+   */
   plain(solid) {
-    return this.#fill(solid, () => this.clay);
+    return this.#fill(solid, (vertex) => reflected(solid.color(vertex)) ?? this.clay);
   }
 
   /**
@@ -82,10 +88,21 @@ export class Paint {
 
 /** @param {string} code */
 function linear(code) {
-  return [1, 3, 5].map((at) => {
-    const value = Number.parseInt(code.slice(at, at + 2), 16) / 255;
-    return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
-  });
+  return [1, 3, 5].map((at) => light(Number.parseInt(code.slice(at, at + 2), 16)));
+}
+
+/** @param {number} step of a channel, from 0 to 255 */
+function light(step) {
+  const value = step / 255;
+  return value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4;
+}
+
+/**
+ * As in pictures: black and white things send back some light, and not all.
+ * @param {number[] | null} color
+ */
+function reflected(color) {
+  return color?.map((step) => DARKEST + (BRIGHTEST - DARKEST) * light(step));
 }
 
 /** @param {number[]} color */
