@@ -1,4 +1,4 @@
-// The shape itself: its picture, and in 3D where a reader asks for it, as plain clay or coloured by a bin.
+// The shape itself: its picture, and in 3D where a reader asks for it, in its own colours, as clay or coloured by a bin.
 
 import { chunk, modelBytes } from "../base/chunks.js";
 import { calm, element } from "../base/dom.js";

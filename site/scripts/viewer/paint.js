@@ -1,4 +1,4 @@
-// Colours of a model's vertices, in linear light: plain clay, the values of a descriptor, what falls into one bin,
+// Colours of a model's vertices, in linear light: those of its file or clay, the values of a descriptor, what falls into one bin,
 // and where a difference lies.
 
 /** @import { Model } from "./model.js" */
