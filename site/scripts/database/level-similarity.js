@@ -11,8 +11,8 @@ import { first, NOTHING, Similarity } from "./similarity.js";
 /** @import { Choice, Similar } from "./similarity.js" */
 
 /**
- * Squared differences from one shape in each feature, in units of that feature.
- * @typedef {{ row: number, byFeature: Int32Array[], units: number[] }} Nearness
+ * Squared differences of all shapes from one in a feature, in units of what they count.
+ * @typedef {{ squared: Int32Array, unit: number }} Nearness
  */
 
 /** So many times as many shapes as are wanted are looked at anew, and at least as many as a list shows. */
@@ -35,10 +35,8 @@ export class LevelSimilarity {
 
   /** @type {Map<number, Promise<Chunk.ComponentPart>>} */
   #components = new Map();
-  /** @type {Promise<Nearness> | null} of the last shape that was asked for: readers try several choices on one */
-  #last = null;
-  /** @type {number | null} */
-  #of = null;
+  /** @type {{ row: number, near: Map<number, Promise<Nearness>> }} of the last shape: readers try several choices on one */
+  #last = { row: -1, near: new Map() };
 
   /**
    * As of Similarity, but that shapes may be missed that are hardly more similar than the last.
@@ -58,8 +56,11 @@ export class LevelSimilarity {
    * @returns {Promise<Similar[]>}
    */
   async tell(row, others, choice) {
-    const [squared, { byFeature }] = await Promise.all([this.#squared(row, others, choice), this.#near(row)]);
-    const closer = byFeature.map((own) => sharesFarther(own, row, others));
+    const [squared, near] = await Promise.all([
+      this.#squared(row, others, choice),
+      this.#near(row, [...this.bins.features.keys()]),
+    ]);
+    const closer = near.map((own) => sharesFarther(own.squared, row, others));
     return others.map((other, place) => ({
       row: other,
       distance: Math.sqrt(squared[place]),
@@ -75,12 +76,9 @@ export class LevelSimilarity {
    */
   async nearest(row, choice, count, among) {
     if (choice.columns) return first(await this.#byColumns(row, choice.columns), row, count, among);
-    const { byFeature, units } = await this.#near(row);
     const total = new Float64Array(this.bins.shapes);
-    for (const feature of choice.features) {
-      const [own, unit] = [byFeature[feature], units[feature]];
+    for (const { squared: own, unit } of await this.#near(row, choice.features))
       for (let other = 0; other < total.length; other += 1) total[other] += own[other] * unit;
-    }
     const found = first(total, row, Math.max(LOOKED_AT * count, LEAST_LOOKED_AT), among);
     const squared = await this.#squared(row, found, choice);
     const order = [...found.keys()].sort((a, b) => squared[a] - squared[b] || found[a] - found[b]);
@@ -148,28 +146,21 @@ export class LevelSimilarity {
     return total;
   }
 
-  /** @param {number} row */
-  #near(row) {
-    if (this.#of !== row || this.#last === null) {
-      this.#of = row;
-      this.#last = this.#findNear(row);
-    }
-    return this.#last;
-  }
-
   /**
    * @param {number} row
-   * @returns {Promise<Nearness>}
+   * @param {number[]} features
    */
-  async #findNear(row) {
-    const parts = await Promise.all(
-      this.bins.features.map((_, feature) => entry(this.#components, feature, () => part("components", feature))),
+  #near(row, features) {
+    if (this.#last.row !== row) this.#last = { row, near: new Map() };
+    const { near } = this.#last;
+    return Promise.all(
+      features.map((feature) =>
+        entry(near, feature, async () => {
+          const { values, unit } = await entry(this.#components, feature, () => part("components", feature));
+          return { squared: squaresFrom(values, row, this.bins.shapes), unit };
+        }),
+      ),
     );
-    return {
-      row,
-      byFeature: parts.map(({ values }) => squaresFrom(values, row, this.bins.shapes)),
-      units: parts.map(({ unit }) => unit),
-    };
   }
 
   /**

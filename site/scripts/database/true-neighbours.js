@@ -78,7 +78,7 @@ export class TrueNeighbours {
     /** @param {number} other */
     const placed = (other) => !Number.isNaN(map.x[other]);
     if (similarity instanceof LevelSimilarity) {
-      this.#look(index, map, similarity.nearest(index, choice, map.neighbours, placed));
+      this.#look(index, map, () => similarity.nearest(index, choice, map.neighbours, placed));
       return null;
     }
     const row = bins.rowOf(index);
@@ -94,12 +94,14 @@ export class TrueNeighbours {
   /**
    * @param {number} index
    * @param {ShapeMap} map
-   * @param {Promise<number[]>} looking
+   * @param {() => Promise<number[]>} work
    */
-  async #look(index, map, looking) {
+  async #look(index, map, work) {
+    if (this.#asked?.index === index && this.#asked.map === map) return;
     const asked = (this.#asked = { index, map });
-    const found = await looking;
+    const found = await work();
     if (asked !== this.#asked) return;
+    this.#asked = null;
     this.#last = { index, map, found };
     this.heard();
   }

@@ -111,7 +111,29 @@ def test_a_saved_figure_holds_the_picture(visit, report):
     assert held >= {report.thumbnails[other] for other in near}
 
 
+def test_similar_shapes_are_found_part_by_part(visit, report):
+    row = 7_654
+    window = visit(SITE, f"shape.html#id={report.shapes[row].id}&features=Sc")
+    window.evaluate("() => document.querySelector('#by-features').scrollIntoView()")
+    found = window.until(
+        """() => {
+            const images = [...document.querySelectorAll("#similar-list .similar img")];
+            return images.length === 12 && images.map((image) => Number(image.dataset.picture));
+        }"""
+    )
+    # As many rows are the same again.
+    assert {other // 1000 for other in found} == {row // 1000}
+
+
+def test_groups_are_compared_by_parts(visit, report):
+    window = visit(SITE, "compare.html#a=class:ant&b=class:cup")
+    told = window.until(
+        "() => !document.querySelector('#result').hidden && document.querySelector('#answer h2').textContent"
+    )
+    assert "different" in told.lower()
+
+
 def test_the_folder_has_few_files(site):
     folder = site(SITE)
-    assert sum(path.is_file() for path in folder.rglob("*")) < 1_000
+    assert sum(path.is_file() for path in folder.rglob("*")) < 1_200
     assert not (folder / "thumbnails").exists()
