@@ -69,7 +69,8 @@ export class Contrasts {
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
       const sample = { a: this.#sample(a), b: this.#sample(b), rest: this.#sample(outside) };
       const rows = [...sample.a, ...sample.b, ...sample.rest];
-      await bins.know(rows);
+      const [engine] = await Promise.all([this.#engine ?? startEngine(null), bins.know(rows)]);
+      this.#engine = engine;
       /**
        * @param {number} from
        * @param {number} count
@@ -85,8 +86,7 @@ export class Contrasts {
       }
       const values = valuesOf(bins, rows);
       const blocks = Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column));
-      this.#engine ??= await startEngine(null);
-      job = this.#engine.run(
+      job = engine.run(
         "contrast",
         { rows: rows.length, values, blocks, weights: this.data.weights, contests, seed: SEED },
         report,
