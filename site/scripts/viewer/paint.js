@@ -1,5 +1,5 @@
-// Colours of a model's vertices, in linear light: those of its file or clay, the values of a descriptor, what falls into one bin,
-// and where a difference lies.
+// Colours of a model's vertices, in linear light: those of its file or clay, the values of a descriptor, what falls
+// into one bin, and where a difference lies.
 
 /** @import { Model } from "./model.js" */
 
