@@ -52,7 +52,7 @@ class Paint:
         The picture of each corner; -1 for none.
     images : tuple of (h, w, 3) uint8 arrays
     lost : int
-        How many pictures the file names and none was found, or none that can be used.
+        How many files of materials and pictures are named and were not found, or cannot be used.
     """
 
     colors: Bytes
@@ -83,8 +83,8 @@ class Paint:
 
 def as_bytes(values: npt.NDArray[np.generic], *, whole: bool) -> Bytes:
     """Colours (..., 3) in steps of 1/255, of numbers that are such steps (``whole``) or parts of 1."""
-    steps = np.nan_to_num(values.astype(np.float64)) * (1 if whole else 255)
-    return np.round(np.clip(steps, 0, 255)).astype(np.uint8)
+    steps = np.clip(np.nan_to_num(values.astype(np.float64)), 0, 255 if whole else 1) * (1 if whole else 255)
+    return np.round(steps).astype(np.uint8)
 
 
 def read_picture(data: bytes) -> Bytes | None:

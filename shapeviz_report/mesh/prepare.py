@@ -110,7 +110,7 @@ def _find_colors(
         repairs["colours that cannot be read left out"] = 1
         return None
     if found.lost:
-        repairs["pictures of its surface left out, which are missing or cannot be read"] = found.lost
+        repairs["files of its colours left out, which are missing or cannot be read"] = found.lost
     if found.is_plain:
         return None
     vertices, finite, _ = in_diagonals(original)

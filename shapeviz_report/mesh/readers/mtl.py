@@ -38,12 +38,15 @@ WHITE = Material(np.full(3, 255, np.uint8))
 
 
 def list_materials(data: bytes) -> list[str]:
-    """The files of materials that an OBJ names: its lines whole, and word by word if there are several."""
-    names: list[str] = []
-    for match in _LIBRARY.finditer(data) if b"mtllib" in data or b"MTLLIB" in data else ():
-        whole = _plain(match[1].decode("utf-8", "replace"))
-        names += [whole, *(whole.split() if " " in whole else ())]
-    return list(dict.fromkeys(names))
+    """The files of materials that an OBJ names, as :func:`list_libraries` has them, each once."""
+    return list(dict.fromkeys(name for names in list_libraries(data) for name in names))
+
+
+def list_libraries(data: bytes) -> list[list[str]]:
+    """What files each line of an OBJ may mean that names materials: all of it, and its words if there are several."""
+    lines = _LIBRARY.findall(data) if b"mtllib" in data or b"MTLLIB" in data else ()
+    names = [_plain(line.decode("utf-8", "replace")) for line in lines]
+    return [[whole, *(whole.split() if " " in whole else ())] for whole in names]
 
 
 def read_materials(data: bytes) -> dict[str, Material]:
@@ -51,8 +54,7 @@ def read_materials(data: bytes) -> dict[str, Material]:
     materials: dict[str, Material] = {}
     name = None
     for line in strip_comments(decode(data)).split("\n"):
-        keyword, _, rest = line.strip().partition(" ")
-        rest = rest.strip()
+        keyword, rest = [*line.strip().split(maxsplit=1), "", ""][:2]
         if keyword.lower() == "newmtl":
             name = rest
             materials[name] = WHITE

@@ -8,15 +8,15 @@ of the file instead of from where they stand; so OBJ is read here.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.paint import MOST_PICTURES, Paint, as_bytes, read_picture
-from shapeviz_report.mesh.readers.mtl import WHITE, Material, list_materials, read_materials
+from shapeviz_report.mesh.readers.mtl import WHITE, Material, list_libraries, read_materials
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh
 from shapeviz_report.mesh.readers.text import (
     Characters,
@@ -95,14 +95,19 @@ def read_obj(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     corners = np.where(numbers > 0, numbers - 1, relative)
 
     def paint() -> Paint:
-        if len(named) == 0:
-            return _paint_vertices(vertex_rows, corners)
-        return _paint_materials(lines, np.flatnonzero(is_face), pointed, sizes, files)
+        found = _paint_materials(lines, libraries, np.flatnonzero(is_face), pointed, sizes, files)
+        # some programs write a material that says nothing beside the colours of vertices
+        return (
+            replace(_paint_vertices(vertex_rows, corners), lost=found.lost)
+            if of_vertices and found.is_plain
+            else found
+        )
 
     lines = _Lines(text, starts, ends)
-    named = [name for name in list_materials(data) if name in files]
+    libraries = list_libraries(data)
     width = count_words(vertex_rows[: vertex_rows.find("\n") + 1])
-    painted = bool(named) or (len(width) == 1 and width[0] in (6, 7))
+    of_vertices = len(width) == 1 and width[0] in (6, 7)
+    painted = bool(libraries) or of_vertices
     return PolygonMesh(
         vertices=parse_columns(vertex_rows, 3), corners=corners, sizes=sizes, paint=paint if painted else None
     )
@@ -130,14 +135,18 @@ def _paint_vertices(rows: str, corners: Indices) -> Paint:
 
 
 def _paint_materials(
-    lines: _Lines, faces: Indices, rows: str, sizes: Indices, files: Mapping[str, bytes]
+    lines: _Lines,
+    libraries: Sequence[Sequence[str]],
+    faces: Indices,
+    rows: str,
+    sizes: Indices,
+    files: Mapping[str, bytes],
 ) -> Paint:
     """The colours and pictures of materials, by the corners of faces: the numbers of their lines, the lines without
     their keyword, and the numbers of their corners."""
     materials: dict[str, Material] = {}
-    for _, rest in lines.find("mtllib"):
-        for name in list_materials(f"mtllib {rest}".encode()):
-            materials |= read_materials(files.get(name, b""))
+    for name in (name for names in libraries for name in names):
+        materials |= read_materials(files.get(name, b""))
     uses = [(-1, ""), *lines.find("usemtl")]
     of_face = np.searchsorted([line for line, _ in uses], faces) - 1
     used = [materials.get(name, WHITE) for _, name in uses]
@@ -150,6 +159,7 @@ def _paint_materials(
             place_of[name] = -1 if picture is None else len(images)
             images += [] if picture is None else [picture]
     lost = sum(place < 0 for name, place in place_of.items() if name)
+    lost += sum(files.keys().isdisjoint(names) for names in libraries)
     if not images:
         return Paint(np.repeat(colors, sizes, axis=0), lost=lost)
     pictures = np.array([place_of[material.picture] for material in used], np.int16)[of_face]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import struct
 import zlib
 from pathlib import Path
@@ -14,7 +15,7 @@ import trimesh
 from PIL import Image
 
 from shapeviz_report.mesh import collect_files, parse_mesh, prepare
-from shapeviz_report.mesh.paint import MOST_PIXELS, Paint, bake, from_light, read_picture
+from shapeviz_report.mesh.paint import MOST_PIXELS, Paint, as_bytes, bake, from_light, read_picture
 from shapeviz_report.types import Mesh
 
 BOX = trimesh.creation.box(extents=(1, 2, 3))
@@ -138,7 +139,34 @@ def test_materials_and_pictures_of_obj(tmp_path) -> None:
     corner = from_light(np.mean(lights(RED, GREEN), axis=0))
     for color, low in zip(colors, LOW):
         np.testing.assert_allclose(color, corner if low else (128, 64, 255), atol=2)
-    assert "pictures" not in " ".join(noted)
+    assert "colours" not in " ".join(noted)
+
+
+def test_materials_with_tabs_between_their_words() -> None:
+    files = {
+        "box.obj": b"mtllib\tbox.mtl\n" + CUBE.encode(),
+        "box.mtl": b"newmtl\tplain\n\tKd\t0.5  0.25\t1\n",
+    }
+    colors, _ = colors_of_faces(files)
+    np.testing.assert_allclose(colors[LOW.index(False)], (128, 64, 255), atol=1)
+
+
+def test_materials_that_are_not_there_are_noted() -> None:
+    mesh, facts = prepare({"box.obj": b"mtllib my box.mtl\n" + CUBE.encode()}, 0.03)
+    assert mesh.colors is None
+    assert facts.repairs["files of its colours left out, which are missing or cannot be read"] == 1
+
+
+@pytest.mark.parametrize("material", [b"", b"newmtl half\nKd 1 1 1\nnewmtl plain\nKd 1 1 1\n"])
+def test_colours_of_vertices_beside_a_material_that_says_nothing(material) -> None:
+    text = re.sub("^v (.*)$", r"v \1 0.2 0.4 0.6", CUBE, flags=re.MULTILINE)
+    colors, _ = colors_of_faces({"box.obj": b"mtllib box.mtl\n" + text.encode(), "box.mtl": material})
+    np.testing.assert_allclose(colors, np.tile((51, 102, 153), (len(colors), 1)), atol=1)
+
+
+@pytest.mark.filterwarnings("error")
+def test_colours_beyond_all_bounds() -> None:
+    assert as_bytes(np.array([1e308, -1e308, np.nan]), whole=False).tolist() == [255, 0, 0]
 
 
 def lights(*colors) -> list[np.ndarray]:
@@ -159,7 +187,7 @@ def test_pictures_that_are_not_there_or_elsewhere_are_noted(tmp_path, picture) -
     assert list(files) == ["box.obj", "box.mtl"]
     colors, noted = colors_of_faces(files)
     np.testing.assert_allclose(colors[LOW.index(True)], (51, 102, 153), atol=1)
-    assert noted["pictures of its surface left out, which are missing or cannot be read"] == 1
+    assert noted["files of its colours left out, which are missing or cannot be read"] == 1
 
 
 def bomb() -> bytes:
@@ -247,7 +275,7 @@ def test_pictures_of_gltf(tmp_path) -> None:
     (tmp_path / "two colours.png").unlink()
     mesh, facts = prepare(collect_files(tmp_path / "box.gltf", tmp_path), 0.03)
     assert mesh.colors is None
-    assert facts.repairs["pictures of its surface left out, which are missing or cannot be read"] == 1
+    assert facts.repairs["files of its colours left out, which are missing or cannot be read"] == 1
 
 
 def test_broken_materials_fail_no_shape() -> None:
