@@ -146,13 +146,21 @@ def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
         for name in ("shape_ids", "values"):
             if name not in arrays:
                 raise ValueError(f"it has no array {name!r}")
-        return [str(shape) for shape in arrays["shape_ids"].ravel().tolist()], arrays["values"]
+        try:
+            ids = arrays["shape_ids"]
+        except ValueError as error:
+            raise ValueError(f"its ids are no text, as numpy.array(ids, str) makes it ({error})") from error
+        return [str(shape) for shape in ids.ravel().tolist()], arrays["values"]
 
 
 def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
     """Ids and values of a table: of some columns, or of all but those that say what a shape is."""
-    head, *rows = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), strict=True)
-    rows = [row for row in rows if row]
+    rows = [
+        row for row in csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), strict=True) if row
+    ]
+    if not rows:
+        raise ValueError("it is empty")
+    head, *rows = rows
     for name in ("id", *columns):
         if name not in head:
             raise ValueError(f"it has no column {name!r}")
@@ -163,8 +171,21 @@ def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.
     told = [head.index(name) for name in columns] or [
         place for place, name in enumerate(head) if place != key and not name.startswith(DESCRIBING)
     ]
-    values = np.array([[float(row[place]) for place in told] for row in rows], np.float64)
+    values = np.array(
+        [
+            [_number(row[place], number, head[place]) for place in told]
+            for number, row in enumerate(rows, start=2)
+        ],
+        np.float64,
+    )
     return [read_cell(row[key]) for row in rows], values.reshape(len(rows), len(told))
+
+
+def _number(cell: str, row: int, column: str) -> float:
+    try:
+        return float(cell)
+    except ValueError:
+        raise ValueError(f"row {row} has {cell!r} in the column {column!r}, which is no number") from None
 
 
 def _read_columns(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:

@@ -1,4 +1,4 @@
-"""A surface as binary glTF 2.0, for viewers and other programs, with values at its vertices where these are wanted.
+"""A surface as binary glTF 2.0, for viewers and other programs, with its colours, and values at its vertices on wish.
 
 https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 """
@@ -15,10 +15,11 @@ import numpy.typing as npt
 
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.errors import ConfigError
+from shapeviz_report.mesh.paint import to_light
 from shapeviz_report.types import FloatArray, IntArray
 
 CLAY = (0.72, 0.69, 0.64)
-"""The colour of all surfaces, linear red, green and blue."""
+"""The colour of surfaces without their own, linear red, green and blue."""
 
 _FLOAT, _SHORT, _INT = 5126, 5123, 5125
 _VERTICES, _INDICES = 34962, 34963
@@ -57,7 +58,11 @@ def find_dimensions(names: str | None) -> dict[str, int]:
 
 
 def encode_glb(
-    vertices: FloatArray, faces: IntArray, view: FloatArray, values: Mapping[str, npt.NDArray[np.float32]]
+    vertices: FloatArray,
+    faces: IntArray,
+    view: FloatArray,
+    values: Mapping[str, npt.NDArray[np.float32]],
+    colors: npt.NDArray[np.uint8] | None = None,
 ) -> bytes:
     """A surface as one file.
 
@@ -70,6 +75,8 @@ def encode_glb(
         the picture points up in viewers, too.
     values : mapping of str to (n,) float32 array
         At every vertex, by the names of attributes, which begin with ``_``.
+    colors : (n, 3) uint8 array, optional
+        sRGB, at every vertex.
     """
     short = len(vertices) < 2**16 - 1  # the last number has a meaning of its own
     positions = vertices.astype("<f4")
@@ -89,6 +96,15 @@ def encode_glb(
         },
         *({"componentType": _FLOAT, "count": len(positions), "type": "SCALAR"} for _ in values),
     ]
+    names = ["POSITION", *values]
+    if colors is not None:
+        # glTF has linear light, of which eight bits would not tell dark colours apart, and rows of whole four bytes
+        opaque = np.pad(to_light(colors), ((0, 0), (0, 1)), constant_values=1)
+        parts.append(np.round(opaque * 65535).astype("<u2"))
+        accessors.append(
+            {"componentType": _SHORT, "count": len(positions), "type": "VEC4", "normalized": True}
+        )
+        names.append("COLOR_0")
     chunks, views, offset = [], [], 0
     for number, part in enumerate(parts):
         content = part.tobytes()
@@ -98,7 +114,7 @@ def encode_glb(
         offset += len(chunks[-1])
     axis = int(np.abs(view[1]).argmax())
     turn = _UPRIGHT[axis, 1 if view[1, axis] > 0 else -1]
-    attributes = {name: number for number, name in enumerate(["POSITION", *values], start=1)}
+    attributes = {name: number for number, name in enumerate(names, start=1)}
     told = {
         "asset": {"version": "2.0", "generator": "shapeviz-report"},
         "scene": 0,
@@ -107,7 +123,10 @@ def encode_glb(
         "meshes": [{"primitives": [{"attributes": attributes, "indices": 0, "material": 0}]}],
         "materials": [
             {
-                "pbrMetallicRoughness": {"baseColorFactor": [*CLAY, 1], "metallicFactor": 0},
+                "pbrMetallicRoughness": {
+                    "baseColorFactor": [*(CLAY if colors is None else (1, 1, 1)), 1],
+                    "metallicFactor": 0,
+                },
                 "doubleSided": True,
             }
         ],

@@ -149,7 +149,7 @@ def build_report(
                 )
                 if exports:
                     kept = faces if config.gltf == "decimated" else None
-                    chain.add(stages.EXPORT, [stages.PREPARE, stages.VIEW], kept, exported)
+                    chain.add(stages.EXPORT, [stages.PREPARE, stages.VIEW], kept, exported, config.clay)
             if preset.whole:
                 chain.add(stages.DESCRIBE_WHOLE, [stages.PREPARE])
             return chain, files

@@ -171,7 +171,9 @@ def describe_shape(
     return _pack_arrays(features=features, model=np.frombuffer(packed, np.uint8))
 
 
-def export_shape(prepared: bytes, view: bytes, faces: int | None, dimensions: Mapping[str, int]) -> bytes:
+def export_shape(
+    prepared: bytes, view: bytes, faces: int | None, dimensions: Mapping[str, int], clay: bool
+) -> bytes:
     """A prepared shape as binary glTF.
 
     Parameters
@@ -183,14 +185,20 @@ def export_shape(prepared: bytes, view: bytes, faces: int | None, dimensions: Ma
         To which it is simplified; None for all of it.
     dimensions : mapping of str to int
         Attributes of the vertices, and the dimension of the descriptors that each holds.
+    clay : bool
+        Leave out its colours.
     """
     mesh = _unpack(prepared)
     values = measure(mesh, list(dimensions.values()))
     vertices, triangles = mesh.vertices, mesh.faces
+    colors = None if clay else mesh.colors
     if faces is not None:
         model = simplify(mesh, faces)
         vertices, triangles, values = model.vertices, model.faces, values[:, model.source]
-    return encode_glb(vertices, triangles, read_array(view), dict(zip(dimensions, values, strict=True)))
+        colors = None if colors is None else colors[model.source]
+    return encode_glb(
+        vertices, triangles, read_array(view), dict(zip(dimensions, values, strict=True)), colors
+    )
 
 
 def describe_whole_shape(prepared: bytes) -> bytes:

@@ -135,7 +135,7 @@ def _light(paint: Paint, corners: FloatArray, points: FloatArray) -> FloatArray:
     sorted_corners = corners[order]
     closest, place = find_closest(points, sorted_corners, box_faces(sorted_corners), LEAF)
     weights, used = _weigh(sorted_corners[place], closest), paint.of(order[place])
-    light = np.einsum("nc,nca->na", weights, _LINEAR[used.colors])
+    light = np.einsum("nc,nca->na", weights, to_light(used.colors))
     if used.places is not None and used.pictures is not None:
         where = np.einsum("nc,nca->na", weights, used.places.astype(np.float64))
         for number, image in enumerate(used.images):
@@ -182,6 +182,11 @@ def _to_srgb(light: FloatArray) -> FloatArray:
 def from_light(light: npt.ArrayLike) -> Bytes:
     """sRGB in steps of 1/255 of linear light."""
     return np.round(255 * _to_srgb(np.nan_to_num(np.asarray(light, np.float64)))).astype(np.uint8)
+
+
+def to_light(colors: Bytes) -> FloatArray:
+    """Linear light of sRGB in steps of 1/255."""
+    return _LINEAR[colors]
 
 
 def _linear() -> FloatArray:

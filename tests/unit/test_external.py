@@ -95,6 +95,10 @@ def test_arrays_that_do_not_fit(tmp_path, content, reason) -> None:
         ({"shape_ids": IDS, "values": np.zeros((2, 2))}, "has 2 rows, but 3 ids of shapes"),
         ({"shape_ids": IDS[:2], "values": np.zeros((2, 2))}, "no row for 1 of the 3 shapes.*such as 'cup/1'"),
         ({"shape_ids": [*IDS, "ant/1"], "values": np.zeros(4)}, "two rows for the shape 'ant/1'"),
+        (
+            {"shape_ids": np.array(IDS, object), "values": np.zeros(3)},
+            r"ids are no text, as numpy.array\(ids, str\)",
+        ),
         ({"shape_ids": IDS, "values": [np.inf] * 3}, "finite"),
         ({"shape_ids": IDS, "values": np.array([1.0, "a", {}], object)}, "cannot be read"),
     ],
@@ -108,9 +112,9 @@ def test_archives_that_do_not_fit(tmp_path, arrays, reason) -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("", "cannot be read"),
+        ("", "cannot be read: it is empty"),
         ("name,width\nant/1,1\n", "it has no column 'id'"),
-        ("id,width\nant/1,wide\n", "could not convert string to float"),
+        ("id,width\nant/1,wide\n", "row 2 has 'wide' in the column 'width', which is no number"),
         ("id,width\nant/1,1\nant/2,2,3\n", "row 3 has 3 cells, and the head 2"),
         ("id,width\nant/1,1\nant/2,2\n", "no row for 1 of the 3 shapes"),
         ("id,width\nant/1,nan\nant/2,2\ncup/1,1\n", "finite numbers only"),

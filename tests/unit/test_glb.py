@@ -17,6 +17,7 @@ from solids import ball
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.glb import encode_glb, find_dimensions
 from shapeviz_report.mesh import parse_mesh
+from shapeviz_report.mesh.read import parse_painted
 from shapeviz_report.types import Mesh
 
 ROOT = Path(__file__).parents[2]
@@ -65,7 +66,8 @@ def test_it_is_valid(mesh, view) -> None:
         )
         return json.loads(told.stdout)
 
-    content = encode_glb(mesh.vertices, mesh.faces, view, values_of(mesh))
+    colors = np.zeros((len(mesh.vertices), 3), np.uint8)
+    content = encode_glb(mesh.vertices, mesh.faces, view, values_of(mesh), colors)
     found = issues(content)
     assert (found["numErrors"], found["numWarnings"], found["numInfos"]) == (0, 0, 0), found["messages"]
     broken = content.replace(b'"_GC"', b'"GC_"')
@@ -105,6 +107,14 @@ def test_others_read_it_with_its_values(mesh) -> None:
     np.testing.assert_array_equal(read.faces, mesh.faces)
     for name, values in values_of(mesh).items():
         np.testing.assert_array_equal(np.ravel(read.vertex_attributes[name]), values)
+
+
+def test_colours_come_back_as_they_were(mesh) -> None:
+    colors = np.random.default_rng(0).integers(0, 256, (len(mesh.vertices), 3)).astype(np.uint8)
+    content = encode_glb(mesh.vertices, mesh.faces, Y_UP, values_of(mesh), colors)
+    _, paint = parse_painted({"shape.glb": content})
+    assert paint is not None
+    np.testing.assert_array_equal(paint().colors.reshape(-1, 3), colors[mesh.faces].reshape(-1, 3))
 
 
 def test_indices_are_as_short_as_they_can_be() -> None:
