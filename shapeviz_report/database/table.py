@@ -44,6 +44,8 @@ FILE_COLUMNS = (
     "id",
 )
 """Names of the column with the files, from the plainest on; case, spaces, ``_`` and ``-`` do not matter."""
+_BIN = re.compile(r"\w+(\[\d+\])?:\d+")
+"""Names of columns in tables of features, such as ``shapeviz-report describe`` writes."""
 CLASS_COLUMNS = ("class", "classname", "category")
 """Names of metadata columns that are labelings whatever their values are; written as those above."""
 NO_VALUES = frozenset({"NaN", "nan", "N/A", "n/a", "#N/A", "<NA>"})
@@ -519,7 +521,9 @@ def _plain(name: str) -> str:
 def _columns(names: Sequence[str]) -> list[str]:
     """The columns as they are kept: that of the files is ``file``, that of the labels ``label``, in any case."""
     plain = [_plain(name) for name in names]
-    files = next((name for name in FILE_COLUMNS if name in plain), None)
+    # the ids of shapes beside their features are no files
+    known = FILE_COLUMNS[:-1] if any(map(_BIN.fullmatch, names)) else FILE_COLUMNS
+    files = next((name for name in known if name in plain), None)
     return [
         FILE_COLUMN if own == files else LABEL_COLUMN if own == LABEL_COLUMN else clean(name)
         for own, name in zip(plain, names)

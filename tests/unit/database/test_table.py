@@ -285,6 +285,8 @@ def test_no_value_is_no_label(tmp_path, label):
         ("t.jsonl", '{"file": "a.off"}\n{"file": "b.off"\n', "line 2"),
         ("t.json", '[{"category": "cup"}]', "no key 'file'"),
         ("t.csv", "id,label,label\na,cup,ant\n", "two columns named 'label'"),
+        # features that `describe` wrote beside the meshes
+        ("t.csv", "id,class,label:class,Gc:1,Sc[0]:1\na,cup,cup,0.5,0.5\n", "no column 'file'"),
     ],
 )
 def test_a_table_that_is_passed_over_is_told_of(tmp_path, name, text, reason):
