@@ -11,6 +11,7 @@ import math
 import os
 import sys
 import time
+import unicodedata
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -747,9 +748,9 @@ def _complain(*lines: str) -> None:
 
 def _one_line(text: str) -> str:
     """Text of a database as the terminal may show it: no line breaks, no control characters, none that turn the
-    direction of writing, and no bytes that are no text.
+    direction of writing, and no bytes that are no text. Spaces of other kinds, as our own texts have, are spaces.
     """
-    return "".join(c if c.isprintable() else "?" for c in text)
+    return "".join(c if c.isprintable() else " " if unicodedata.category(c) == "Zs" else "?" for c in text)
 
 
 class _LogFormatter(logging.Formatter):

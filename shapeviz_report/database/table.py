@@ -133,8 +133,9 @@ class Listing:
             raise DatabaseError(
                 f"The data frame cannot be read: {error}. Columns hold text, numbers or dates; paths as text."
             ) from error
-        _check_cells(Path(self.name), found.num_rows * found.num_columns)
-        content = _column_rows(found, Path(self.name))
+        told = Path(f"of {self.name}")  # "The table of the data frame has ..."
+        _check_cells(told, found.num_rows * found.num_columns)
+        content = _column_rows(found, told)
         files = [os.path.abspath(row.file) for row in content.rows if row.file]
         if not files:
             raise DatabaseError("The data frame lists no files.")

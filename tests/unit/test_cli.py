@@ -64,3 +64,7 @@ def test_zsh_has_its_script(capsys: pytest.CaptureFixture[str]) -> None:
     script = capsys.readouterr().out
     assert script.startswith("#compdef shapeviz-report\n")
     assert "--edge-length" in script
+
+
+def test_spaces_of_all_kinds_are_shown() -> None:
+    assert cli._one_line("0.2\u00a0% of 1\u202f000\u2028\u3000\x85") == "0.2 % of 1 000? ?"

@@ -224,7 +224,7 @@ class TestDataFrame:
         frame = pandas.DataFrame(
             {"label": pandas.Categorical(["x", "x", "y"])}, index=[f"db/{name}" for name in FILES]
         )
-        with pytest.raises(DatabaseError, match="no column 'file'"):
+        with pytest.raises(DatabaseError, match="The table of the data frame has no column 'file'"):
             Listing(frame)
         frame = frame.rename_axis("file")
         listed = [read_database(Listing(given)) for given in (frame, pyarrow.table(frame))]
