@@ -157,7 +157,7 @@ def test_what_runs_is_reached() -> None:
         edges = fixed_edges()
         call("SAMPLE", prepared, 20)
         call("DESCRIBE", prepared, view, edges, True, 100, False)
-        call("EXPORT", prepared, view, 100, {"_AGD": 1})
+        call("EXPORT", prepared, view, 100, {"_AGD": 1}, False)
         call("DESCRIBE_WHOLE", prepared)
         call("MEASURE", prepared, edges, True)
         call("MEASURE_VERTICES", prepared)
