@@ -41,6 +41,7 @@ autodoc_default_options = {"members": True}
 numpydoc_show_class_members = False
 python_use_unqualified_type_names = True
 
+html_domain_indices = False  # two modules are no index
 html_math_renderer = "mathml"
 html_theme = "pydata_sphinx_theme"
 html_title = project
