@@ -471,6 +471,7 @@ def _checked(result: CheckResult) -> dict[str, object]:
                 "metadata": shape.metadata,
                 "usable": shape.id in result.repairs,
                 "repairs": result.repairs.get(shape.id, {}),
+                "lost_colours": list(result.lost.get(shape.id, ())),
             }
             for shape in database.shapes
         ],
@@ -490,6 +491,10 @@ def _print_check(result: CheckResult) -> None:
         _say("", "Would be repaired, in so many files:")
         for what, count in sorted(mended.items(), key=lambda item: (-item[1], item[0])):
             _say(f"  {count:6,}  {what}")
+    if result.lost:
+        _say("", f"Colours are left out of {_count(len(result.lost), 'shape', 'shapes')}:")
+        for shape, lost in result.lost.items():
+            _say(*(f"  {shape}: {what}" for what in lost))
     if result.copies:
         _say("", "The same shape again:")
         for copy in result.copies:

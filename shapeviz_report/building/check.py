@@ -18,11 +18,10 @@ from shapeviz_report.building.reading import (
     read_published,
 )
 from shapeviz_report.building.runner import Runner, name_files
-from shapeviz_report.building.stages import EXAMINE, Stage
+from shapeviz_report.building.stages import EXAMINE, Examined, Stage
 from shapeviz_report.building.workers import open_workers
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
-from shapeviz_report.copies import Outline
 from shapeviz_report.database import Listing
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import read_publication
@@ -39,6 +38,8 @@ class CheckResult:
         As it is laid out.
     repairs : mapping of str to dict
         Shape id -> what would be mended, for shapes that can be used.
+    lost : mapping of str to tuple of str
+        Shape id -> what is left out of its colours, and why, for those of them that lose any.
     failures : tuple of Failure
         Files that cannot be used.
     copies : tuple of Copy
@@ -47,6 +48,7 @@ class CheckResult:
 
     database: Database
     repairs: dict[str, dict[str, int]]
+    lost: dict[str, tuple[str, ...]]
     failures: tuple[Failure, ...]
     copies: tuple[Copy, ...] = ()
 
@@ -69,15 +71,21 @@ def check_database(source: Path | Listing, config: Config, progress: Progress | 
         paths = {s.id: s.path.absolute() for s in database.shapes}
         within = None if config.outside else database.root
 
-        repairs: dict[str, dict[str, int]] = {}
-        outlines: dict[str, Outline] = {}
+        examined: dict[str, Examined] = {}
         checking = replace(EXAMINE, name="check")
 
         def take(shape: str, _: Chain, values: dict[Stage[Any], Any]) -> None:
-            repairs[shape], outlines[shape] = values[checking]
+            examined[shape] = values[checking]
 
         run.each("Checking meshes", paths, [checking], plan_examining(paths, within), take)
-        order = [shape for shape in paths if shape in outlines]
-        copies = find_copies(run, paths, within, {shape: outlines[shape] for shape in order})
+        found = {shape: examined[shape] for shape in paths if shape in examined}
+        outlines = {shape: each.outline for shape, each in found.items()}
+        copies = find_copies(run, paths, within, outlines)
     cache.tell()
-    return CheckResult(database, {shape: repairs[shape] for shape in order}, tuple(failures), copies)
+    return CheckResult(
+        database,
+        repairs={shape: each.repairs for shape, each in found.items()},
+        lost={shape: each.lost for shape, each in found.items() if each.lost},
+        failures=tuple(failures),
+        copies=copies,
+    )

@@ -173,7 +173,7 @@ def build_report(
         def take(shape: str, chain: Chain, found: dict[stages.Stage[Any], Any]) -> None:
             if stages.FACTS in found:
                 facts[shape] = found[stages.FACTS]
-                outlines[shape] = found[stages.EXAMINE][1]
+                outlines[shape] = found[stages.EXAMINE].outline
                 pictures[shape] = found[stages.RENDER]
             if stages.SAMPLE in found:
                 samples[shape] = found[stages.SAMPLE]

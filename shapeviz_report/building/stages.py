@@ -11,7 +11,7 @@ import io
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -34,7 +34,7 @@ from shapeviz_report.features import (
 from shapeviz_report.glb import encode_glb
 from shapeviz_report.global_descriptors import PosedShape
 from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
-from shapeviz_report.mesh import clean, content_hash, parse_mesh, prepare
+from shapeviz_report.mesh import clean, content_hash, parse_mesh, parse_painted, prepare, read_paint
 from shapeviz_report.mesh.clean import bounding_diagonal
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.neighbours import RELATED, find_related
@@ -73,7 +73,7 @@ R = TypeVar("R")
 
 
 def examine_shape(files: Mapping[str, bytes]) -> bytes:
-    """What would be repaired in a mesh file, and its outline, for :func:`read_examined`.
+    """What would be repaired in a mesh file, what is lost of its colours, and its outline, for :func:`read_examined`.
 
     Parameters
     ----------
@@ -81,21 +81,31 @@ def examine_shape(files: Mapping[str, bytes]) -> bytes:
         As :func:`~shapeviz_report.mesh.collect_files` finds them.
     """
     try:
-        mesh, repairs = clean(parse_mesh(files))
+        read, paint = parse_painted(files)
+        mesh, repairs = clean(read)
     except MeshError as error:
         return _pack_arrays(note=np.array(json.dumps({"refused": str(error)})))
-    note = {"repairs": repairs, "sha256": content_hash(files)}
+    lost = () if paint is None else read_paint(paint)[1]
+    note = {"repairs": repairs, "lost": lost, "sha256": content_hash(files)}
     return _pack_arrays(note=np.array(json.dumps(note)), values=outline(mesh))
 
 
-def read_examined(examined: bytes) -> tuple[dict[str, int], Outline]:
-    """What would be repaired, and how often, and the outline. Raises :class:`MeshError` with the reason if the mesh
-    cannot be used."""
+class Examined(NamedTuple):
+    """What is known of a mesh file that can be used: what would be repaired and how often, what is lost of its colours
+    and why, and its outline."""
+
+    repairs: dict[str, int]
+    lost: tuple[str, ...]
+    outline: Outline
+
+
+def read_examined(examined: bytes) -> Examined:
+    """What :func:`examine_shape` found. Raises :class:`MeshError` with the reason if the mesh cannot be used."""
     arrays = _read_arrays(examined)
     note = json.loads(str(arrays["note"]))
     if "refused" in note:
         raise MeshError(note["refused"])
-    return note["repairs"], Outline(note["sha256"], arrays["values"])
+    return Examined(note["repairs"], tuple(note["lost"]), Outline(note["sha256"], arrays["values"]))
 
 
 def compare_shapes(first: Mapping[str, bytes], second: Mapping[str, bytes]) -> bytes:

@@ -7,10 +7,8 @@ import io
 import json
 import os
 import re
-import unicodedata
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import zip_longest
@@ -19,6 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeGuard
 
 from shapeviz_report.arrow import column_texts, frame_table, read_parquet, require_pyarrow
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
+from shapeviz_report.database.finder import Finder, spellings
 from shapeviz_report.database.folder import leads_outside, scan_folder
 from shapeviz_report.database.formats import MESH_SUFFIXES, is_read, split_name, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
@@ -68,8 +67,6 @@ FEWEST_SHAPES_A_CLASS = 3
 _EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
 _SECOND_OBJECT = re.compile(r"\s*\{.*\}[ \t\r]*\n\s*\{")
 """An object that ends on its line and another below, without a comma: JSON lines, whatever the file is called."""
-_COUNTED = re.compile(r"^0*(0|[1-9]\d*)(?:\.0+)?(\.[a-z]\w*)?$", re.ASCII)
-"""A name that is a whole number, with or without a suffix."""
 _INDEX = re.compile(r"__index_level_\d+__")
 """What the index of a data frame is called in a table when it has no name: mere numbers of rows."""
 _csv_reader = partial(csv.reader, skipinitialspace=True)
@@ -197,7 +194,7 @@ class Table(Layout):
         if not rows:
             raise DatabaseError(f"The table {table} names columns, but lists no files.")
         root = table.parent
-        finder = _Finder(root)
+        finder = Finder(root, suffixes=MESH_SUFFIXES)
         listed, failures = _sort_out(rows, table, finder)
         if repeated := sorted(relative for relative, file in listed.items() if len(file.rows) > 1):
             warnings.append(
@@ -321,7 +318,7 @@ def _judge(table: Path, outside: bool) -> Verdict:
         return Verdict(False, False, "")
     except DatabaseError as error:
         return Verdict(False, False, str(error))
-    finder = _Finder(table.parent)
+    finder = Finder(table.parent, suffixes=MESH_SUFFIXES)
     found = (finder.find(row.file) for row in content.rows if row.file)
     if any(path is not None and is_read(path.name) and path.is_file() for path in found):
         return Verdict(True, content.plain, "Name it instead of the folder to read it.")
@@ -559,14 +556,14 @@ def _row(place: str, cells: Mapping[str, str]) -> Row:
 
 
 def _sort_out(
-    rows: Sequence[Row], table: Path, finder: _Finder
+    rows: Sequence[Row], table: Path, finder: Finder
 ) -> tuple[dict[str, Listed], tuple[Failure, ...]]:
     """What can be taken, by its path below the table's folder, and the failures."""
     root = table.parent
     by_file: dict[str, Listed] = {}
     failures = []
     for row in rows:
-        if row.file and not _spellings(row.file):
+        if row.file and not spellings(row.file):
             reason = (
                 f"{table.name} lists it ({row.place}), but it is on another machine; copy it into the folder"
             )
@@ -606,92 +603,7 @@ def _from(root: Path, path: Path) -> str:
         return path.as_posix()
 
 
-class _Finder:
-    """Where listed files are; it looks into each folder once."""
-
-    def __init__(self, root: Path) -> None:
-        self.root = os.fspath(root)
-        self.listings: dict[tuple[str, Callable[[str], str]], dict[str, list[str]]] = {}
-        self.found: dict[str, Path | None] = {}
-
-    def find(self, file: str) -> Path | None:
-        """The file, or the folder, that a table means; None if nothing is there, or it cannot be said which.
-
-        A path that does not exist as written is also tried with Windows' separators turned, then in other Unicode
-        normal forms, which tables and file systems exchange behind their users' backs, then in another case, then as a
-        number that a spreadsheet has written its own way; each also with the suffixes of meshes.
-        """
-        if file not in self.found:
-            self.found[file] = self._find(file)
-        return self.found[file]
-
-    def _find(self, file: str) -> Path | None:
-        spellings = _spellings(file)
-        for spelling in spellings:
-            path = os.path.normpath(os.path.join(self.root, spelling))
-            for suffix in ("", *MESH_SUFFIXES):
-                if os.path.isfile(path + suffix):
-                    return Path(path + suffix)
-            if os.path.lexists(path):
-                return Path(path)
-        for like in (_composed, _any_case, _as_number):
-            for spelling in spellings:
-                if found := self._find_like(spelling, like):
-                    return found
-        return None
-
-    def _find_like(self, file: str, like: Callable[[str], str]) -> Path | None:
-        normal = Path(os.path.normpath(file))
-        path = normal.anchor or self.root
-        *folders, name = normal.parts[1:] if normal.anchor else normal.parts or ("",)
-        for folder in folders:
-            exact = os.path.normpath(os.path.join(path, folder))
-            if not os.path.isdir(exact):
-                alike = self._list(path, like).get(like(folder), [])
-                if len(alike) != 1:
-                    return None
-                exact = os.path.join(path, alike[0])
-            path = exact
-        for names in ({like(name)}, {like(name + suffix) for suffix in MESH_SUFFIXES}):
-            alike = [entry for known in names for entry in self._list(path, like).get(known, [])]
-            if alike:
-                return Path(path, alike[0]) if len(alike) == 1 else None
-        return None
-
-    def _list(self, folder: str, like: Callable[[str], str]) -> dict[str, list[str]]:
-        """The names in a folder by what they are like; none if it cannot be opened."""
-        if (folder, like) not in self.listings:
-            listing: dict[str, list[str]] = {}
-            with suppress(OSError, ValueError):
-                for name in os.listdir(folder):
-                    listing.setdefault(like(name), []).append(name)
-            self.listings[folder, like] = listing
-        return self.listings[folder, like]
-
-
-def _spellings(file: str) -> list[str]:
-    """A path as it stands in a table, and with Windows' separators turned; none if it leads to another machine.
-
-    Windows would ask that machine for the file, and tell it who asks.
-    """
-    turned = file.replace("\\", "/")
-    return [] if turned.startswith("//") else list(dict.fromkeys((file, turned)))
-
-
-def _composed(name: str) -> str:
-    return unicodedata.normalize("NFC", name)
-
-
-def _any_case(name: str) -> str:
-    return _composed(_composed(name).casefold())
-
-
-def _as_number(name: str) -> str:
-    """The name without what spreadsheets add to a number, ``.0``, and what they take away, zeros in front."""
-    return _COUNTED.sub(r"\1\2", _any_case(name))
-
-
-def _count_unlisted(root: Path, rows: Sequence[Row], finder: _Finder, outside: bool) -> int:
+def _count_unlisted(root: Path, rows: Sequence[Row], finder: Finder, outside: bool) -> int:
     """How many meshes below the table's folder none of its rows names; 0 for a folder that cannot be looked into."""
     named = {os.path.realpath(path) for row in rows if row.file and (path := finder.find(row.file))}
     try:

@@ -6,64 +6,72 @@ shown without them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path, PurePosixPath
 
+from shapeviz_report.database.finder import Finder
 from shapeviz_report.files import read_regular
-from shapeviz_report.mesh.readers.gltf import list_pictures
+from shapeviz_report.mesh.readers.collada import list_images
+from shapeviz_report.mesh.readers.gltf import GLTF, list_pictures
+from shapeviz_report.mesh.readers.limits import MOST_LOOKS
 from shapeviz_report.mesh.readers.mtl import list_materials, read_materials
-from shapeviz_report.mesh.readers.packed import GLTF
-
-MOST_BYTES = 2**26
-"""Of all files together."""
 
 MOST_FILES = 512
 
+Read = Callable[[str, int], bytes | None]
+"""Gives the content of a file by its name, if it is there and has no more than so many bytes."""
 
-def collect_looks(folder: Path, root: Path, suffix: str, data: bytes) -> dict[str, bytes]:
+
+def collect_looks(suffix: str, data: bytes, read: Read) -> dict[str, bytes]:
     """The files of the colours of a mesh.
 
     Parameters
     ----------
-    folder : Path
-        Of the mesh file; names are relative to it.
-    root : Path
-        What the files must lie in, links resolved: nothing outside of it is opened.
     suffix : str
         Of the mesh file.
     data : bytes
         Its content.
+    read : callable
+        For names as they stand in the mesh, ``/`` between folders, none of them absolute.
 
     Returns
     -------
     dict of str to bytes
-        By their names in the mesh or its materials, ``/`` between folders.
+        By their names in the mesh or its materials.
     """
     files: dict[str, bytes] = {}
     if suffix in GLTF:
-        _add(files, folder, root, list_pictures(data))
+        _add(files, read, list_pictures(data))
+    elif suffix == ".dae":
+        _add(files, read, list_images(data))
     elif suffix == ".obj":
-        _add(files, folder, root, list_materials(data))
-        _add(files, folder, root, [name for text in list(files.values()) for name in _pictures(text)])
+        _add(files, read, list_materials(data))
+        _add(files, read, [name for text in list(files.values()) for name in _pictures(text)])
     return files
+
+
+def read_beside(folder: Path, root: Path) -> Read:
+    """What reads files by their names in a mesh of a folder: none outside of ``root``, links resolved, is opened."""
+    finder = Finder(folder, within=root)
+
+    def read(name: str, most: int) -> bytes | None:
+        try:
+            found = finder.find(name)
+            return None if found is None else read_regular(found, most)
+        except (OSError, RuntimeError, ValueError):  # too large, a circle of links, or no name of a file
+            return None
+
+    return read
 
 
 def _pictures(text: bytes) -> Iterator[str]:
     return (material.picture for material in read_materials(text).values() if material.picture)
 
 
-def _add(files: dict[str, bytes], folder: Path, root: Path, names: Iterable[str]) -> None:
+def _add(files: dict[str, bytes], read: Read, names: Iterable[str]) -> None:
     for name in names:
-        left = MOST_BYTES - sum(map(len, files.values()))
-        path = PurePosixPath(name)
-        if name in files or len(files) >= MOST_FILES or path.is_absolute() or ":" in name:
+        left = MOST_LOOKS - sum(map(len, files.values()))
+        if name in files or len(files) >= MOST_FILES or PurePosixPath(name).is_absolute() or ":" in name:
             continue
-        try:
-            if (folder / path).resolve().is_relative_to(root.resolve()):
-                files[name] = read_regular(folder / path, left)
-        except (
-            OSError,
-            RuntimeError,
-            ValueError,
-        ):  # not there, too large, a circle of links, or no name of a file
-            continue
+        if (content := read(name, left)) is not None:
+            files[name] = content

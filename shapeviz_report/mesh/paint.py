@@ -7,6 +7,7 @@ that one colour a vertex is all that pictures and models need to know.
 from __future__ import annotations
 
 import io
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,15 +52,15 @@ class Paint:
     pictures : (k,) int16 array or None
         The picture of each corner; -1 for none.
     images : tuple of (h, w, 3) uint8 arrays
-    lost : int
-        How many files of materials and pictures are named and were not found, or cannot be used.
+    lost : tuple of str
+        What was left out: materials and pictures that are named and were not found, or cannot be used, and why.
     """
 
     colors: Bytes
     places: npt.NDArray[np.float32] | None = None
     pictures: npt.NDArray[np.int16] | None = None
     images: tuple[Bytes, ...] = ()
-    lost: int = 0
+    lost: tuple[str, ...] = ()
 
     def of(self, corners: Indices) -> Paint:
         """The paint of some corners, in any shape (...)."""
@@ -101,6 +102,60 @@ def read_picture(data: bytes) -> Bytes | None:
         raise
     except Exception:  # a broken picture can make a decoder fail in any way
         return None
+
+
+MISSING = "is not there, lies outside the folder or is too large"
+"""Why a file of colours is left out that was not collected with the mesh."""
+
+
+class Pictures:
+    """The pictures of a surface, each unpacked once.
+
+    Attributes
+    ----------
+    images : list of (h, w, 3) uint8 arrays
+    lost : list of str
+        Which were left out, and why.
+    """
+
+    def __init__(self) -> None:
+        self.images: list[Bytes] = []
+        self.lost: list[str] = []
+        self._places: dict[Hashable, int] = {}
+
+    def place(self, key: Hashable, name: str, read: Callable[[], bytes | None]) -> int:
+        """The place of a picture among ``images``; -1 if it cannot be used.
+
+        Parameters
+        ----------
+        key : hashable
+            What it is known by in its file.
+        name : str
+            What it is called.
+        read : callable
+            Gives its content; None if it is not there.
+        """
+        if key not in self._places:
+            self._places[key] = self._add(name, read)
+        return self._places[key]
+
+    def _add(self, name: str, read: Callable[[], bytes | None]) -> int:
+        if len(self.images) == MOST_PICTURES:
+            self.lost.append(f"{name} is one more picture than the {MOST_PICTURES} that are shown")
+            return -1
+        content = read()
+        picture = None if content is None else read_picture(content)
+        if picture is None:
+            self.lost.append(f"{name} {MISSING if content is None else 'is no picture that can be read'}")
+            return -1
+        self.images.append(picture)
+        return len(self.images) - 1
+
+    def miss_places(self, name: str) -> None:
+        """A picture is left out, for the surface does not say where it lies on it."""
+        told = f"{name} has no place on the surface, which lacks texture coordinates"
+        if told not in self.lost:
+            self.lost.append(told)
 
 
 def bake(paint: Paint, corners: FloatArray, mesh: Mesh) -> Bytes:

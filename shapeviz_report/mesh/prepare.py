@@ -97,21 +97,30 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
     return replace(normalise(remeshed), colors=colors), facts
 
 
-def _find_colors(
-    original: Mesh, paint: Callable[[], Paint], prepared: Mesh, repairs: dict[str, int]
-) -> npt.NDArray[np.uint8] | None:
-    """The colours (n, 3) of a mesh as it was read at the vertices of the one that it became; None if they say nothing,
-    or cannot be read. No mesh fails for its colours: what they lack is noted."""
+def read_paint(paint: Callable[[], Paint]) -> tuple[Paint | None, tuple[str, ...]]:
+    """The colours of a surface, None if they cannot be read, and what is lost of them: no mesh fails for them."""
     try:
         found = paint()
     except MemoryError:
         raise
     except Exception:  # what is broken in them may make their reader fail in any way
+        return None, ("its colours cannot be read",)
+    return found, found.lost
+
+
+def _find_colors(
+    original: Mesh, paint: Callable[[], Paint], prepared: Mesh, repairs: dict[str, int]
+) -> npt.NDArray[np.uint8] | None:
+    """The colours (n, 3) of a mesh as it was read at the vertices of the one that it became; None if they say nothing,
+    or cannot be read. What they lack is noted."""
+    found, lost = read_paint(paint)
+    if found is None:
         repairs["colours that cannot be read left out"] = 1
-        return None
-    if found.lost:
-        repairs["files of its colours left out, which are missing or cannot be read"] = found.lost
-    if found.is_plain:
+    elif lost:
+        repairs["materials or pictures of its colours left out, which are missing or cannot be used"] = len(
+            lost
+        )
+    if found is None or found.is_plain:
         return None
     vertices, finite, _ = in_diagonals(original)
     return bake(found.of(np.flatnonzero(finite)), vertices[original.faces[finite]], prepared)

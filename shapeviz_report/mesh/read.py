@@ -10,17 +10,19 @@ from pathlib import Path
 
 import numpy as np
 
+from shapeviz_report.database.finder import Finder
 from shapeviz_report.database.formats import PACKED, format_of, is_read, split_name, suffix_of, why_not_read
 from shapeviz_report.errors import MeshError
 from shapeviz_report.files import MOST_BYTES, TooLargeError, read_regular
-from shapeviz_report.mesh.looks import collect_looks
+from shapeviz_report.mesh.looks import collect_looks, read_beside
+from shapeviz_report.mesh.packed import unpack
 from shapeviz_report.mesh.paint import Paint
 from shapeviz_report.mesh.readers import READERS, READERS_OF_SEVERAL
-from shapeviz_report.mesh.readers.gltf import list_buffers
+from shapeviz_report.mesh.readers.gltf import GLTF, list_buffers
 from shapeviz_report.mesh.readers.limits import check_faces
-from shapeviz_report.mesh.readers.packed import GLTF, unpack
 from shapeviz_report.mesh.readers.polygons import PolygonMesh, check_indices, cut_corners
 from shapeviz_report.mesh.readers.sniff import what_it_seems
+from shapeviz_report.places import holds
 from shapeviz_report.types import Mesh
 
 _PLACE = re.compile(r"\b(?:line|row) \d")
@@ -74,20 +76,18 @@ def collect_files(path: Path, within: Path | None = None) -> dict[str, bytes]:
         )
     files = {path.name: _read_bytes(path)}
     if split_name(path.name)[1] in GLTF and files[path.name].strip():
-        folder = path.parent.resolve()
+        finder = Finder(path.parent, within=path.parent)
         left = MOST_BYTES - len(files[path.name])
         for name in list_buffers(files[path.name]):
             if name in files:
                 continue
-            try:
-                inside = (folder / name).resolve().is_relative_to(folder)
-            except (OSError, RuntimeError, ValueError):  # a circle of links, or no name that a file can have
-                inside = False
-            if not inside:
+            buffer = finder.find(name) or path.parent / name
+            if not holds(path.parent, buffer):
                 raise MeshError(f"it refers to {name[:100]!r}, which is not a file in its own folder")
-            files[name] = _read_bytes(folder / name, left)
+            files[name] = _read_bytes(buffer, left)
             left -= len(files[name])
-    looks = collect_looks(path.parent, within or path.parent, split_name(path.name)[1], files[path.name])
+    beside = read_beside(path.parent, within or path.parent)
+    looks = collect_looks(split_name(path.name)[1], files[path.name], beside)
     return files | {name: content for name, content in looks.items() if name not in files}
 
 

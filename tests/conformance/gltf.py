@@ -127,11 +127,13 @@ POSITIONS, EXPONENTIAL, TRIANGLES, INDICES = map(
 """The box as meshoptimizer compresses it: its corners, the same after its exponential filter, and its triangles twice."""
 
 
-def with_draco(content: bytes, vertices: int | None = None, attribute: int = 0, mode: int = 4) -> File:
+def with_draco(
+    content: bytes, vertices: int | None = None, attribute: int = 0, mode: int = 4, name: str = "POSITION"
+) -> File:
     """The box, or what else is in the content, compressed with Draco and no other way."""
     file = File()
     count = 8 if vertices is None else vertices
-    told = {"bufferView": file.view(content), "attributes": {"POSITION": attribute}}
+    told = {"bufferView": file.view(content), "attributes": {name: attribute}}
     file.document["accessors"] = [
         {"componentType": 5126, "count": count, "type": "VEC3"},
         {"componentType": 5125, "count": 36, "type": "SCALAR"},
@@ -459,6 +461,9 @@ def extensions() -> list[Case]:
         bad("damaged content of Draco", with_draco(content[:-9]), "with Draco is damaged"),
         bad("other numbers of vertices than Draco has", with_draco(content, vertices=9), "9 elements, but"),
         bad("attributes that Draco does not have", with_draco(content, attribute=7), "no attribute 7"),
+        bad(
+            "positions that Draco does not have", with_draco(content, name="NORMAL"), "Draco has no positions"
+        ),
         bad("strips compressed with Draco", with_draco(content, mode=5), "strips or fans compressed"),
         one("EXT_meshopt_compression with its fallback", spare),
         one("EXT_meshopt_compression", with_meshopt()),

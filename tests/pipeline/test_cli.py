@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import trimesh
 from small_database import OPTIONS, make_shape, write_database
 
 from shapeviz_report import __version__
@@ -237,7 +238,30 @@ def test_a_check_for_programs(database, cache, tmp_path) -> None:
         "metadata": {},
         "usable": True,
         "repairs": {},
+        "lost_colours": [],
     }
+
+
+def test_a_check_tells_what_is_lost_of_colours(tmp_path, capsys) -> None:
+    folder = _folder(tmp_path / "shapes")
+    for name in ("one", "two"):
+        ball = trimesh.creation.icosphere(2).export(file_type="obj", include_normals=False)
+        (folder / f"{name}.obj").write_text(f"mtllib {name}.mtl\nusemtl wood\n{ball}")
+    (folder / "Two.mtl").write_text("newmtl wood\nmap_Kd wood.png\n")
+    (folder / "wood.png").write_bytes(b"no picture")
+    arguments = ["check", str(folder), "--cache", str(tmp_path / "cache"), "--jobs", "1"]
+    lost = {
+        "one": "one.mtl is not there, lies outside the folder or is too large",
+        "two": "wood.png is no picture that can be read",
+    }
+    assert main(arguments) == 0
+    told = capsys.readouterr().out
+    assert "Colours are left out of 2 shapes:\n" in told
+    for shape, what in lost.items():
+        assert f"  {shape}: {what}\n" in told
+    assert main([*arguments, "--json"]) == 0
+    shapes = json.loads(capsys.readouterr().out)["shapes"]
+    assert {shape["id"]: shape["lost_colours"] for shape in shapes} == {k: [v] for k, v in lost.items()}
 
 
 def test_how_much_is_said(database, cache, tmp_path) -> None:

@@ -18,13 +18,13 @@ READERS: dict[str, Callable[[bytes], PolygonMesh]] = {
     ".ply": read_ply,
     ".stl": read_stl,
     ".3mf": read_3mf,
-    ".dae": read_collada,
 }
-"""Suffix -> what reads the content of such a file. OBJ and glTF, parts of which may be in other files, have a signature
-of their own."""
+"""Suffix -> what reads the content of such a file. Those parts of which may be in other files have a signature of their
+own."""
 
 READERS_OF_SEVERAL: dict[str, Callable[[bytes, Mapping[str, bytes]], PolygonMesh]] = {
     ".obj": read_obj,
+    ".dae": read_collada,
     ".gltf": read_gltf,
     ".glb": read_gltf,
 }

@@ -1,26 +1,33 @@
-"""COLLADA 1.4 and 1.5: its triangles and polygons, where its scene places them at rest."""
+"""COLLADA 1.4 and 1.5: its triangles and polygons, where its scene places them at rest, and the colours of its
+materials or corners."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator
+import html
+import re
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from itertools import islice
 from urllib.parse import unquote
 
 import numpy as np
+import numpy.typing as npt
 from lxml import etree
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.paint import Bytes, Paint, Pictures, as_bytes
 from shapeviz_report.mesh.readers.limits import check_faces
 from shapeviz_report.mesh.readers.polygons import (
     Indices,
     PolygonMesh,
     check_indices,
+    cut_corners,
     cut_fan,
     cut_strip,
     cut_with_holes,
-    triangulate,
 )
-from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, place_nodes
+from shapeviz_report.mesh.readers.scene import Node, Part, join_corners, join_parts, place_nodes
 from shapeviz_report.mesh.readers.text import parse_indices, parse_numbers
 from shapeviz_report.types import FloatArray, UpAxis
 
@@ -39,15 +46,63 @@ _BLANKS = b" \t\r\n\0\x1a"
 _FACES = frozenset({"triangles", "polylist", "polygons", "tristrips", "trifans"})
 
 
-def read_collada(data: bytes) -> PolygonMesh:
+_IMAGE = re.compile(rb"<(?:[\w.-]+:)?(?:init_from|ref)(?:\s[^<>]*)?>([^<>]+)<")
+
+
+@dataclass(frozen=True)
+class _Cut:
+    """A primitive cut into triangles.
+
+    Attributes
+    ----------
+    primitive : Element
+    table : (k, width) int64 array
+        The indices of all its corners.
+    places : (m, 3) int64 array
+        The corners of its triangles: rows of the table.
+    """
+
+    primitive: Element
+    table: Indices
+    places: Indices
+
+
+@dataclass(frozen=True)
+class _Look:
+    """How a material looks: its colour in sRGB; or its picture (its place among those of the surface, -1 for none, and
+    its name) and the number of the set of its texture coordinates."""
+
+    color: tuple[int, ...] = (255, 255, 255)
+    picture: int = -1
+    name: str = ""
+    coordinates: str = ""
+
+
+def read_collada(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     """Read COLLADA.
+
+    Parameters
+    ----------
+    data : bytes
+    files : mapping of str to bytes
+        By the names that :func:`list_images` gives: those of its pictures that were found.
 
     Raises
     ------
     MeshError
         If it is anything else, or holds a surface that is not read.
     """
-    return _Reader(_parse(data)).read()
+    return _Reader(_parse(data), files).read()
+
+
+def list_images(data: bytes) -> list[str]:
+    """The files of pictures that a COLLADA may name, each once."""
+    texts = (match.decode("utf-8", "replace") for match in _IMAGE.findall(data))
+    return list(dict.fromkeys(_image_name(html.unescape(text)) for text in texts))
+
+
+def _image_name(uri: str) -> str:
+    return unquote(uri.strip()).removeprefix("file://").replace("\\", "/")
 
 
 def _parse(data: bytes) -> Element:
@@ -100,8 +155,12 @@ def _in_utf8(data: bytes) -> bytes:
 class _Reader:
     """One document."""
 
-    def __init__(self, root: Element) -> None:
+    def __init__(self, root: Element, files: Mapping[str, bytes]) -> None:
         self.root = root
+        self.files = files
+        self.sources: list[tuple[Element | None, list[_Cut], bool]] = []
+        """Of every part: what shows it, its triangles, and whether they were turned round."""
+        self.pictures = Pictures()
         self.by_id: dict[tuple[str, str], list[Element]] = {}
         for element in root.iter(etree.Element):
             if (name := element.get("id")) is not None:
@@ -111,7 +170,12 @@ class _Reader:
         up = _UP_AXES.get((self.root.findtext("asset/up_axis") or "Y_UP").strip())
         if up is None:
             raise MeshError("its up_axis is none of X_UP, Y_UP and Z_UP")
-        return PolygonMesh.of_triangles(*join_parts(self.place_geometries()), up=up)
+        parts = list(self.place_geometries())
+        mesh = PolygonMesh.of_triangles(*join_parts(parts), up=up)
+        painted = next(self.root.iter("effect"), None) is not None or any(
+            element.get("semantic") == "COLOR" for element in self.root.iter("input")
+        )
+        return replace(mesh, paint=partial(self.paint, parts) if painted else None)
 
     # scene
 
@@ -125,7 +189,7 @@ class _Reader:
                 geometries = self.root.findall("library_geometries/geometry")
                 check_faces(sum(map(self.count_triangles, geometries)))
                 for geometry in geometries:
-                    yield self.part(geometry, np.eye(4)[None])
+                    yield self.part(None, geometry, np.eye(4)[None])
                 return
             scene = found
         nodes: dict[Hashable, Node[Hashable]] = {}
@@ -153,7 +217,7 @@ class _Reader:
         for key, transforms in placed.items():
             assert isinstance(key, Element)
             if key.tag == "instance_geometry":
-                yield self.part(self.shape_of(key), transforms)
+                yield self.part(key, self.shape_of(key), transforms)
             else:
                 yield self.skinned_part(key, transforms)
 
@@ -186,9 +250,10 @@ class _Reader:
 
     def skinned_part(self, instance: Element, transforms: FloatArray) -> Part:
         controller = self.target(instance, "controller")
-        points, faces = self.surface(self.shape_of(instance))
+        points, faces, cuts = self.surface(self.shape_of(instance))
         points = self.deformed(controller, points)
         deformation = _deformation(controller)
+        self.sources.append((instance, cuts, False))
         if deformation.tag == "morph":
             return Part(points, faces, transforms)
         bind = _numbers(deformation.findtext("bind_shape_matrix") or _IDENTITY)
@@ -200,7 +265,8 @@ class _Reader:
             return Part(points, faces, transforms @ bind)
         points = points @ bind[:3, :3].T + bind[:3, 3]
         moved = self.bent(deformation, poses, points)
-        mirrored = np.linalg.det(bind[:3, :3]) * np.linalg.det(poses[:, :3, :3]).mean() < 0
+        mirrored = bool(np.linalg.det(bind[:3, :3]) * np.linalg.det(poses[:, :3, :3]).mean() < 0)
+        self.sources[-1] = (instance, cuts, mirrored)
         return Part(
             moved, faces[:, ::-1] if mirrored else faces, np.eye(4)[None].repeat(len(transforms), axis=0)
         )
@@ -282,8 +348,10 @@ class _Reader:
 
     # geometries
 
-    def part(self, geometry: Element, transforms: FloatArray) -> Part:
-        return Part(*self.surface(geometry), transforms)
+    def part(self, instance: Element | None, geometry: Element, transforms: FloatArray) -> Part:
+        points, faces, cuts = self.surface(geometry)
+        self.sources.append((instance, cuts, False))
+        return Part(points, faces, transforms)
 
     def count_triangles(self, geometry: Element) -> int:
         """What a geometry declares; its primitives are counted before they are read."""
@@ -308,21 +376,14 @@ class _Reader:
                 total += sum(len((run.text or "").split()) // width + 2 for run in primitive.iterfind("ph/*"))
         return total
 
-    def surface(self, geometry: Element) -> tuple[FloatArray, Indices]:
-        """Vertices (n, 3) and triangles (m, 3) of all primitives of a geometry."""
+    def surface(self, geometry: Element) -> tuple[FloatArray, Indices, list[_Cut]]:
+        """Vertices (n, 3) and triangles (m, 3) of all primitives of a geometry, and each of them cut into its own."""
         mesh = _mesh_of(geometry)
         points = self.positions(mesh)
+        cuts = [_cut(primitive, points) for primitive in ([] if mesh is None else _primitives(mesh))]
         faces = [np.empty((0, 3), np.int64)]
-        for primitive in [] if mesh is None else _primitives(mesh):
-            corners = [_corners(primitive, p, points) for p in primitive.findall("p")]
-            holed = []
-            for ph in primitive.findall("ph"):
-                outlines, holes = ph.findall("p"), ph.findall("h")
-                if len(outlines) != 1:
-                    raise MeshError(f"a polygon with holes has {len(outlines)} outlines")
-                holed.append([_corners(primitive, loop, points) for loop in (*outlines, *holes)])
-            faces.append(_faces_of(primitive, corners, holed, points))
-        return points, np.concatenate(faces)
+        faces += [cut.table[cut.places, _vertex_offset(cut.primitive)] for cut in cuts]
+        return points, np.concatenate(faces), cuts
 
     def positions(self, mesh: Element | None) -> FloatArray:
         """(n, 3)"""
@@ -370,6 +431,131 @@ class _Reader:
             raise MeshError(f"source {source.get('id', '')[:60]!r} does not say how it is read")
         array = self.target(accessor, *tags, attribute="source")
         return accessor, array.text or ""
+
+    # colours
+
+    def paint(self, parts: Sequence[Part]) -> Paint:
+        """The colours of the corners of the joined parts."""
+        looks = [self.paint_part(*source) for source in self.sources]
+        colors, places, pictures = (
+            join_corners(parts, [one[column] for one in looks]).reshape(-1, *width)
+            for column, width in enumerate(((3,), (2,), ()))
+        )
+        lost = tuple(self.pictures.lost)
+        if not self.pictures.images:
+            return Paint(colors, lost=lost)
+        return Paint(colors, places, pictures, tuple(self.pictures.images), lost)
+
+    def paint_part(
+        self, instance: Element | None, cuts: list[_Cut], turned: bool
+    ) -> tuple[npt.NDArray[np.generic], ...]:
+        """Colour (m, 3, 3), place in a picture (m, 3, 2) and picture (m, 3) of the corners of a part's triangles."""
+        looks: dict[str | None, _Look] = {}
+        painted = [
+            (np.empty((0, 3, 3), np.uint8), np.empty((0, 3, 2), np.float32), np.empty((0, 3), np.int16))
+        ]
+        for cut in cuts:
+            symbol = cut.primitive.get("material")
+            if symbol not in looks:
+                looks[symbol] = self.find_look(instance, symbol)
+            painted.append(self.paint_cut(cut, looks[symbol]))
+        columns = (np.concatenate(column) for column in zip(*painted, strict=True))
+        return tuple(column[:, ::-1] if turned else column for column in columns)
+
+    def paint_cut(
+        self, cut: _Cut, look: _Look
+    ) -> tuple[Bytes, npt.NDArray[np.float32], npt.NDArray[np.int16]]:
+        shape = cut.places.shape
+        colors = np.broadcast_to(np.array(look.color, np.uint8), (*shape, 3))
+        if (values := self.values_of(cut, "COLOR", "")) is not None and values.shape[1] >= 3:
+            # some programs write colours of corners that say nothing
+            own = as_bytes(np.nan_to_num(values[:, :3]), whole=bool((values[:, :3] > 1).any()))
+            if not Paint(own[cut.places]).is_plain:
+                colors = own[cut.places]
+        places = np.zeros((*shape, 2), np.float32)
+        pictures = np.full(shape, -1, np.int16)
+        if look.picture >= 0:
+            found = self.values_of(cut, "TEXCOORD", look.coordinates)
+            if found is None or found.shape[1] < 2:
+                self.pictures.miss_places(look.name)
+            else:
+                places[:] = (found[:, :2] * [1, -1] + [0, 1])[cut.places]
+                pictures[:] = look.picture
+        return colors, places, pictures
+
+    def values_of(self, cut: _Cut, semantic: str, number: str) -> FloatArray | None:
+        """What an input of a meaning has for each row of a table, (k, width), if there is one: that of a set's number,
+        else the first. Where it leads nowhere it is not a number."""
+        found = [(one, _whole(one, "offset", 0)) for one in cut.primitive.findall("input")]
+        mesh = cut.primitive.getparent()
+        if mesh is not None:
+            offset = _vertex_offset(cut.primitive)
+            found += [(one, offset) for one in mesh.iterfind("vertices/input")]
+        found = [(one, offset) for one, offset in found if one.get("semantic") == semantic]
+        if not found:
+            return None
+        one, offset = next(((one, o) for one, o in found if one.get("set", "0") == number), found[0])
+        rows, column = self.rows(one), cut.table[:, offset]
+        there = (column >= 0) & (column < len(rows))
+        values = np.full((len(column), rows.shape[1]), np.nan)
+        values[there] = rows[column[there]]
+        return values
+
+    def find_look(self, instance: Element | None, symbol: str | None) -> _Look:
+        """How the primitives with a symbol look where an instance binds a material to it; where it binds none, that of
+        this id."""
+        binding = None
+        for one in (
+            () if instance is None else instance.iterfind("bind_material/technique_common/instance_material")
+        ):
+            if one.get("symbol") == symbol:
+                binding = one
+        material = self.refer("material", f"#{symbol}" if binding is None else binding.get("target"))
+        reference = None if material is None else material.find("instance_effect")
+        effect = None if reference is None else self.refer("effect", reference.get("url"))
+        if effect is None:
+            return _Look()
+        for shader in ("phong", "lambert", "blinn", "constant"):
+            seen = "emission" if shader == "constant" else "diffuse"
+            color = effect.find(f"profile_COMMON/technique/{shader}/{seen}")
+            if color is not None:
+                return self.read_look(color, effect, binding)
+        return _Look()
+
+    def read_look(self, color: Element, effect: Element, binding: Element | None) -> _Look:
+        """A colour or a texture of an effect."""
+        parameters = {one.get("sid"): one for one in effect.iter("newparam")}
+        texture = color.find("texture")
+        if texture is None:
+            param = color.find("param")
+            known = None if param is None else parameters.get(param.get("ref"))
+            text = color.findtext("color")
+            if known is not None:
+                text = known.findtext("float4") or known.findtext("float3")
+            numbers = _numbers(text)[:3]
+            return _Look(tuple(as_bytes(numbers, whole=False).tolist())) if len(numbers) == 3 else _Look()
+        name = texture.get("texture")
+        sampler = parameters.get(name)
+        image = None if sampler is None else sampler.find("sampler2D/instance_image")
+        if image is not None:
+            name = (image.get("url") or "").lstrip("#")
+        elif sampler is not None:
+            surface = parameters.get(sampler.findtext("sampler2D/source", "").strip())
+            name = "" if surface is None else surface.findtext("surface/init_from", "").strip()
+        found = self.refer("image", f"#{name}")
+        uri = "" if found is None else found.findtext("init_from/ref") or found.findtext("init_from") or ""
+        file = _image_name(uri) or str(name)
+        wanted = texture.get("texcoord")
+        number = ""
+        for one in () if binding is None else binding.iterfind("bind_vertex_input"):
+            if one.get("semantic") == wanted:
+                number = one.get("input_set", "0")
+        picture = self.pictures.place(file, file, partial(self.files.get, file))
+        return _Look(picture=picture, name=file, coordinates=number)
+
+    def refer(self, tag: str, url: str | None) -> Element | None:
+        """An element of the file, if it is there."""
+        return next(iter(self.by_id.get((tag, unquote(url or "").removeprefix("#")), ())), None)
 
 
 _IDENTITY = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"
@@ -443,55 +629,71 @@ def _vertex_offset(primitive: Element) -> int:
 
 
 def _corners(primitive: Element, run: Element, points: FloatArray) -> Indices:
-    """The vertices that a run of indices goes through. Raises ``MeshError`` if one is not there."""
+    """The indices (k, width) of a run of corners. Raises ``MeshError`` if a vertex is not there."""
     indices, width = _integers(run.text), _width(primitive)
     if len(indices) % width:
         raise MeshError(f"<{primitive.tag}> has corners that are not complete")
-    corners = indices.reshape(-1, width)[:, _vertex_offset(primitive)]
-    check_indices(points, corners)
+    corners = indices.reshape(-1, width)
+    check_indices(points, corners[:, _vertex_offset(primitive)])
     return corners
 
 
-def _faces_of(
-    primitive: Element, corners: list[Indices], holed: list[list[Indices]], points: FloatArray
-) -> Indices:
-    """Triangles (m, 3) of runs of corners, and of polygons with holes, each a list of an outline and holes.
+def _cut(primitive: Element, points: FloatArray) -> _Cut:
+    """Cut a primitive's runs of corners, and its polygons with holes, into triangles.
 
     Raises
     ------
     MeshError
         If they are not as many as the primitive announces.
     """
-    together = np.concatenate([np.empty(0, np.int64), *corners])
-    declared, found = _whole(primitive, "count", 0), len(corners)
+    tables = [np.empty((0, _width(primitive)), np.int64)]
+    total = 0
+
+    def add(run: Element) -> Indices:
+        nonlocal total
+        tables.append(_corners(primitive, run, points))
+        total += len(tables[-1])
+        return np.arange(total - len(tables[-1]), total)
+
+    runs = [add(run) for run in primitive.findall("p")]
+    count = total
+    holed = []
+    for ph in primitive.findall("ph"):
+        outlines, holes = ph.findall("p"), ph.findall("h")
+        if len(outlines) != 1:
+            raise MeshError(f"a polygon with holes has {len(outlines)} outlines")
+        holed.append([add(loop) for loop in (*outlines, *holes)])
+    table = np.concatenate(tables)
+    corners = table[:, _vertex_offset(primitive)] if total else np.empty(0, np.int64)
+    declared, found = _whole(primitive, "count", 0), len(runs)
     if primitive.tag in ("tristrips", "trifans"):
         cut: Callable[[Indices], Indices] = cut_strip if primitive.tag == "tristrips" else cut_fan
-        faces = np.concatenate([np.empty((0, 3), np.int64), *(cut(run) for run in corners if len(run) > 2)])
+        places = np.concatenate([np.empty((0, 3), np.int64), *(cut(run) for run in runs if len(run) > 2)])
     elif primitive.tag == "triangles":
-        if len(together) % 3:
-            raise MeshError(f"<triangles> has {len(together)} corners, which is no multiple of three")
-        faces = together.reshape(-1, 3)
-        found = len(faces)
+        if count % 3:
+            raise MeshError(f"<triangles> has {count} corners, which is no multiple of three")
+        places = np.arange(count).reshape(-1, 3)
+        found = len(places)
     else:
-        sizes = np.array([len(run) for run in corners], np.int64)
+        sizes = np.array([len(run) for run in runs], np.int64)
         if primitive.tag == "polylist":
             sizes = _integers(primitive.findtext("vcount"))
             found = len(sizes)
             if (sizes < 0).any():
                 raise MeshError(f"<polylist> announces a polygon of {sizes.min():,} corners")
-            if (sizes > len(together)).any():  # apart from their sum, which could overflow
+            if (sizes > count).any():  # apart from their sum, which could overflow
                 raise MeshError(
-                    f"<polylist> announces a polygon of {sizes.max():,} corners, and has {len(together):,}"
+                    f"<polylist> announces a polygon of {sizes.max():,} corners, and has {count:,}"
                 )
-            if sizes.sum() != len(together):
-                raise MeshError(f"<polylist> announces {sizes.sum():,} corners, and has {len(together):,}")
-        faces = triangulate(PolygonMesh(points, together, sizes))
+            if sizes.sum() != count:
+                raise MeshError(f"<polylist> announces {sizes.sum():,} corners, and has {count:,}")
+        places = cut_corners(PolygonMesh(points, corners[:count], sizes))
         if holed:
             found += len(holed)
-            faces = np.concatenate([faces, *(cut_with_holes(points, loops) for loops in holed)])
+            places = np.concatenate([places, *(cut_with_holes(points, corners, loops) for loops in holed)])
     if found != declared:
         raise MeshError(f"<{primitive.tag}> announces {declared:,} elements, and has {found:,}")
-    return faces
+    return _Cut(primitive, table, places)
 
 
 def _world(node: Element) -> FloatArray:

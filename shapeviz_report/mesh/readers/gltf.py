@@ -17,13 +17,16 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.paint import MOST_PICTURES, Paint, from_light, read_picture
+from shapeviz_report.mesh.paint import Paint, Pictures, from_light
 from shapeviz_report.mesh.readers.draco import decode_draco
 from shapeviz_report.mesh.readers.limits import check_faces, check_json, check_unpacked
 from shapeviz_report.mesh.readers.meshopt import decode_meshopt
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, cut_fan, cut_strip
 from shapeviz_report.mesh.readers.scene import Node, Part, join_parts, join_values, place_nodes
 from shapeviz_report.types import FloatArray
+
+GLTF = (".gltf", ".glb")
+"""Suffixes."""
 
 _BINARY_MAGIC = b"glTF"
 _JSON_CHUNK, _BINARY_CHUNK = b"JSON", b"BIN\0"
@@ -221,9 +224,7 @@ class _Reader:
         self.files = files
         self.sources: list[tuple[Document, Indices]] = []
         """The primitive of every part, and which rows of its attributes its vertices are."""
-        self.pictures: dict[int, int] = {}
-        """Number of an image -> its place among ``images``; -1 for one that cannot be used."""
-        self.images: list[npt.NDArray[np.uint8]] = []
+        self.pictures = Pictures()
         self.unpacked: dict[int, npt.NDArray[np.generic]] = {}
         """The elements of accessors that were compressed with Draco."""
         self.views: dict[int, bytes] = {}
@@ -382,7 +383,10 @@ class _Reader:
         if primitive.get("indices") is None:
             raise MeshError("what it has compressed with Draco has no accessor for its corners")
         self.unpacked[primitive["indices"]] = corners
-        for name, identity in told["attributes"].items():
+        packed = told.get("attributes", {})
+        if "POSITION" not in packed:
+            raise MeshError("what it has compressed with Draco has no positions")
+        for name, identity in packed.items():
             if identity not in attributes:
                 raise MeshError(f"what it has compressed with Draco has no attribute {identity!r:.20}")
             if name in primitive["attributes"]:
@@ -492,10 +496,10 @@ class _Reader:
         colors, places, pictures = (
             join_values(parts, [one[column] for one in looks])[corners] for column in range(3)
         )
-        lost = sum(place < 0 for place in self.pictures.values())
-        if not self.images:
+        lost = tuple(self.pictures.lost)
+        if not self.pictures.images:
             return Paint(colors, lost=lost)
-        return Paint(colors, places, pictures, tuple(self.images), lost)
+        return Paint(colors, places, pictures, tuple(self.pictures.images), lost)
 
     def read_looks(self, primitive: Document, rows: Indices) -> tuple[npt.NDArray[Any], ...]:
         """Colour (k, 3), place in a picture (k, 2) and picture (k,) of a primitive's vertices (3.9.2)."""
@@ -523,31 +527,40 @@ class _Reader:
                 turned = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
                 scaled = self.values(attributes[name], rows, 2) * np.array(moved.get("scale", [1, 1]))
                 places = scaled @ turned.T + np.array(moved.get("offset", [0, 0]))
-            else:
+            elif picture >= 0:
+                self.pictures.miss_places(self.picture_name(texture["index"]))
                 picture = -1
         return from_light(light), places.astype(np.float32), np.full(len(rows), picture, np.int16)
 
     def find_picture(self, texture: int) -> int:
-        """The place of a texture's picture among ``images``; -1 if it cannot be used."""
+        """The place of a texture's picture among those of the surface; -1 if it cannot be used."""
+        number = self.image_of(texture)
+        return self.pictures.place(number, self.picture_name(texture), partial(self.read_image, number))
+
+    def image_of(self, texture: int) -> int | None:
+        """The number of a texture's image; None if it is only there in a way that is not read."""
         described = self.entry("textures", texture)
         instead = described.get("extensions", {}).get("EXT_texture_webp", {})
-        number = described.get("source", instead.get("source", -1))
-        if number not in self.pictures:
-            picture = None if number == -1 else self.read_image(number)
-            fits = picture is not None and len(self.images) < MOST_PICTURES
-            self.pictures[number] = len(self.images) if fits else -1
-            if picture is not None and fits:
-                self.images.append(picture)
-        return self.pictures[number]
+        number: int | None = described.get("source", instead.get("source"))
+        return number
 
-    def read_image(self, number: int) -> npt.NDArray[np.uint8] | None:
+    def picture_name(self, texture: int) -> str:
+        """What to call a texture's picture."""
+        number = self.image_of(texture)
+        if number is None:
+            return f"texture {texture}"
+        image = self.entry("images", number)
+        uri = image.get("uri", "data:")
+        return str(image.get("name") or f"picture {number}") if _is_data(uri) else _picture_name(uri)
+
+    def read_image(self, number: int | None) -> bytes | None:
+        if number is None:
+            return b""
         image = self.entry("images", number)
         uri = image.get("uri")
         if uri is None:
-            content = self.region(self.entry("bufferViews", image["bufferView"]))
-        else:
-            content = _embedded(uri) if _is_data(uri) else self.files.get(_picture_name(uri), b"")
-        return read_picture(content)
+            return self.region(self.entry("bufferViews", image["bufferView"]))
+        return _embedded(uri) if _is_data(uri) else self.files.get(_picture_name(uri))
 
     # accessors
 

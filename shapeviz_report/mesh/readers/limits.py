@@ -11,6 +11,9 @@ MOST_FACES = 10_000_000
 MOST_UNPACKED = 1024**3
 """Bytes that a compressed file may unpack to, all its parts together."""
 
+MOST_LOOKS = 64 * 1024**2
+"""Bytes of all files of a mesh's colours together."""
+
 MOST_CORNERS = 20_000
 """Corners of a polygon. Cutting it takes a time that grows with their square."""
 

@@ -10,12 +10,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.paint import MOST_PICTURES, Paint, as_bytes, read_picture
+from shapeviz_report.mesh.paint import MISSING, Paint, Pictures, as_bytes
 from shapeviz_report.mesh.readers.mtl import WHITE, Material, list_libraries, read_materials
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh
 from shapeviz_report.mesh.readers.text import (
@@ -151,18 +152,15 @@ def _paint_materials(
     of_face = np.searchsorted([line for line, _ in uses], faces) - 1
     used = [materials.get(name, WHITE) for _, name in uses]
     colors = np.array([material.color for material in used])[of_face]
-    images: list[npt.NDArray[np.uint8]] = []
-    place_of: dict[str, int] = {"": -1}
-    for name in dict.fromkeys(material.picture for material in used):
-        if name not in place_of:
-            picture = read_picture(files.get(name, b"")) if len(images) < MOST_PICTURES else None
-            place_of[name] = -1 if picture is None else len(images)
-            images += [] if picture is None else [picture]
-    lost = sum(place < 0 for name, place in place_of.items() if name)
-    lost += sum(files.keys().isdisjoint(names) for names in libraries)
-    if not images:
-        return Paint(np.repeat(colors, sizes, axis=0), lost=lost)
-    pictures = np.array([place_of[material.picture] for material in used], np.int16)[of_face]
+    found = Pictures()
+    found.lost += [f"{names[0]} {MISSING}" for names in libraries if files.keys().isdisjoint(names)]
+    places_of = [
+        found.place(name, name, partial(files.get, name)) if (name := material.picture) else -1
+        for material in used
+    ]
+    if not found.images:
+        return Paint(np.repeat(colors, sizes, axis=0), lost=tuple(found.lost))
+    pictures = np.repeat(np.array(places_of, np.int16)[of_face], sizes)
     written = list(lines.find("vt"))
     points = np.array([[float(word) for word in [*rest.split(), "0", "0"][:2]] for _, rest in written])
     before = np.searchsorted([line for line, _ in written], np.repeat(faces, sizes))
@@ -172,8 +170,11 @@ def _paint_materials(
     there = (index >= 0) & (index < len(points))
     places = np.zeros((len(index), 2), np.float32)
     places[there] = points[index[there]] * [1, -1] + [0, 1]
-    pictures = np.where(there, np.repeat(pictures, sizes), np.int16(-1))
-    return Paint(np.repeat(colors, sizes, axis=0), places, pictures, tuple(images), lost)
+    names = {place: material.picture for place, material in zip(places_of, used, strict=True)}
+    for place in np.setdiff1d(pictures, [-1, *pictures[there]]).tolist():
+        found.miss_places(names[place])
+    pictures = np.where(there, pictures, np.int16(-1))
+    return Paint(np.repeat(colors, sizes, axis=0), places, pictures, tuple(found.images), tuple(found.lost))
 
 
 def _find_rows(text: str, characters: Characters, starts: Indices, ends: Indices) -> tuple[Mask, Mask]:

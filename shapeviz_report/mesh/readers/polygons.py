@@ -70,25 +70,32 @@ def cut_fan(corners: Indices) -> Indices:
     return np.column_stack([first, corners[1:-1], corners[2:]])
 
 
-def cut_with_holes(vertices: FloatArray, loops: list[Indices]) -> Indices:
-    """Triangles (m, 3) between an outline and the holes in it, in the plane of the outline's Newell normal.
+def cut_with_holes(vertices: FloatArray, corners: Indices, loops: list[Indices]) -> Indices:
+    """Triangles between an outline and the holes in it, in the plane of the outline's Newell normal.
 
     Parameters
     ----------
     vertices : (n, 3) float64 array
+    corners : (k,) int64 array
+        Of vertices.
     loops : list of (s,) int64 arrays
-        The outline, whose orientation the triangles have, then the holes, however they are turned. A corner that is
-        repeated at once counts once; loops of fewer than three corners vanish.
+        Places in ``corners``: the outline, whose orientation the triangles have, then the holes, however they are
+        turned. A corner that is repeated at once counts once; loops of fewer than three corners vanish.
+
+    Returns
+    -------
+    (m, 3) int64 array
+        Places in ``corners``.
 
     Raises
     ------
     MeshError
         If the holes do not lie within the outline, apart from each other: then the triangles cover another area.
     """
-    loops = [loop[loop != np.roll(loop, -1)] for loop in loops]
+    loops = [loop[corners[loop] != np.roll(corners[loop], -1)] for loop in loops]
     if len(loops[0]) < 3:
         return np.empty((0, 3), np.int64)
-    places = [vertices[loop] - vertices[loops[0][0]] for loop in loops]
+    places = [vertices[corners[loop]] - vertices[corners[loops[0][0]]] for loop in loops]
     size = float(np.abs(np.concatenate(places)).max(initial=0))
     if not size < np.inf:
         raise MeshError("a polygon of it with holes has corners without a value")

@@ -129,6 +129,18 @@ def join_values(parts: Sequence[Part], values: Sequence[npt.NDArray[Any]]) -> np
     return np.concatenate(joined)
 
 
+def join_corners(parts: Sequence[Part], values: Sequence[npt.NDArray[Any]]) -> npt.NDArray[Any]:
+    """Rows (m, 3, ...) for the corners of the triangles of :func:`join_parts`, of rows for those of each part."""
+    joined = []
+    for part, rows in zip(parts, values, strict=True):
+        if len(part.faces):
+            copies = np.repeat(rows[None], len(part.transforms), axis=0)
+            mirrored = np.linalg.det(part.transforms[:, :3, :3]) < 0
+            copies[mirrored] = copies[mirrored, :, ::-1]
+            joined.append(copies.reshape(-1, *rows.shape[1:]))
+    return np.concatenate(joined)
+
+
 def join_parts(parts: Iterable[Part]) -> tuple[FloatArray, Indices]:
     """Vertices (n, 3) and triangles (m, 3) of all copies of all parts.
 

@@ -1,4 +1,4 @@
-"""STL, text and binary.
+"""STL, text and binary, and the colours of facets of the latter.
 
 Trimesh drops what follows the last ``endsolid`` of a text, and takes any three vertices for a triangle; so STL is read
 here.
@@ -7,10 +7,14 @@ here.
 from __future__ import annotations
 
 import re
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
+from shapeviz_report.mesh.paint import Paint
 from shapeviz_report.mesh.readers.limits import check_faces
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh
 from shapeviz_report.mesh.readers.text import decode, parse_numbers
@@ -18,6 +22,9 @@ from shapeviz_report.types import FloatArray
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER_SIZE = 84
+_FLAG = 0x8000
+"""The first bit of what is left free in a facet."""
+_MAGICS = re.compile(rb"COLOR=(...)", re.DOTALL)
 _FACET = re.compile(r"\bfacet\s+normal\s+[-+.\dni]")
 # Numbers in the place of keywords, so that one pass reads all; near the largest double, where no coordinate is.
 _FACET_MARK, _VERTEX_MARK = "9e307", "8e307"
@@ -61,7 +68,33 @@ def _read_binary(data: bytes) -> PolygonMesh:
             raise MeshError("a second STL file follows in it, which is not read; store the two as one mesh")
     check_faces(count)
     records = np.frombuffer(data, _RECORD, count, _HEADER_SIZE)
-    return _separate(records["corners"].reshape(-1, 3).astype(np.float64), np.full(count, 3, dtype=np.int64))
+    mesh = _separate(records["corners"].reshape(-1, 3).astype(np.float64), np.full(count, 3, dtype=np.int64))
+    of_whole, words = _MAGICS.search(data, 0, 80), records["attribute"].copy()
+    painted = of_whole is not None or (count > 0 and bool((words & _FLAG).all()))
+    return replace(
+        mesh, paint=partial(_paint, words, None if of_whole is None else of_whole[1]) if painted else None
+    )
+
+
+def _paint(words: npt.NDArray[np.uint16], whole: bytes | None) -> Paint:
+    """Colours of facets in the 16 bits that the format leaves free.
+
+    Where all have the first bit, they are colours as VisCAM and SolidView write them. Where the header names one of the
+    whole, as Materialise Magics does, facets without that bit have one of their own; if none says anything, none has.
+
+    Parameters
+    ----------
+    words : (m,) uint16 array
+    whole : bytes or None
+        Red, green and blue of the whole.
+    """
+    red, green, blue = ((words >> shift & 31).astype(np.float64) * 255 / 31 for shift in (10, 5, 0))
+    if whole is None:
+        colors = np.column_stack([red, green, blue])
+    else:
+        own = (words & _FLAG == 0) & words.any()
+        colors = np.where(own[:, None], np.column_stack([blue, green, red]), list(whole))
+    return Paint(np.repeat(np.round(colors).astype(np.uint8), 3, axis=0))
 
 
 def _read_text(text: str) -> PolygonMesh:

@@ -11,7 +11,8 @@ import lzma
 import zlib
 from array import array
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from io import BytesIO
 from typing import IO
 from urllib.parse import unquote
@@ -19,11 +20,16 @@ from xml.parsers import expat
 from zipfile import BadZipFile, ZipFile, ZipInfo
 
 import numpy as np
+import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.readers.limits import check_faces, check_unpacked
+from shapeviz_report.mesh.paint import Paint, Pictures
+from shapeviz_report.mesh.readers.limits import MOST_LOOKS, check_faces, check_unpacked
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, check_indices
+from shapeviz_report.mesh.readers.scene import Part as Surface
+from shapeviz_report.mesh.readers.scene import join_corners, join_parts
 from shapeviz_report.mesh.readers.text import not_numbers, parse_indices, parse_numbers
+from shapeviz_report.mesh.readers.threemf_colors import Groups
 from shapeviz_report.types import FloatArray
 
 _CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
@@ -67,20 +73,34 @@ class Object:
         Objects, and the matrix that a row (x, y, z, 1) is multiplied with to place it.
     is_shape : bool
         It has a mesh or components, be they empty.
+    groups : Groups
+        What its triangles refer to for their colours.
+    look : (int, int)
+        Number of the group that they refer to if they say nothing, -1 for none, and what they have of it.
+    looks : array of int
+        Of the triangles that say something, five numbers each: its own, its group, and what its corners have of it.
     """
 
     coordinates: array[float] = field(default_factory=lambda: array("d"))
     indices: array[int] = field(default_factory=lambda: array("q"))
     children: list[tuple[Key, FloatArray]] = field(default_factory=list)
     is_shape: bool = False
+    groups: Groups = field(default_factory=Groups)
+    look: tuple[int, int] = (-1, -1)
+    looks: array[int] = field(default_factory=lambda: array("i"))
+
+    @property
+    def is_painted(self) -> bool:
+        return self.look[0] >= 0 or len(self.looks) > 0
 
 
 @dataclass
 class Part:
-    """A model part of the package: what it builds, its objects by number, its unit in millimetres."""
+    """A model part of the package: what it builds, its objects by number, its colours, its unit in millimetres."""
 
     build: Object = field(default_factory=Object)
     objects: dict[str, Object] = field(default_factory=dict)
+    groups: Groups = field(default_factory=Groups)
     unit: float = 1.0
 
 
@@ -94,7 +114,10 @@ def read_3mf(data: bytes) -> PolygonMesh:
     """
     try:
         with ZipFile(BytesIO(data)) as archive:
-            return _place(*_collect(Package(archive)))
+            placed = _place(*_collect(Package(archive)))
+        mesh = PolygonMesh.of_triangles(*join_parts([part for _, part in placed]))
+        painted = any(each.is_painted for each, _ in placed)
+        return replace(mesh, paint=partial(_paint, placed, data) if painted else None)
     except BadZipFile as error:
         raise MeshError(f"it is not 3MF, or damaged: {error}") from error
     except expat.ExpatError as error:
@@ -143,6 +166,19 @@ class Package:
             check_unpacked(self._unpacked)
             parser.Parse(piece, False)
         parser.Parse(b"", True)
+
+    def read(self, path: str) -> bytes | None:
+        """The content of a picture; None if it is not there, damaged, or larger than all may be together."""
+        entry = self._entries.get(_normal(path))
+        if entry is None or entry.flag_bits & 1 or self._unpacked + entry.file_size > MOST_LOOKS:
+            return None
+        try:
+            with self._archive.open(entry) as file:
+                content = file.read(entry.file_size + 1)
+        except (NotImplementedError, BadZipFile, zlib.error, lzma.LZMAError, EOFError, OSError, ValueError):
+            return None
+        self._unpacked += len(content)
+        return content
 
     def root(self) -> str:
         """The path of the part that says what is built."""
@@ -255,6 +291,8 @@ class PartReader:
                 self._coordinates += attributes["x"], attributes["y"], attributes["z"]
             elif name == _TRIANGLE and parent == _TRIANGLES:
                 self._indices += attributes["v1"], attributes["v2"], attributes["v3"]
+                if "p1" in attributes:
+                    self._paint(attributes)
             else:
                 self._begin(name, parent, attributes)
         except KeyError as error:
@@ -278,6 +316,14 @@ class PartReader:
                 numbers.frombytes(values.tobytes())
                 words.clear()
 
+    def _paint(self, attributes: dict[str, str]) -> None:
+        """What a triangle says of its colours."""
+        number = (len(self._object.indices) + len(self._indices)) // 3 - 1
+        group = self.part.groups.number(attributes["pid"]) if "pid" in attributes else self._object.look[0]
+        first = attributes["p1"]
+        corners = (_index(attributes.get(name, first)) for name in ("p1", "p2", "p3"))
+        self._object.looks.extend((number, group, *corners))
+
     def _begin(self, name: str, parent: str, attributes: dict[str, str]) -> None:
         """Whatever is not one of the many."""
         if name == _MODEL and not parent:
@@ -286,7 +332,10 @@ class PartReader:
         elif name == _OBJECT:
             if attributes["id"] in self.part.objects:
                 raise MeshError(f"two objects of it have the id {attributes['id'][:20]!r}")
-            self._object = self.part.objects[attributes["id"]] = Object()
+            self._object = self.part.objects[attributes["id"]] = Object(groups=self.part.groups)
+            if "pid" in attributes:
+                group = self.part.groups.number(attributes["pid"])
+                self._object.look = group, _index(attributes.get("pindex", ""))
         elif name in (_MESH, _COMPONENTS) and parent == _OBJECT:
             self._object.is_shape = True
         elif name == _COMPONENT:
@@ -297,6 +346,8 @@ class PartReader:
             raise MeshError(
                 f"an object of it has a <{name.rpartition(' ')[2][:40]}>, which is not read; export it as a mesh"
             )
+        else:
+            self.part.groups.describe(name, attributes)
 
     def _begin_model(self, attributes: dict[str, str]) -> None:
         for prefix in attributes.get("requiredextensions", "").split():
@@ -344,8 +395,13 @@ _WITHIN = frozenset(
 """What an object and its mesh may have; anything else is geometry of an extension."""
 
 
-def _place(build: Object, objects: dict[Key, Object]) -> PolygonMesh:
-    """All triangles of what is built, where it is placed. Counted before anything is copied."""
+def _index(text: str) -> int:
+    """A number from 0 on; -1 for anything else."""
+    return int(text) if text.isdecimal() and len(text) < 10 else -1
+
+
+def _place(build: Object, objects: dict[Key, Object]) -> list[tuple[Object, Surface]]:
+    """What is built: every mesh, and where it is placed. Counted before anything is copied."""
     try:
         order = list(
             graphlib.TopologicalSorter(
@@ -363,9 +419,7 @@ def _place(build: Object, objects: dict[Key, Object]) -> PolygonMesh:
     transforms: dict[Key, list[FloatArray]] = {key: [] for key in objects}
     for key, transform in build.children:
         transforms[key].append(transform[None])
-    vertices: list[FloatArray] = [np.empty((0, 3))]
-    faces: list[Indices] = [np.empty((0, 3), np.int64)]
-    total = 0
+    surfaces: list[tuple[Object, Surface]] = []
     for key in reversed(order):
         placed = transforms.pop(key)
         if not placed or not counts[key]:
@@ -376,24 +430,44 @@ def _place(build: Object, objects: dict[Key, Object]) -> PolygonMesh:
             moved[:, 3] += every[:, 3]
             transforms[child].append(moved)
         if each.indices:
-            points, triangles = _mesh_of(each)
-            for transform in every:
-                vertices.append(points @ transform[:3] + transform[3])
-                # a mirror would turn the surface inside out
-                mirrored = np.linalg.det(transform[:3]) < 0
-                faces.append((triangles[:, ::-1] if mirrored else triangles) + total)
-                total += len(points)
-    return PolygonMesh.of_triangles(np.concatenate(vertices), np.concatenate(faces))
+            matrices = np.eye(4)[None].repeat(len(every), axis=0)
+            matrices[:, :3] = every.transpose(0, 2, 1)
+            surfaces.append((each, Surface(*_mesh_of(each), matrices)))
+    return surfaces
 
 
 def _mesh_of(each: Object) -> tuple[FloatArray, Indices]:
-    """Vertices (n, 3) and triangles (m, 3); of vertices only those that are used, so that n is 3 m at most."""
+    """Vertices (n, 3) and triangles (m, 3)."""
     points = (
         np.frombuffer(each.coordinates, np.float64).reshape(-1, 3) if each.coordinates else np.empty((0, 3))
     )
     triangles = np.frombuffer(each.indices, np.int64).reshape(-1, 3)
     check_indices(points, triangles.ravel())
-    if len(points) > 3 * len(triangles):
-        used, triangles = np.unique(triangles, return_inverse=True)
-        points, triangles = points[used], triangles.reshape(-1, 3)
     return points, triangles
+
+
+def _paint(placed: list[tuple[Object, Surface]], data: bytes) -> Paint:
+    """The colours of what is built, pictures read from the package once more."""
+    pictures = Pictures()
+    with ZipFile(BytesIO(data)) as archive:
+        package = Package(archive)
+        looks = [_paint_object(each, pictures, package) for each, _ in placed]
+    surfaces = [surface for _, surface in placed]
+    colors, places, shown = (
+        join_corners(surfaces, [one[column] for one in looks]).reshape(-1, *width)
+        for column, width in enumerate(((3,), (2,), ()))
+    )
+    if not pictures.images:
+        return Paint(colors, lost=tuple(pictures.lost))
+    return Paint(colors, places, shown, tuple(pictures.images), tuple(pictures.lost))
+
+
+def _paint_object(each: Object, pictures: Pictures, package: Package) -> tuple[npt.NDArray[np.generic], ...]:
+    """What :meth:`Groups.paint` gives, for the triangles of an object."""
+    group, index = each.look
+    count = len(each.indices) // 3
+    groups, corners = np.full(count, group), np.full((count, 3), index)
+    told = np.frombuffer(each.looks, np.int32).reshape(-1, 5) if each.looks else np.empty((0, 5), np.int32)
+    groups[told[:, 0]], corners[told[:, 0]] = told[:, 1], told[:, 2:]
+    colors, places, shown = each.groups.paint(groups, corners, pictures, package.read)
+    return colors, places.astype(np.float32), shown.astype(np.int16)

@@ -16,9 +16,9 @@ import trimesh
 
 from shapeviz_report.building.stages import identify
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh import collect_files, parse_mesh
+from shapeviz_report.mesh import collect_files, looks, packed, parse_mesh, parse_painted
 from shapeviz_report.mesh.read import read_mesh
-from shapeviz_report.mesh.readers import limits, packed
+from shapeviz_report.mesh.readers import limits
 
 BOX = trimesh.creation.box((1, 2, 3))
 OBJ = BOX.export(file_type="obj").encode()
@@ -85,6 +85,28 @@ def test_a_gltf_and_its_buffers(tmp_path) -> None:
     )
     with pytest.raises(MeshError, match="is not a file in its own folder"):
         read_mesh(tmp_path / "c.gltf.zip")
+
+
+def test_colours_in_an_archive_are_found() -> None:
+    files = {
+        "shape/a.obj": b"mtllib ../looks/A.mtl\nusemtl red\n" + OBJ,
+        "looks/a.mtl": b"newmtl red\nKd 1 0 0\nmap_Ka no.png\nnewmtl other\nmap_Kd missing.png\n",
+    }
+    _, paint = parse_painted({"a.obj.zip": zipped(files)})
+    assert paint is not None
+    assert (paint().colors == (255, 0, 0)).all()
+    assert paint().lost == ()
+    _, paint = parse_painted({"a.obj.zip": zipped({"a.obj": files["shape/a.obj"]})})
+    assert paint is not None
+    assert len(paint().lost) == 1
+
+
+def test_colours_in_an_archive_are_bounded(monkeypatch) -> None:
+    monkeypatch.setattr(looks, "MOST_LOOKS", 10_000)
+    material = b"newmtl red\nKd 1 0 0\n" + bytes(20_000)
+    _, paint = parse_painted({"a.obj.zip": zipped({"a.obj": b"mtllib a.mtl\n" + OBJ, "a.mtl": material})})
+    assert paint is not None
+    assert "too large" in paint().lost[0]
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from shapeviz_report.mesh import collect_files, parse_mesh, prepare
+from shapeviz_report.mesh import collect_files, parse_mesh, parse_painted, prepare
 from shapeviz_report.mesh.paint import MOST_PIXELS, Paint, as_bytes, bake, from_light, read_picture
 from shapeviz_report.types import Mesh
 
@@ -27,6 +27,8 @@ def png(pixels: np.ndarray) -> bytes:
     Image.fromarray(pixels.astype(np.uint8)).save(file, "PNG")
     return file.getvalue()
 
+
+LEFT_OUT = "materials or pictures of its colours left out, which are missing or cannot be used"
 
 HALVES = png(np.array([[RED, RED, GREEN, GREEN]] * 4))
 """Red on the left, green on the right."""
@@ -154,7 +156,7 @@ def test_materials_with_tabs_between_their_words() -> None:
 def test_materials_that_are_not_there_are_noted() -> None:
     mesh, facts = prepare({"box.obj": b"mtllib my box.mtl\n" + CUBE.encode()}, 0.03)
     assert mesh.colors is None
-    assert facts.repairs["files of its colours left out, which are missing or cannot be read"] == 1
+    assert facts.repairs[LEFT_OUT] == 1
 
 
 @pytest.mark.parametrize("material", [b"", b"newmtl half\nKd 1 1 1\nnewmtl plain\nKd 1 1 1\n"])
@@ -187,7 +189,7 @@ def test_pictures_that_are_not_there_or_elsewhere_are_noted(tmp_path, picture) -
     assert list(files) == ["box.obj", "box.mtl"]
     colors, noted = colors_of_faces(files)
     np.testing.assert_allclose(colors[LOW.index(True)], (51, 102, 153), atol=1)
-    assert noted["files of its colours left out, which are missing or cannot be read"] == 1
+    assert noted[LEFT_OUT] == 1
 
 
 def bomb() -> bytes:
@@ -275,7 +277,50 @@ def test_pictures_of_gltf(tmp_path) -> None:
     (tmp_path / "two colours.png").unlink()
     mesh, facts = prepare(collect_files(tmp_path / "box.gltf", tmp_path), 0.03)
     assert mesh.colors is None
-    assert facts.repairs["files of its colours left out, which are missing or cannot be read"] == 1
+    assert facts.repairs[LEFT_OUT] == 1
+
+
+def test_files_of_colours_in_other_letters(tmp_path) -> None:
+    path = write_obj(tmp_path, r"Pictures\Two colours.PNG")
+    (tmp_path / "box.mtl").rename(tmp_path / "BOX.MTL")
+    (tmp_path / "pictures").mkdir()
+    (tmp_path / "pictures" / "two colours.png").write_bytes(HALVES)
+    _, paint = parse_painted(collect_files(path, tmp_path))
+    assert paint is not None
+    assert paint().lost == ()
+    assert len(paint().images) == 1
+    # of two that are alike nobody can say which is meant
+    (tmp_path / "Box.mtl").write_bytes(b"")
+    (what,) = parse_painted(collect_files(path, tmp_path))[1]().lost
+    assert what.startswith("box.mtl is not there")
+
+
+TEXTURED = {
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "texCoord": 1}}}],
+    "textures": [{"source": 0}],
+    "images": [{"uri": "halves.png"}],
+}
+
+
+def test_pictures_without_a_place_on_the_surface_are_told() -> None:
+    told = "halves.png has no place on the surface, which lacks texture coordinates"
+    files = gltf({"attributes": {"POSITION": 0, "TEXCOORD_0": 3}, "material": 0}, **TEXTURED)
+    _, paint = parse_painted(files | {"halves.png": HALVES})
+    assert paint().lost == (told,)
+    files = {
+        "box.obj": b"mtllib a.mtl\n" + CUBE.replace("/1", "").replace("/-3", "").encode(),
+        "a.mtl": b"newmtl half\nmap_Kd halves.png\n",
+        "halves.png": HALVES,
+    }
+    _, paint = parse_painted(files)
+    assert paint().lost == (told,)
+
+
+def test_pictures_of_gltf_that_are_only_there_as_basis() -> None:
+    looks = TEXTURED | {"textures": [{"extensions": {"KHR_texture_basisu": {"source": 0}}}]}
+    files = gltf({"attributes": {"POSITION": 0, "TEXCOORD_1": 3}, "material": 0}, **looks)
+    _, paint = parse_painted(files)
+    assert paint().lost == ("texture 0 is no picture that can be read",)
 
 
 def test_broken_materials_fail_no_shape() -> None:

@@ -6,14 +6,15 @@ import lzma
 import zlib
 from io import BytesIO
 from pathlib import PurePosixPath
+from posixpath import join, normpath
 from zipfile import BadZipFile, ZipFile, ZipInfo
 
+from shapeviz_report.database.finder import any_case
 from shapeviz_report.database.formats import split_name, suffix_of
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.readers.gltf import list_buffers
+from shapeviz_report.mesh.looks import collect_looks
+from shapeviz_report.mesh.readers.gltf import GLTF, list_buffers
 from shapeviz_report.mesh.readers.limits import MOST_UNPACKED, check_unpacked
-
-GLTF = (".gltf", ".glb")
 
 _GZIP = 16 + zlib.MAX_WBITS
 """How zlib is told of the head and the end of a file of gzip."""
@@ -31,8 +32,8 @@ def unpack(name: str, data: bytes) -> dict[str, bytes]:
     Returns
     -------
     dict of str to bytes
-        As of :func:`shapeviz_report.mesh.read.collect_files`: the mesh first, then, of a glTF in a ZIP archive, the
-        others by their paths from its folder.
+        As of :func:`shapeviz_report.mesh.read.collect_files`: the mesh first, then, of a ZIP archive, the others that
+        it names.
 
     Raises
     ------
@@ -86,13 +87,34 @@ def _unzip(archive: ZipFile, format: str) -> dict[str, bytes]:
         raise MeshError(f"it holds no {format} file" + (f", but {names}{more}" if names else ""))
     path = PurePosixPath(meshes[0].filename)
     files = {path.name: _read(archive, meshes[0], 0)}
+    alike: dict[str, list[ZipInfo]] = {}
+    for info in entries:
+        alike.setdefault(any_case(info.filename), []).append(info)
+
+    def find(name: str) -> ZipInfo | None:
+        """The file of a name, from the folder of the mesh; in another case where it is the only one."""
+        wanted = normpath(join(path.parent.as_posix(), name))
+        found = alike.get(any_case(wanted), [])
+        exact = [info for info in found if info.filename == wanted]
+        return (exact or found)[-1] if exact or len(found) == 1 else None
+
+    def read(name: str, most: int) -> bytes | None:
+        """A file of colours, without which the surface is shown too."""
+        info = find(name)
+        if info is None or info.file_size > most:
+            return None
+        try:
+            return _read(archive, info, sum(map(len, files.values())))
+        except MeshError:
+            return None
+
     if format in GLTF and files[path.name].strip():
-        there = {PurePosixPath(info.filename): info for info in entries}
         for name in list_buffers(files[path.name]):
-            if path.parent / name not in there:
+            if (buffer := find(name)) is None:
                 raise MeshError(f"it refers to {name[:100]!r}, which is not in it")
-            files[name] = _read(archive, there[path.parent / name], sum(map(len, files.values())))
-    return files
+            files[name] = _read(archive, buffer, sum(map(len, files.values())))
+    looks = collect_looks(format, files[path.name], read)
+    return files | {name: content for name, content in looks.items() if name not in files}
 
 
 def _is_hidden(name: str) -> bool:
