@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 from collections import Counter
 from collections.abc import Sequence
@@ -14,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from shapeviz_report.cells import read_cell
+from shapeviz_report.cells import part_cells, read_cell
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
 from shapeviz_report.presets import Preset, compared_values
@@ -69,10 +68,11 @@ def _read_text(text: str) -> list[str]:
 
 
 def _read_csv(text: str) -> list[str]:
-    rows = csv.DictReader(io.StringIO(text, newline=""), strict=True)
-    if "bin" not in (rows.fieldnames or ()):
+    table = next((way for way in part_cells(text, strict=True) if "bin" in way.header), None)
+    if table is None:
         raise ValueError("it has no column named 'bin'")
-    return [read_cell(row["bin"] or "") for row in rows if row.get("chosen", "1") == "1"]
+    rows = (dict(zip(table.header, cells)) for cells in table.rows if cells)
+    return [read_cell(row.get("bin", "")) for row in rows if row.get("chosen", "1") == "1"]
 
 
 def _read_json(text: str) -> list[str]:

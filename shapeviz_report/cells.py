@@ -1,13 +1,67 @@
-"""Text in CSV files, so that no spreadsheet program takes it for a formula."""
+"""CSV files: how their cells are parted, and text in them, so that no spreadsheet program takes it for a formula."""
 
 from __future__ import annotations
 
+import csv
+import io
 import re
+from collections.abc import Iterator
+from functools import partial
+from typing import Any, NamedTuple
 
+DELIMITERS = (",", ";", "\t", "|")
+
+_EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _FORMULA = re.compile(r"'*[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
 """How a formula begins, also in full-width characters, and after apostrophes, so that one more can be taken off again.
 ``site/scripts/tray/export.js`` has the same."""
+
+
+class Parted(NamedTuple):
+    """A text as CSV with one delimiter.
+
+    Attributes
+    ----------
+    delimiter : str
+    header : list of str
+        Its first row; empty if there is none.
+    rows : iterator of list of str
+        The others, with ``line_num`` as the csv module has it. They may raise ``csv.Error``.
+    above : int
+        Lines above the header, which do not count in ``line_num``.
+    """
+
+    delimiter: str
+    header: list[str]
+    rows: Any
+    above: int
+
+
+def part_cells(text: str, *, strict: bool = False) -> Iterator[Parted]:
+    """A text as CSV with each delimiter that programs use, or with the one that its first line names: whoever knows a
+    column takes the first in which it appears.
+
+    Parameters
+    ----------
+    text : str
+    strict : bool
+        Whether quotes that are not as they should be are an error in the rows.
+
+    Raises
+    ------
+    csv.Error
+        The header cannot be read.
+    """
+    first, _, rest = text.partition("\n")
+    told = _EXCEL_DELIMITER.fullmatch(first.strip(" \r"))
+    body, above = (rest, 1) if told else (text, 0)
+    for delimiter in (told[1],) if told else DELIMITERS:
+        read = partial(csv.reader, delimiter=delimiter, skipinitialspace=True)
+        header = next(read(io.StringIO(body, newline="")), [])
+        rows = read(io.StringIO(body, newline=""), strict=strict)
+        next(rows, None)
+        yield Parted(delimiter, header, rows, above)
 
 
 def write_cell(text: str) -> str:

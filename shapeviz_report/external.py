@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 import struct
 import zipfile
 import zlib
@@ -16,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.arrow import column_numbers, column_texts, read_parquet, require_pyarrow
-from shapeviz_report.cells import read_cell
+from shapeviz_report.cells import part_cells, read_cell
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.files import read_regular
 from shapeviz_report.types import FloatArray
@@ -26,6 +27,8 @@ MOST_EXTERNAL_BYTES = 256 * 1024**2
 
 MOST_EXTERNAL_COLUMNS = 2000
 """Columns of a user's own feature, each of which is scored and shown: as many as all of the descriptors have."""
+
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 
 DESCRIBING = ("class", "label:", "metadata:")
 """How columns begin that say what a shape is, in files that ``shapeviz-report describe`` writes."""
@@ -38,7 +41,8 @@ def load_external(path: Path, ids: Sequence[str]) -> FloatArray:
     ----------
     path : Path
         An array ``.npy`` with the rows in the order of the shapes; or, with rows for more shapes and in any order, an
-        archive ``.npz`` of ``values`` and ``shape_ids``, or a table ``.csv`` or ``.parquet`` with a column ``id``.
+        archive ``.npz`` of ``values`` and ``shape_ids``, or a table ``.csv``, ``.tsv`` or ``.parquet`` with a column
+        ``id``.
     ids : sequence of str
         Of the shapes.
 
@@ -155,12 +159,11 @@ def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
 
 def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
     """Ids and values of a table: of some columns, or of all but those that say what a shape is."""
-    rows = [
-        row for row in csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), strict=True) if row
-    ]
-    if not rows:
+    ways = list(part_cells(content.decode("utf-8-sig").lstrip("\r\n"), strict=True))
+    table = next((way for way in ways if "id" in way.header), ways[0])
+    head, rows = table.header, [row for row in table.rows if row]
+    if not head:
         raise ValueError("it is empty")
-    head, *rows = rows
     for name in ("id", *columns):
         if name not in head:
             raise ValueError(f"it has no column {name!r}")
@@ -185,7 +188,10 @@ def _number(cell: str, row: int, column: str) -> float:
     try:
         return float(cell)
     except ValueError:
-        raise ValueError(f"row {row} has {cell!r} in the column {column!r}, which is no number") from None
+        hint = "; write numbers with a decimal point" if _DECIMAL_COMMA.fullmatch(cell.strip()) else ""
+        raise ValueError(
+            f"row {row} has {cell!r} in the column {column!r}, which is no number{hint}"
+        ) from None
 
 
 def _read_columns(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
@@ -214,6 +220,7 @@ def _read_columns(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
 _READ: dict[str, Callable[[bytes, Sequence[str]], tuple[list[str], npt.NDArray[Any]]]] = {
     ".npz": _read_archive,
     ".csv": _read_table,
+    ".tsv": _read_table,
     ".parquet": _read_columns,
 }
 """What reads rows with ids, by suffix."""

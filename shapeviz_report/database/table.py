@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 import os
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 from shapeviz_report.arrow import column_texts, frame_table, read_parquet, require_pyarrow
+from shapeviz_report.cells import part_cells
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.finder import Finder, spellings
 from shapeviz_report.database.folder import leads_outside, scan_folder
@@ -49,7 +48,6 @@ CLASS_COLUMNS = ("class", "classname", "category")
 """Names of metadata columns that are labelings whatever their values are; written as those above."""
 NO_VALUES = frozenset({"NaN", "nan", "N/A", "n/a", "#N/A", "<NA>"})
 """Cells with which programs write that there is no value. A class may be called "none" or "null"."""
-DELIMITERS = (",", ";", "\t", "|")
 LINES_SUFFIXES = (".jsonl", ".ndjson")
 PARQUET = ".parquet"
 TABLE_SUFFIXES = (".csv", ".tsv", ".json", *LINES_SUFFIXES, PARQUET)
@@ -64,12 +62,10 @@ MOST_LETTERS = 131_072
 MOST_CLASSES = 100
 FEWEST_SHAPES_A_CLASS = 3
 
-_EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
 _SECOND_OBJECT = re.compile(r"\s*\{.*\}[ \t\r]*\n\s*\{")
 """An object that ends on its line and another below, without a comma: JSON lines, whatever the file is called."""
 _INDEX = re.compile(r"__index_level_\d+__")
 """What the index of a data frame is called in a table when it has no name: mere numbers of rows."""
-_csv_reader = partial(csv.reader, skipinitialspace=True)
 
 
 @dataclass(frozen=True)
@@ -410,26 +406,22 @@ def _no_files(names: Iterable[str], complaint: str) -> DatabaseError:
 
 def _csv_rows(text: str, table: Path) -> tuple[list[Row], bool]:
     """The rows, separated by the delimiter that makes a column of files appear."""
-    first, _, rest = text.partition("\n")
-    told = _EXCEL_DELIMITER.fullmatch(first.strip())
-    body, above = (rest, 1) if told else (text, 0)
     seen: list[str] = []
-    for delimiter in (told[1],) if told else DELIMITERS:
-        reader = _csv_reader(io.StringIO(body, newline=""), delimiter=delimiter)
-        try:
-            header = next(reader, [])
-        except csv.Error as error:
-            raise DatabaseError(f"The table {table} is not CSV: {error}.") from error
-        columns = _columns(header)
-        if FILE_COLUMN in columns:
-            break
-        seen += header
-    else:
+    try:
+        for parted in part_cells(text):
+            columns = _columns(parted.header)
+            if FILE_COLUMN in columns:
+                break
+            seen += parted.header
+    except csv.Error as error:
+        raise DatabaseError(f"The table {table} is not CSV: {error}.") from error
+    if FILE_COLUMN not in columns:
         raise _no_files(
             seen,
             f"The table {table} has no column '{FILE_COLUMN}'. Its first line must name the columns, "
             "for instance: file,label.",
         )
+    delimiter, header, reader, above = parted
     _check_names(columns, header, table)
     rows: list[Row] = []
     try:

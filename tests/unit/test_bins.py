@@ -36,6 +36,7 @@ class TestFiles:
                 "scores.csv",
                 "bin,rank,score,chosen\nFPFH[14]:3,1,0.9,1\nGc:1,2,.5,0\nAgd:6,3,.1,1\ndeep one[2],4,0,1\n",
             ),
+            ("bins.csv", 'bin;chosen\n"FPFH[14]:3";1\nAgd:6;1\nAgd:7;0\n"deep one[2]";1\n'),
             ("bins.csv", 'bin\n"FPFH[14]:3"\nAgd:6\n"deep one[2]"\n'),
             ("bins.json", json.dumps(["FPFH[14]:3", "deep one[2]", "Agd:6"])),
             ("workbench.json", json.dumps({"about": ["x"], "bins": ["deep one[2]", "FPFH[14]:3", "Agd:6"]})),

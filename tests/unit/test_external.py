@@ -37,6 +37,17 @@ def test_by_ids_in_any_order_and_of_more_shapes(tmp_path) -> None:
         assert load_external(tmp_path / name, IDS).tolist() == [[1, 2], [3, 4], [5, 6]]
 
 
+@pytest.mark.parametrize("name", ["own.csv", "own.tsv"])
+@pytest.mark.parametrize("delimiter", [",", ";", "\t", "|"])
+@pytest.mark.parametrize("told", ["", "sep={}\r\n"])
+def test_tables_parted_in_any_way(tmp_path, name, delimiter, told) -> None:
+    rows = [["id", "a b", "x"], ["cup/1", "5", "6"], ["ant/2", "3", "4"], ["ant/1", "1", "2.5"]]
+    (tmp_path / name).write_text(
+        told.format(delimiter) + "".join(delimiter.join(row) + "\r\n" for row in rows)
+    )
+    assert load_external(tmp_path / name, IDS).tolist() == [[1, 2.5], [3, 4], [5, 6]]
+
+
 def test_parquet_by_ids_with_numbers_or_lists(tmp_path) -> None:
     columns = {
         "class": ["c", "z", "a", "a"],
@@ -115,6 +126,7 @@ def test_archives_that_do_not_fit(tmp_path, arrays, reason) -> None:
         ("", "cannot be read: it is empty"),
         ("name,width\nant/1,1\n", "it has no column 'id'"),
         ("id,width\nant/1,wide\n", "row 2 has 'wide' in the column 'width', which is no number"),
+        ("id;width\nant/1;1,5\n", "row 2 has '1,5' in the column 'width', .* with a decimal point"),
         ("id,width\nant/1,1\nant/2,2,3\n", "row 3 has 3 cells, and the head 2"),
         ("id,width\nant/1,1\nant/2,2\n", "no row for 1 of the 3 shapes"),
         ("id,width\nant/1,nan\nant/2,2\ncup/1,1\n", "finite numbers only"),
@@ -131,7 +143,7 @@ def test_tables_that_do_not_fit(tmp_path, text, reason) -> None:
 def test_files_that_are_none(tmp_path) -> None:
     for name, reason in (
         ("x.npy", r"x\.npy cannot be read"),
-        ("x.txt", r"must end in \.npy, \.npz, \.csv, \.parquet"),
+        ("x.txt", r"must end in \.npy, \.npz, \.csv, \.tsv, \.parquet"),
         ("x.parquet", r"x\.parquet cannot be read"),
     ):
         with pytest.raises(ConfigError, match=reason):
@@ -167,6 +179,11 @@ class TestCoordinates:
         np.save(tmp_path / "own.npy", self.EXPECTED)
         for name in ("own.csv", "own.parquet", "own.npz", "own.npy"):
             assert load_coordinates(tmp_path / name, IDS).tolist() == self.EXPECTED
+
+    def test_semicolons_part_cells_too(self, tmp_path) -> None:
+        rows = "".join(f"{shape};{x};{y}\n" for shape, (x, y) in self.PLACES.items())
+        (tmp_path / "own.csv").write_text(f"id;x;y\n{rows}")
+        assert load_coordinates(tmp_path / "own.csv", IDS).tolist() == self.EXPECTED
 
     def test_the_map_of_another_site_is_one(self, tmp_path) -> None:
         (tmp_path / "projection-tsne.csv").write_text("id,x,y\nant/1,0.5,-1\nant/2,1,1\ncup/1,-1,1e-3\n")
