@@ -46,6 +46,9 @@ exit codes:
 LINES_EVERY = 30.0
 """Seconds between two lines of progress where there is no terminal."""
 
+MOST_LISTED = 20
+"""Shapes of a group that are named."""
+
 QUERYING = ("time_limit", "memory_limit", "cache")
 """Options of a build that a query has as well."""
 
@@ -477,7 +480,15 @@ def _checked(result: CheckResult) -> dict[str, object]:
         ],
         "failures": [{"file": failure.path, "reason": failure.reason} for failure in result.failures],
         "copies": [
-            {"first": copy.first, "second": copy.second, "match": copy.match.words} for copy in result.copies
+            {
+                "shapes": list(group.shapes),
+                "match": group.words,
+                "pairs": [
+                    {"first": copy.first, "second": copy.second, "match": copy.match.words}
+                    for copy in group.copies
+                ],
+            }
+            for group in result.copies
         ],
         "warnings": list(database.warnings),
     }
@@ -496,9 +507,11 @@ def _print_check(result: CheckResult) -> None:
         for shape, lost in result.lost.items():
             _say(*(f"  {shape}: {what}" for what in lost))
     if result.copies:
-        _say("", "The same shape again:")
-        for copy in result.copies:
-            _say(f"  {copy.second} is {copy.first}: {copy.match.words}")
+        copies = sum(len(group.shapes) - 1 for group in result.copies)
+        groups = _count(len(result.copies), "group", "groups")
+        _say("", f"The same shape again: {_count(copies, 'copy', 'copies')}, in {groups}")
+        for group in result.copies:
+            _say(f"  {_listed(group.shapes)}: {group.words}")
     _print_failures(result.failures)
     if not result.failures:
         _say("", "All files can be used.")
@@ -723,6 +736,12 @@ def _print_summary(report: Report, destination: Path) -> None:
         _say("", f"Note: {warning}")
     page = destination if destination.is_file() else destination / "index.html"
     _say("", f"The site is ready. Open {page.absolute()}")
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Some names, and how many more there are."""
+    more = len(names) - MOST_LISTED
+    return ", ".join(names[:MOST_LISTED]) + (f" and {more:,} more" if more > 0 else "")
 
 
 def _count(number: int, one: str, many: str) -> str:

@@ -25,7 +25,7 @@ from shapeviz_report.config import Config
 from shapeviz_report.database import Listing
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.publication import read_publication
-from shapeviz_report.types import Copy, Database, Failure
+from shapeviz_report.types import CopyGroup, Database, Failure, list_groups
 
 
 @dataclass(frozen=True)
@@ -42,15 +42,15 @@ class CheckResult:
         Shape id -> what is left out of its colours, and why, for those of them that lose any.
     failures : tuple of Failure
         Files that cannot be used.
-    copies : tuple of Copy
-        Shapes that are the same shape again.
+    copies : tuple of CopyGroup
+        Shapes that are the same shape again, group by group.
     """
 
     database: Database
     repairs: dict[str, dict[str, int]]
     lost: dict[str, tuple[str, ...]]
     failures: tuple[Failure, ...]
-    copies: tuple[Copy, ...] = ()
+    copies: tuple[CopyGroup, ...] = ()
 
 
 def check_database(source: Path | Listing, config: Config, progress: Progress | None = None) -> CheckResult:
@@ -87,5 +87,5 @@ def check_database(source: Path | Listing, config: Config, progress: Progress | 
         repairs={shape: each.repairs for shape, each in found.items()},
         lost={shape: each.lost for shape, each in found.items() if each.lost},
         failures=tuple(failures),
-        copies=copies,
+        copies=tuple(list_groups(copies, list(outlines))),
     )

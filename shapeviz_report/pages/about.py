@@ -21,10 +21,14 @@ from shapeviz_report.publication import has_licence, licence_warning
 from shapeviz_report.publication.bibtex import bibtex_entry, is_bibtex
 from shapeviz_report.scorers import MOST_SCORED
 from shapeviz_report.search.certainty import choosing_pays
-from shapeviz_report.types import BinSearch, FeatureSearch, Report
+from shapeviz_report.types import BinSearch, FeatureSearch, Report, list_groups
 
-#: Failures, and copies, that the page lists; a page of a hundred thousand rows opens slowly, and nobody reads them.
+#: Failures, and groups of copies, that the page lists; a page of a hundred thousand rows opens slowly, and nobody reads
+#: them.
 MOST_LISTED = 500
+
+#: Shapes of a group of copies that the page names.
+MOST_NAMED = 20
 
 #: Meshes that the page lists.
 MOST_MESHES = 2000
@@ -56,7 +60,8 @@ class AboutPage:
                 "bins": next(iter(report.projections.values()))[0].bins,
                 "balanced": PRESETS[str(report.parameters["preset"])].balanced,
                 "searched": report.search is not None,
-                "copies": report.copies,
+                "copies": list_groups(report.copies, [shape.id for shape in report.shapes]),
+                "most_named": MOST_NAMED,
                 "clusters": _clusters(report),
                 "stages": _stages(report),
                 "parameters": _parameters(report),

@@ -18,12 +18,14 @@ from shapeviz_report.types.bins import (
 from shapeviz_report.types.clusters import Cluster, Clusters
 from shapeviz_report.types.copies import (
     Copy,
+    CopyGroup,
     Match,
     WithoutCopies,
     copies_beside,
     copies_of,
     distinct_rows,
     group_copies,
+    list_groups,
     representatives,
 )
 from shapeviz_report.types.database import Database, Failure, ShapeEntry
@@ -58,6 +60,7 @@ __all__ = [
     "Cluster",
     "Clusters",
     "Copy",
+    "CopyGroup",
     "Database",
     "Exported",
     "Failure",
@@ -103,5 +106,6 @@ __all__ = [
     "copies_of",
     "distinct_rows",
     "group_copies",
+    "list_groups",
     "representatives",
 ]

@@ -16,6 +16,7 @@ IDENTICAL_FILE = "identical file"
 IDENTICAL_GEOMETRY = "identical geometry"
 SAME_SURFACE = "same surface"
 NEARLY_SAME_SURFACE = "nearly the same surface"
+_KINDS = (IDENTICAL_FILE, IDENTICAL_GEOMETRY, SAME_SURFACE, NEARLY_SAME_SURFACE)
 
 
 @dataclass(frozen=True)
@@ -46,16 +47,24 @@ class Match:
     @property
     def words(self) -> str:
         """The evidence as a reader finds it; begins with the kind."""
-        said = [self.kind]
-        if self.kind in (SAME_SURFACE, NEARLY_SAME_SURFACE):
-            said[0] += (
-                f", {100 * self.distance:.2g}\u00a0% of its size apart ({100 * self.largest:.2g}\u00a0% at most)"
-            )
+        said = [self.grade]
         if self.mirrored:
             said.append("mirrored")
-        if abs(self.scale - 1) > 1e-3:
+        if self.is_scaled:
             said.append(f"scaled by {self.scale:.4g}")
         return ", ".join(said)
+
+    @property
+    def grade(self) -> str:
+        """How much the two are the same, in words, wherever they lie."""
+        if self.kind not in (SAME_SURFACE, NEARLY_SAME_SURFACE):
+            return self.kind
+        apart, most = (f"{100 * length:.2g}\u00a0%" for length in (self.distance, self.largest))
+        return f"{self.kind}, {apart} of its size apart ({most} at most)"
+
+    @property
+    def is_scaled(self) -> bool:
+        return abs(self.scale - 1) > 1e-3
 
 
 @dataclass(frozen=True)
@@ -72,6 +81,38 @@ class Copy:
     first: str
     second: str
     match: Match
+
+
+@dataclass(frozen=True)
+class CopyGroup:
+    """Shapes that a chain of copies joins.
+
+    Attributes
+    ----------
+    shapes : tuple of str
+        Their ids, in the order of the database; two at least.
+    copies : tuple of Copy
+        The pairs among them that were laid on each other; not all need have been.
+    """
+
+    shapes: tuple[str, ...]
+    copies: tuple[Copy, ...]
+
+    @property
+    def words(self) -> str:
+        """The evidence as a reader finds it: that of the only pair, or the best and the worst of several."""
+        if len(self.copies) == 1:
+            return self.copies[0].match.words
+        matches = sorted(
+            (copy.match for copy in self.copies), key=lambda match: (_KINDS.index(match.kind), match.distance)
+        )
+        best, worst = matches[0].grade, matches[-1].grade
+        said = [best if best == worst else f"from {best} to {worst}"]
+        if any(match.mirrored for match in matches):
+            said.append("some mirrored")
+        if any(match.is_scaled for match in matches):
+            said.append("of several sizes")
+        return ", ".join(said)
 
 
 #: Of each shape, by id, the shapes that were laid on it, with what it is of them.
@@ -147,6 +188,19 @@ def group_copies(copies: Sequence[Copy], ids: Sequence[str]) -> IntArray:
     _, group = connected_components(graph, directed=False)
     _, first, of = np.unique(group, return_index=True, return_inverse=True)
     return np.argsort(np.argsort(first))[of].astype(np.int32)
+
+
+def list_groups(copies: Sequence[Copy], ids: Sequence[str]) -> list[CopyGroup]:
+    """The groups of copies among shapes, by ids, without those of a single shape, by their first shapes."""
+    group = dict(zip(ids, group_copies(copies, ids).tolist()))
+    shapes: dict[int, list[str]] = {}
+    for shape, number in group.items():
+        shapes.setdefault(number, []).append(shape)
+    pairs: dict[int, list[Copy]] = {}
+    for copy in copies:
+        if copy.first in group and copy.second in group:
+            pairs.setdefault(group[copy.first], []).append(copy)
+    return [CopyGroup(tuple(shapes[number]), tuple(pairs[number])) for number in sorted(pairs)]
 
 
 def representatives(groups: IntArray, labelled: npt.NDArray[np.bool_]) -> IntArray:

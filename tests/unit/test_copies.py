@@ -20,6 +20,7 @@ from shapeviz_report.types import (
     copies_of,
     distinct_rows,
     group_copies,
+    list_groups,
     representatives,
 )
 
@@ -159,6 +160,21 @@ def test_groups_follow_chains_of_copies() -> None:
     assert distinct_rows(np.arange(5), everyone) is None
     assert distinct_rows(np.zeros(5, int), everyone) is None
     assert group_copies([Copy("a", "gone", Match("identical file"))], ids).tolist() == [0, 1, 2, 3, 4]
+
+
+def test_many_equal_shapes_are_one_group_with_the_best_and_the_worst_evidence() -> None:
+    ids = [str(number) for number in range(54)]
+    same, near = Match("identical file"), Match("same surface", 0.0005, 0.002, mirrored=True)
+    found = [Copy(ids[a], ids[b], same) for a in range(52) for b in range(a + 1, min(a + 9, 52))]
+    (group,) = list_groups([*found, Copy("gone", "0", same)], ids)
+    assert group.shapes == tuple(ids[:52])
+    assert group.words == "identical file"
+    (group,) = list_groups([*found, Copy("0", "53", near)], ids)
+    assert group.shapes == (*ids[:52], "53")
+    assert group.words == (
+        "from identical file to same surface, 0.05\u00a0% of its size apart (0.2\u00a0% at most), some mirrored"
+    )
+    assert [group.words for group in list_groups([Copy("1", "2", near)], ids)] == [near.words]
 
 
 def test_each_of_a_pair_says_what_it_is_of_the_other() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.types import FeatureSearch, HitRange, Report
+from shapeviz_report.types import FeatureSearch, HitRange, Report, list_groups
 from shapeviz_report.writing.data.encoding import json_text, number
 
 _INTEGERS = ("faces_read", "vertices_read", "faces", "vertices", "components")
@@ -103,12 +103,14 @@ def shape_columns(report: Report) -> dict[str, npt.NDArray[Any] | list[str | Non
 
 
 def copy_rows(report: Report) -> list[list[str]]:
-    """A pair of copies a row."""
-    rows = [["first", "second", "kind", "distance", "largest", "scale", "mirrored"]]
-    for copy in report.copies:
+    """A pair of copies a row, with the number of its group."""
+    rows = [["first", "second", "kind", "distance", "largest", "scale", "mirrored", "group"]]
+    groups = list_groups(report.copies, [shape.id for shape in report.shapes])
+    for place, copy in ((place, copy) for place, group in enumerate(groups, 1) for copy in group.copies):
         match = copy.match
         measured = map(number, (match.distance, match.largest, match.scale))
-        rows.append([copy.first, copy.second, match.kind, *measured, "true" if match.mirrored else "false"])
+        mirrored = "true" if match.mirrored else "false"
+        rows.append([copy.first, copy.second, match.kind, *measured, mirrored, str(place)])
     return rows
 
 

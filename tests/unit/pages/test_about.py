@@ -1,6 +1,7 @@
 """The About page says what was built, from what, and what failed."""
 
 import json
+import re
 from dataclasses import replace
 
 import pytest
@@ -42,14 +43,24 @@ def test_of_many_failed_files_the_first_are_listed_and_the_rest_is_counted(tmp_p
     assert len(summary["failures"]) == MOST_LISTED + 20
 
 
-def test_of_many_copies_the_first_are_listed_and_the_rest_is_counted(tmp_path):
-    report = make_report(["ant"], 2)
-    first, second = (shape.id for shape in report.shapes)
-    copies = (Copy(first, second, Match("identical file")),) * (MOST_LISTED + 20)
+def test_of_many_copies_the_first_groups_are_listed_and_the_rest_is_counted(tmp_path, monkeypatch):
+    monkeypatch.setattr(about, "MOST_LISTED", 2)
+    monkeypatch.setattr(about, "MOST_NAMED", 3)
+    report = make_report(["ant"], 11)
+    ids = [shape.id for shape in report.shapes]
+    pairs = [(a, b) for a in range(5) for b in range(a + 1, 5)] + [(5, 6), (7, 8), (9, 10)]
+    copies = tuple(Copy(ids[a], ids[b], Match("identical file")) for a, b in pairs)
     write_site(replace(report, copies=copies), tmp_path)
     text = (tmp_path / "about.html").read_text(encoding="utf-8")
-    assert text.count("identical file") == MOST_LISTED
-    assert f"These are the first {MOST_LISTED} of {MOST_LISTED + 20} pairs" in text
+    section = text[text.index("<h2>Copies</h2>") : text.index("<h2>Files that failed</h2>")]
+    lines = [re.sub("<.*?>", "", line).strip() for line in re.findall("<li>.*?</li>", section)]
+    assert lines == [
+        f"{ids[0]}, {ids[1]}, {ids[2]} and 2 more: identical file",
+        f"{ids[5]}, {ids[6]}: identical file",
+    ]
+    assert "These are the first 2 of 4 groups" in section
+    table = (tmp_path / "data" / "copies.csv").read_text().splitlines()
+    assert [row.split(",")[-1] for row in table] == ["group", *["1"] * 10, "2", "3", "4"]
 
 
 def test_of_very_many_meshes_those_with_most_repairs_are_listed(tmp_path, monkeypatch):
