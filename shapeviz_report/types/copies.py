@@ -59,8 +59,7 @@ class Match:
         """How much the two are the same, in words, wherever they lie."""
         if self.kind not in (SAME_SURFACE, NEARLY_SAME_SURFACE):
             return self.kind
-        apart, most = (f"{100 * length:.2g}\u00a0%" for length in (self.distance, self.largest))
-        return f"{self.kind}, {apart} of its size apart ({most} at most)"
+        return f"{self.kind}, {_percent(self.distance)} of its size apart ({_percent(self.largest)} at most)"
 
     @property
     def is_scaled(self) -> bool:
@@ -113,6 +112,11 @@ class CopyGroup:
         if any(match.is_scaled for match in matches):
             said.append("of several sizes")
         return ", ".join(said)
+
+
+def _percent(length: float) -> str:
+    """A fraction of the size of a shape; less than coordinates of files are good for is not spelled out."""
+    return "<0.001\u00a0%" if length < 1e-5 else f"{100 * length:.2g}\u00a0%"
 
 
 #: Of each shape, by id, the shapes that were laid on it, with what it is of them.

@@ -177,6 +177,12 @@ def test_many_equal_shapes_are_one_group_with_the_best_and_the_worst_evidence() 
     assert [group.words for group in list_groups([Copy("1", "2", near)], ids)] == [near.words]
 
 
+def test_a_distance_below_what_coordinates_say_is_not_spelled_out() -> None:
+    assert Match("same surface", 4.1e-7, 2.1e-6).words == (
+        "same surface, <0.001\u00a0% of its size apart (<0.001\u00a0% at most)"
+    )
+
+
 def test_each_of_a_pair_says_what_it_is_of_the_other() -> None:
     found = [Copy("a", "b", Match("identical geometry", scale=4.0, mirrored=True))]
     assert [(other, match.words) for other, match in copies_of(copies_beside(found), "a")] == [
