@@ -277,13 +277,17 @@ def _parser() -> argparse.ArgumentParser:
 
     completion = commands.add_parser(
         "completion",
-        help="print what makes a shell complete commands and options",
-        description="Print a script that makes a shell complete the commands and options. It goes, for instance, into\n"
-        "~/.local/share/bash-completion/completions/shapeviz-report for bash, or into a file _shapeviz-report in a\n"
-        "folder of $fpath for zsh.",
+        help="print what makes a shell complete commands, options and their values",
+        description="Print a script that makes a shell complete commands, options, their values, files and folders,\n"
+        "with the plug-ins that are installed now. It goes, for instance, into\n"
+        "  bash  ~/.local/share/bash-completion/completions/shapeviz-report\n"
+        "  zsh   a file _shapeviz-report in a folder of $fpath\n"
+        "  fish  ~/.config/fish/completions/shapeviz-report.fish",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    completion.add_argument("shell", metavar="SHELL", choices=("bash", "zsh"), help="bash or zsh")
+    completion.add_argument(
+        "shell", metavar="SHELL", choices=("bash", "zsh", "fish"), help="bash, zsh or fish"
+    )
     completion.set_defaults(command=_completion)
 
     cache = commands.add_parser(
@@ -617,11 +621,31 @@ def _completion(options: argparse.Namespace) -> int:
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
             parsers += action.choices.values()
+    values = _option_values()
     for action in (action for one in parsers for action in one._actions):
-        if action.type is Path or action.metavar in ("FILE", "FOLDER"):
+        if action.dest in values:
+            action.choices = values[action.dest]
+        elif action.metavar in ("FOLDER", "SITE"):
+            action.complete = shtab.DIRECTORY  # type: ignore[attr-defined]
+        elif action.type is Path or action.metavar == "FILE":
             action.complete = shtab.FILE  # type: ignore[attr-defined]
     _say(*shtab.complete(parser, shell=options.shell).splitlines())
     return 0
+
+
+def _option_values() -> dict[str, Sequence[str]]:
+    """Option -> what it may be, of those that have a name of something; of a list of such, any one."""
+    from shapeviz_report.database.registry import ALL_LAYOUTS
+    from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
+    from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
+
+    chosen = {f.name: f.metadata["choices"] for f in dataclasses.fields(Config) if f.metadata["choices"]}
+    local = [descriptor.name for descriptor in ALL_DESCRIPTORS]
+    return chosen | {
+        "layout": [layout.name for layout in ALL_LAYOUTS],
+        "gltf_values": ["all", *local],
+        "features": [*local, *(descriptor.name for descriptor in ALL_GLOBAL_DESCRIPTORS)],
+    }
 
 
 def _cache(options: argparse.Namespace) -> int:

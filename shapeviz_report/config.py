@@ -12,8 +12,9 @@ import datetime
 import os
 import reprlib
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -40,16 +41,25 @@ PUBLICATION = (
 SEARCHES = ("tsne", "umap", "none")
 RENDERERS = ("osmesa", "zbuffer")
 GLTF = ("decimated", "prepared")
+UP_AXES = ("y", "z")
 ENVIRONMENT_PREFIX = "SHAPEVIZ_"
 
 
-def _option(default: Any, text: str, metavar: str | None = None) -> Any:
-    return field(default=default, metadata={"help": text, "metavar": metavar, "of_machine": False})
+def _option(
+    default: Any,
+    text: str,
+    metavar: str | None = None,
+    choices: Sequence[str] = (),
+    *,
+    of_machine: bool = False,
+) -> Any:
+    """An option; with choices, it has one of them, or its default."""
+    told = {"help": text, "metavar": metavar, "choices": tuple(choices), "of_machine": of_machine}
+    return field(default=default, metadata=told)
 
 
-def _machine_option(default: Any, text: str, metavar: str | None = None) -> Any:
-    """An option that reaches out of the database: what is written where, what is connected to, what may be used up."""
-    return field(default=default, metadata={"help": text, "metavar": metavar, "of_machine": True})
+_machine_option = partial(_option, of_machine=True)
+"""An option that reaches out of the database: what is written where, what is connected to, what may be used up."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +109,7 @@ class Config:
         "which features there are, and how they are compared: 'default', 'local' for the paper's eight alone, or "
         "'paper' for the reading closest to the publication",
         "NAME",
+        PRESETS,
     )
     external: tuple[Path, ...] = _option(
         (),
@@ -123,6 +134,7 @@ class Config:
         f"method of the maps among which the best features are searched: "
         f"{', '.join(map(repr, SEARCHES[:-1]))}, or {SEARCHES[-1]!r} for no search",
         "METHOD",
+        SEARCHES,
     )
     meshes: bool = _option(
         True,
@@ -144,6 +156,7 @@ class Config:
         "also write every shape as binary glTF, for download: 'decimated', as its page shows it, some 50 kB, or "
         "'prepared', the whole surface that was measured, some 200 kB",
         "KIND",
+        GLTF,
     )
     gltf_values: str | None = _option(
         None,
@@ -162,12 +175,14 @@ class Config:
         None,
         "axis of the files that points up in pictures, 'y' or 'z'; by default what the file says, else guessed",
         "AXIS",
+        UP_AXES,
     )
     renderer: str | None = _machine_option(
         None,
         "what draws pictures: osmesa, a library of the system, or zbuffer, which needs none; by default osmesa where "
         "it is",
         "NAME",
+        RENDERERS,
     )
     thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
     seed: int = _option(0, "seed of everything random", "N")
@@ -191,16 +206,10 @@ class Config:
     cache: Path | None = _machine_option(None, "where results are kept between builds", "FOLDER")
 
     def __post_init__(self) -> None:
-        if self.preset not in PRESETS:
-            raise ConfigError(f"preset must be one of {', '.join(PRESETS)}, not {self.preset!r}")
-        if self.search not in SEARCHES:
-            raise ConfigError(f"search must be one of {', '.join(SEARCHES)}, not {self.search!r}")
-        if self.renderer not in (None, *RENDERERS):
-            raise ConfigError(f"renderer must be one of {', '.join(RENDERERS)}, not {self.renderer!r}")
-        if self.up not in (None, "y", "z"):
-            raise ConfigError(f"up must be y or z, not {self.up!r}")
-        if self.gltf not in (None, *GLTF):
-            raise ConfigError(f"gltf must be one of {', '.join(GLTF)}, not {self.gltf!r}")
+        for option in dataclasses.fields(self):
+            choices, value = option.metadata["choices"], getattr(self, option.name)
+            if choices and value not in (option.default, *choices):
+                raise ConfigError(f"{option.name} must be one of {', '.join(choices)}, not {value!r}")
         if self.gltf_values is not None and self.gltf is None:
             raise ConfigError(f"gltf_values go along with gltf, which is not set: one of {', '.join(GLTF)}")
         if self.parquet:

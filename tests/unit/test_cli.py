@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import re
+import shutil
 import subprocess
 from collections import Counter
 from pathlib import Path
@@ -41,29 +43,64 @@ def test_every_option_has_one_place_in_the_help() -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("words", "offered"),
-    [
-        ("shapeviz-report des", "describe"),
-        ("shapeviz-report build --edge", "--edge-length"),
-        ("shapeviz-report completion z", "zsh"),
-    ],
-)
-def test_a_shell_completes(capsys: pytest.CaptureFixture[str], tmp_path: Path, words, offered) -> None:
-    assert cli.main(["completion", "bash"]) == 0
-    script = tmp_path / "completion.bash"
-    script.write_text(capsys.readouterr().out)
-    asking = f"""source {script}; COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1))
-    _shtab_shapeviz_report; echo "${{COMPREPLY[@]}}" """
-    found = subprocess.run(["bash", "-c", asking], capture_output=True, text=True, check=True)
-    assert found.stdout.split() == [offered]
+OFFERED = [
+    ("des", "describe"),
+    ("build --edge", "--edge-length"),
+    ("completion z", "zsh"),
+    ("build --preset ''", "default local paper"),
+    ("build --single-file --search u", "umap"),
+    ("build --gltf-values A", "Agd"),
+    ("query --features PF", "PFH"),
+    ("check --layout ''", "princeton table modelnet class-folders flat"),
+    ("cache --cache ''", "folder"),
+    ("build --external ''", "features.csv folder"),
+    ("build ''", "features.csv folder"),
+]
+"""Words after the command, the last to be completed, and what is offered in a folder of a folder and a file."""
+
+
+def complete(shell: str, folder: Path, script: str, command: str) -> list[str]:
+    """What a shell gives for a command, run in such a folder, that has the script beside it."""
+    (folder / "here" / "folder").mkdir(parents=True)
+    (folder / "here" / "features.csv").touch()
+    (folder / "script").write_text(script)
+    done = subprocess.run(
+        [shell, "-c", command], capture_output=True, text=True, check=True, cwd=folder / "here"
+    )
+    return sorted(line.partition("\t")[0].rstrip("/") for line in done.stdout.splitlines())
+
+
+def script_of(shell: str, capsys: pytest.CaptureFixture[str]) -> str:
+    assert cli.main(["completion", shell]) == 0
+    return capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("words", "offered"), OFFERED)
+def test_bash_completes(capsys: pytest.CaptureFixture[str], tmp_path: Path, words, offered) -> None:
+    command = f"""source ../script; COMP_WORDS=(shapeviz-report {words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1))
+    _shtab_shapeviz_report; printf '%s\\n' "${{COMPREPLY[@]}}" """
+    assert complete("bash", tmp_path, script_of("bash", capsys), command) == sorted(offered.split())
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="fish is not installed")
+@pytest.mark.parametrize(("words", "offered"), OFFERED)
+def test_fish_completes(capsys: pytest.CaptureFixture[str], tmp_path: Path, words, offered) -> None:
+    command = f"source ../script; complete -C 'shapeviz-report {words.removesuffix(chr(39) * 2)}'"
+    assert complete("fish", tmp_path, script_of("fish", capsys), command) == sorted(offered.split())
 
 
 def test_zsh_has_its_script(capsys: pytest.CaptureFixture[str]) -> None:
-    assert cli.main(["completion", "zsh"]) == 0
-    script = capsys.readouterr().out
+    script = script_of("zsh", capsys)
     assert script.startswith("#compdef shapeviz-report\n")
-    assert "--edge-length" in script
+    assert re.search(r'"--preset\[.*\]:NAME:\(default local paper\)"', script)
+    assert re.search(r'"--cache\[.*\]:FOLDER:_files -/"', script)
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")
+def test_zsh_takes_its_script(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    command = """zsh -n ../script && mkdir ../functions && cp ../script ../functions/_shapeviz-report
+    fpath=($PWD/../functions $fpath); autoload -Uz compinit; compinit -u -D; print $_comps[shapeviz-report]"""
+    assert complete("zsh", tmp_path, script_of("zsh", capsys), command) == ["_shapeviz-report"]
 
 
 def test_spaces_of_all_kinds_are_shown() -> None:

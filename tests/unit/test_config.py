@@ -160,7 +160,7 @@ def test_the_file_lies_beside_a_table(database) -> None:
         ("edge_length = nan", "edge_length must be from"),
         ('preset = "best"', "preset must be one of default, local, paper"),
         ("external = [1]", "external must be a list of file names"),
-        ('up = "x"', "up must be y or z"),
+        ('up = "x"', "up must be one of y, z"),
         ("meshes = 1", "meshes must be true or false"),
         ("bins = 3", "bins must be a path"),
         ("seed = ", "cannot be read as TOML"),
