@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import gzip
 import json
 import re
@@ -14,7 +13,7 @@ import numpy as np
 
 from shapeviz_report.writing.packing import pack
 
-_HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(\w+)", "([A-Za-z0-9+/=]*)"\);\n')
+_HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(\w+)", (\d+), "([\u0100-\u80ff]*)"\);\n')
 
 
 def packed(chunks: Mapping[str, object]) -> dict[str, tuple[str, bytes]]:
@@ -24,8 +23,15 @@ def packed(chunks: Mapping[str, object]) -> dict[str, tuple[str, bytes]]:
 
 def read_script(script: Path) -> tuple[str, Any]:
     """The name and the content of a chunk."""
-    name, kind, text = _HANDED_OVER.fullmatch(script.read_text(encoding="utf-8")).groups()
-    return name, unpack(kind, base64.b64decode(text))
+    name, kind, length, letters = _HANDED_OVER.fullmatch(script.read_text(encoding="utf-16")).groups()
+    return name, unpack(kind, read_letters(letters, int(length)))
+
+
+def read_letters(letters: str, length: int) -> bytes:
+    """The bytes that letters of fifteen bits stand for."""
+    bits = "".join(f"{ord(letter) - 0x100:015b}" for letter in letters)
+    assert len(bits) - 8 * length in range(15)
+    return int(bits[: 8 * length] or "0", 2).to_bytes(length, "big")
 
 
 def unpack(kind: str, packed: bytes) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import base64
+import codecs
 import gzip
 import json
 from collections.abc import Iterator
@@ -14,6 +14,10 @@ from shapeviz_report.writing.data import json_text
 
 #: Arrays begin at multiples of so many bytes, as browsers want them.
 ALIGNMENT = 8
+
+#: The letter of fifteen bits without any set; ``FIRST_LETTER`` of ``base/chunks.js``. From here on there are 2**15
+#: letters of which none ends a text of JavaScript and none is half of another.
+FIRST_LETTER = 0x100
 
 
 def pack(value: object, *, compressed: bool = True) -> tuple[str, bytes]:
@@ -47,9 +51,32 @@ def pack(value: object, *, compressed: bool = True) -> tuple[str, bytes]:
 
 
 def chunk_script(name: str, kind: str, packed: bytes) -> bytes:
-    """A script that hands packed data to the page."""
-    text = base64.b64encode(packed).decode()
-    return f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {json.dumps(text)});\n".encode()
+    """A script that hands packed data to the page, as letters of fifteen bits.
+
+    It is UTF-16 and says so in its first bytes, which count more than what a host says of it: so it takes a fifteenth
+    more room than the data, where base64 takes a third.
+    """
+    head = f'shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {len(packed)}, "'
+    return codecs.BOM_UTF16_LE + _utf16(head) + _letters(packed) + _utf16('");\n')
+
+
+def _utf16(text: str) -> bytes:
+    return text.encode("utf-16-le")
+
+
+def _letters(content: bytes) -> bytes:
+    """In UTF-16: each fifteen bytes are eight letters, and what is left takes no more than it needs."""
+    groups = -(-len(content) // 15)
+    padded = np.zeros(15 * groups, np.uint8)
+    padded[: len(content)] = np.frombuffer(content, np.uint8)
+    held = np.zeros((groups, 17), np.uint32)
+    held[:, :15] = padded.reshape(groups, 15)
+    letters = np.empty((groups, 8), "<u2")
+    for place in range(8):
+        byte, bit = divmod(15 * place, 8)
+        three = held[:, byte] << 16 | held[:, byte + 1] << 8 | held[:, byte + 2]
+        letters[:, place] = FIRST_LETTER + (three >> (9 - bit) & 0x7FFF)
+    return letters.ravel()[: -(-8 * len(content) // 15)].tobytes()
 
 
 Way = tuple[str | int, ...]

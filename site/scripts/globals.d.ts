@@ -98,9 +98,9 @@ type Steps<Result, Partial = any> = Generator<{ progress: number; partial?: Part
 interface Window {
   /** What the script in the head makes for all others. */
   shapeviz: {
-    packed: Map<string, { kind: "json" | "columns" | "stored" | "bytes"; text: string }>;
+    handed: Map<string, { kind: "json" | "columns" | "stored" | "bytes"; length: number; text: string }>;
     scripts: Map<string, () => void>;
-    receive(name: string, kind: "json" | "columns" | "stored" | "bytes", text: string): void;
+    receive(name: string, kind: "json" | "columns" | "stored" | "bytes", length: number, text: string): void;
     startWorker?(): Promise<Worker>;
     modules?: { define(modules: object): void; use(name: string): object };
   };

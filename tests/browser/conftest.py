@@ -275,6 +275,11 @@ def serve() -> Iterator[Callable[[Path, str], str]]:
                     else "/nowhere"
                 )
 
+            def guess_type(self, path):
+                kind = super().guess_type(path)
+                # As most hosts call scripts, whatever letters these are in.
+                return f"{kind}; charset=utf-8" if kind.endswith("javascript") else kind
+
             def log_message(self, *_):
                 pass
 

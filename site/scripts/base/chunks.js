@@ -3,20 +3,22 @@
 import { entry } from "./entry.js";
 
 /**
- * A chunk as it comes: gzipped, in base64. Columns are JSON with arrays of numbers in it; stored ones are not gzipped.
+ * What a chunk is, gzipped. Columns are JSON with arrays of numbers in it; stored ones are not gzipped.
  * @typedef {"json" | "columns" | "stored" | "bytes"} Kind
- * @typedef {{ kind: Kind, text: string }} Packed
+ *
+ * A chunk as its script hands it over: so many bytes in letters of fifteen bits.
+ * @typedef {{ kind: Kind, length: number, text: string }} Handed
  */
 
 /** Called in the head: chunks may arrive before the scripts that want them. */
 export function openReception() {
-  /** @type {Map<string, Packed>} */
-  const packed = new Map();
+  /** @type {Map<string, Handed>} */
+  const handed = new Map();
   window.shapeviz = {
-    packed,
+    handed,
     // In a site of one file: what its scripts do, by their address in a folder.
     scripts: new Map(),
-    receive: (name, kind, text) => packed.set(name, { kind, text }),
+    receive: (name, kind, length, text) => handed.set(name, { kind, length, text }),
   };
 }
 
@@ -88,9 +90,9 @@ export function modelBytes(name) {
  * @returns {Promise<any>}
  */
 async function load(name, address) {
-  const { kind, text } = standing(name) ?? (await received(name, address));
-  if (kind === "stored") return columnsOf(bytesOf(text).buffer);
-  const stream = new Blob([bytesOf(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const { kind, bytes } = standing(name) ?? (await received(name, address));
+  if (kind === "stored") return columnsOf(bytes.buffer);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
   const response = new Response(stream);
   if (kind === "json") return response.json();
   const buffer = await response.arrayBuffer();
@@ -129,37 +131,54 @@ function columnsOf(buffer) {
 }
 
 /**
- * What base64 stands for. `Uint8Array.from` with a function takes thirty times as long, seconds for a large database.
- * @param {string} text
- */
-function bytesOf(text) {
-  const letters = atob(text);
-  const bytes = new Uint8Array(letters.length);
-  for (let place = 0; place < letters.length; place += 1) bytes[place] = letters.charCodeAt(place);
-  return bytes;
-}
-
-/**
- * Data that stands in the document, where the site is one file.
+ * Data that stands in the document, in base64, where the site is one file.
  * @param {string} name
- * @returns {Packed | null}
+ * @returns {{ kind: Kind, bytes: Uint8Array<ArrayBuffer> } | null}
  */
 function standing(name) {
   const block = document.getElementById(`chunk-${name}`);
-  return block && { kind: /** @type {Kind} */ (block.dataset.kind), text: block.textContent };
+  if (block === null) return null;
+  const letters = atob(block.textContent);
+  // `Uint8Array.from` with a function takes thirty times as long, seconds for a large database.
+  const bytes = new Uint8Array(letters.length);
+  for (let place = 0; place < letters.length; place += 1) bytes[place] = letters.charCodeAt(place);
+  return { kind: /** @type {Kind} */ (block.dataset.kind), bytes };
 }
 
 /**
  * @param {string} name
  * @param {() => string} address
- * @returns {Promise<Packed>}
+ * @returns {Promise<{ kind: Kind, bytes: Uint8Array<ArrayBuffer> }>}
  */
 async function received(name, address) {
-  const { packed } = window.shapeviz;
-  if (!packed.has(name)) await addScript(address());
-  const handed = /** @type {Packed} */ (packed.get(name));
-  packed.delete(name);
-  return handed;
+  const { handed } = window.shapeviz;
+  if (!handed.has(name)) await addScript(address());
+  const { kind, length, text } = /** @type {Handed} */ (handed.get(name));
+  handed.delete(name);
+  return { kind, bytes: bytesOf(text, length) };
+}
+
+/** The letter of fifteen bits without any set; `FIRST_LETTER` of `writing/packing.py`. */
+const FIRST_LETTER = 0x100;
+
+/**
+ * What letters of fifteen bits stand for.
+ * @param {string} text
+ * @param {number} length in bytes
+ */
+export function bytesOf(text, length) {
+  const bytes = new Uint8Array(length);
+  let [bits, count, place] = [0, 0, 0];
+  for (let letter = 0; letter < text.length; letter += 1) {
+    bits = (bits << 15) | (text.charCodeAt(letter) - FIRST_LETTER);
+    count += 15;
+    while (count >= 8 && place < length) {
+      count -= 8;
+      bytes[place] = bits >> count;
+      place += 1;
+    }
+  }
+  return bytes;
 }
 
 /**

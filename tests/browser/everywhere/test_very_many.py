@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import base64
 import re
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 from reports import colour_of
@@ -85,6 +88,13 @@ def test_a_shape_is_told_and_shown(visit, report):
     near = window.until(COLOURS, "#neighbours img")
     assert len(near) == 10
     assert all(tuple(colour) == colour_of(other) for other, colour in near)
+
+
+def test_a_host_may_call_all_scripts_utf8(visit, serve, heard_site):
+    address = serve(Path(url2pathname(urlsplit(heard_site(SITE)).path)), "shapes")
+    window = visit(SITE, "shapes.html", f"{address}/shapes.html")
+    shown = window.until(COLOURS, "#grid img")
+    assert all(tuple(colour) == colour_of(row) for row, colour in shown)
 
 
 def test_a_saved_figure_holds_the_picture(visit, report):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from packed_chunks import read_script, unpack
+from packed_chunks import read_letters, read_script, unpack
 
 from shapeviz_report.writing.packing import chunk_script, pack
 
@@ -63,3 +63,18 @@ def test_a_script_hands_it_over(tmp_path):
     script = tmp_path / "chunk.js"
     script.write_bytes(chunk_script("parts-3", *pack({"a": 1})))
     assert read_script(script) == ("parts-3", {"a": 1})
+
+
+@pytest.mark.parametrize("length", range(33))
+def test_fifteen_bits_are_a_letter(length):
+    content = bytes((7 + 77 * place) % 256 for place in range(length))
+    text = chunk_script("a", "stored", content).decode("utf-16")
+    letters = text.removeprefix(f'shapeviz.receive("a", "stored", {length}, "').removesuffix('");\n')
+    assert read_letters(letters, length) == content
+    assert all(0x100 <= ord(letter) < 0x8100 for letter in letters)
+
+
+def test_a_letter_has_the_first_bits_first():
+    script = chunk_script("a", "bytes", b"\1\0\xff")
+    assert script.decode("utf-16") == 'shapeviz.receive("a", "bytes", 3, "\u0180\u40c0");\n'
+    assert script.startswith(b"\xff\xfe")
