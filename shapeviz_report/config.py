@@ -138,7 +138,7 @@ class Config:
     )
     meshes: bool = _option(
         True,
-        "whether the site holds a 3D model of every shape, to be turned in the browser: some 80 kB a shape",
+        "whether the site holds a 3D model of every shape, to be turned in the browser: some 60 kB a shape",
     )
     clay: bool = _option(
         False, "draw all shapes in one clay, also those whose files have colours or textures"
@@ -184,7 +184,11 @@ class Config:
         "NAME",
         RENDERERS,
     )
-    thumbnail_size: int = _option(320, "width and height of a thumbnail in pixels", "PIXELS")
+    thumbnail_size: int | None = _option(
+        None,
+        "width and height of a thumbnail in pixels; by default 320, of more than 10,000 shapes 192",
+        "PIXELS",
+    )
     seed: int = _option(0, "seed of everything random", "N")
     time_limit: float = _machine_option(
         300.0,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import platform
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
@@ -47,6 +48,7 @@ from shapeviz_report.features import fixed_edges, quantile_edges
 from shapeviz_report.glb import find_dimensions
 from shapeviz_report.mesh import collect_files
 from shapeviz_report.models import faces_of_model
+from shapeviz_report.pages.base import thumbnail_size
 from shapeviz_report.plugins import find_plugins
 from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import bring_along, squared_distances
@@ -113,6 +115,7 @@ def build_report(
         publication = read_publication(config)
         database = read_published(source, config, publication)
         check_meshes(destination, database)
+        config = replace(config, thumbnail_size=thumbnail_size(config, len(database.shapes)))
         heavy = note(len(database.shapes), config)
         if heavy is not None and not config.single_file:
             logger.warning("Note: %s", heavy)

@@ -11,6 +11,7 @@ from shapeviz_report.pages.base import (
     MEASURED,
     PageContent,
     class_names,
+    feature_files,
     grouped,
     is_in_full,
     map_title,
@@ -75,6 +76,7 @@ class AboutPage:
                 "whole": PRESETS[str(report.parameters["preset"])].whole,
                 "feature_columns": sum(block.width for block in report.features.blocks),
                 "downloads": _downloads(report),
+                "features_held": is_in_full(report) or bool(report.parameters.get("parquet")),
             }
         )
 
@@ -236,7 +238,7 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
     return [
         ("summary.json", "counts, failures, quality of every projection, times, versions, parameters"),
         ("shapes.csv", "one row a shape: labels, metadata, facts, neighbourhood hit, hash"),
-        ("features.npz", "the feature table, for numpy" + ("" if full else ", with three digits")),
+        *_feature_downloads(len(report.shapes)),
         *(
             (
                 ("shapes.parquet", "the table of shapes with the coordinates on all maps, as Parquet"),
@@ -280,6 +282,14 @@ def _downloads(report: Report) -> list[tuple[str, str]]:
         ),
         *((("selected-bins.txt", _worth_of_bins(report.bins)),) if report.bins is not None else ()),
     ]
+
+
+def _feature_downloads(shapes: int) -> list[tuple[str, str]]:
+    files = feature_files(shapes)
+    parts = (
+        [""] if len(files) == 1 else [f": part {number + 1} of {len(files)}" for number in range(len(files))]
+    )
+    return [(file, f"the feature table, for numpy{part}") for file, part in zip(files, parts, strict=True)]
 
 
 def _worth_of_bins(found: BinSearch) -> str:

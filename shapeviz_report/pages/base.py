@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report import charts
+from shapeviz_report.config import Config
 from shapeviz_report.descriptors import Descriptor
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.global_descriptors import GlobalDescriptor
@@ -45,6 +46,13 @@ FIGURE_DECIMALS = 3
 #: Shapes up to which a site holds all that it can. Of more, hosts would not have a file of each picture, and data for
 #: machines would be most of the site: they leave out what their readers can do without.
 MOST_IN_FULL = 10_000
+
+#: Rows of a file of features, as some hosts take 25 MiB a file.
+ROWS_A_FILE = 2_000
+
+#: Pixels on a side of a thumbnail, and of one of very many, which would else be most of the site: half as large again
+#: as a gallery shows it.
+THUMBNAIL_SIZE, THUMBNAIL_SIZE_OF_MANY = 320, 192
 
 #: The projections by name.
 METHODS = {method.name: method for method in ALL_PROJECTIONS}
@@ -138,6 +146,26 @@ def class_codes(report: Report) -> IntArray:
 def is_in_full(report: Report) -> bool:
     """Whether the site leaves nothing out for want of room."""
     return len(report.shapes) <= MOST_IN_FULL
+
+
+def feature_files(shapes: int) -> dict[str, slice]:
+    """The files below ``data/`` that hold the features of so many shapes for numpy, each with its rows. Of very many
+    there are none: they would be a third of the site, and ``shapeviz-report describe`` writes them."""
+    if shapes > MOST_IN_FULL:
+        return {}
+    if shapes <= ROWS_A_FILE:
+        return {"features.npz": slice(shapes)}
+    return {
+        f"features-{number}.npz": slice(start, start + ROWS_A_FILE)
+        for number, start in enumerate(range(0, shapes, ROWS_A_FILE), 1)
+    }
+
+
+def thumbnail_size(config: Config, shapes: int) -> int:
+    """Pixels on a side of a thumbnail, of so many shapes where nobody says."""
+    if config.thumbnail_size is not None:
+        return config.thumbnail_size
+    return THUMBNAIL_SIZE if shapes <= MOST_IN_FULL else THUMBNAIL_SIZE_OF_MANY
 
 
 def search_of(report: Report) -> FeatureSearch | None:

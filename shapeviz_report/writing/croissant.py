@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import PurePosixPath
 
+from shapeviz_report.pages.base import feature_files
 from shapeviz_report.types import Report
 from shapeviz_report.writing.data import json_text
 from shapeviz_report.writing.data.tables import column_type, shape_rows
@@ -74,7 +75,7 @@ def croissant(report: Report, description: str, hashes: Mapping[str, str]) -> by
     files = [
         "shapes.csv",
         *(f"projection-{method}.csv" for method in report.projections),
-        "features.npz",
+        *feature_files(len(report.shapes)),
         *(name for name in hashes if name.endswith(".parquet")),
     ]
     columns = next(shape_rows(report))

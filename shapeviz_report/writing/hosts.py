@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from shapeviz_report.config import Config
 from shapeviz_report.glb import find_dimensions
 from shapeviz_report.models import MANY
-from shapeviz_report.pages.base import MOST_IN_FULL
+from shapeviz_report.pages.base import MOST_IN_FULL, ROWS_A_FILE, thumbnail_size
 
 
 @dataclass(frozen=True)
@@ -54,14 +54,16 @@ HOSTS = (
 BASE, BASE_FILES = 8_000_000, 200
 """Bytes and files of a site beside those of its shapes."""
 
-MODEL, MODEL_OF_MANY, FEATURES, FACTS = 80_000, 27_000, 14_000, 1_500
-"""Bytes of a shape: its 3D model, its features for download and for the browser, what is known of it. Of more shapes
-than are written in full, features take half."""
+MODEL, MODEL_OF_MANY, VALUES, FACTS, ROW = 64_000, 22_000, 3_500, 1_400, 500
+"""Bytes of a shape: its 3D model, its features for the browser, what is known of it, of that its row of a table."""
+
+FEATURES = 10_000
+"""Bytes of the features of a shape for download, as arrays, of not too many shapes, or as Parquet."""
 
 OF_COLUMNS = 300
 """Files of single bins, where the values of all do not go into one."""
 
-PICTURE, PICTURE_SIZE, PICTURE_POWER = 6_000, 320, 1.6
+PICTURE, PICTURE_SIZE, PICTURE_POWER = 6_300, 320, 1.1
 """Bytes of a thumbnail of so many pixels, and the power of its size with which they grow."""
 
 
@@ -75,10 +77,10 @@ VERTEX, VALUE = 24, 4
 def weigh(shapes: int, config: Config) -> Weight:
     """What a site of so many shapes will weigh, by those that were measured: to a third, of odd meshes to a half."""
     many = shapes > MOST_IN_FULL
-    picture = PICTURE * (config.thumbnail_size / PICTURE_SIZE) ** PICTURE_POWER
+    picture = PICTURE * (thumbnail_size(config, shapes) / PICTURE_SIZE) ** PICTURE_POWER
     # Once as files, and once more in parts for the browser; of very many the parts alone.
-    pictures = int(shapes * picture * (4 / 3 if many else 7 / 3))
-    features = shapes * FEATURES // (2 if many else 1)
+    pictures = int(shapes * picture * (1 if many else 2))
+    features = shapes * FEATURES
     of_models = shapes * (MODEL if shapes <= MANY else MODEL_OF_MANY) if config.meshes else 0
     vertices = VERTICES if shapes <= MANY else VERTICES_OF_MANY
     if config.gltf == "prepared":
@@ -90,15 +92,22 @@ def weigh(shapes: int, config: Config) -> Weight:
     return Weight(
         bytes=BASE
         + pictures
-        + features * (2 if config.parquet else 1)
-        + shapes * FACTS
+        + (0 if many else features)
+        + (features if config.parquet else 0)
+        + shapes * (VALUES + FACTS)
         + of_models
         + exported,
         models=of_models,
         exported=exported,
         files=BASE_FILES + sum(singles) + parts,
         folder=max(*singles, parts),
-        largest=max(2_000_000, features * 2 // 5 if many else features * 3 // 4),
+        # What the pages load comes in parts.
+        largest=max(
+            2_000_000,
+            shapes * ROW,
+            min(shapes, ROWS_A_FILE) * FEATURES * (not many),
+            features * bool(config.parquet),
+        ),
     )
 
 

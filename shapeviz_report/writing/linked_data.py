@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from urllib.parse import urlencode
 
-from shapeviz_report.pages.base import class_names, is_in_full
+from shapeviz_report.pages.base import class_names, feature_files, is_in_full
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.publication.licence import LICENCE_COLUMNS, find_licence
 from shapeviz_report.types import Licence, Report, ShapeEntry, ShapeFacts
@@ -15,7 +15,6 @@ CONTEXT = "https://schema.org/"
 
 _DOWNLOADS = {
     "shapes.csv": ("The shapes: labels, metadata, facts and neighbourhood hit", "text/csv"),
-    "features.npz": ("The feature table, for numpy", "application/octet-stream"),
     "catalogue.jsonld": ("The database for search engines and catalogues", "application/ld+json"),
     "summary.json": ("Counts, quality, parameters and versions", "application/json"),
 }
@@ -73,10 +72,22 @@ def dataset(report: Report, description: str, folder: str = "") -> dict[str, obj
                     "encodingFormat": kind,
                     "contentUrl": f"{base}data/{file}",
                 }
-                for file, (name, kind) in _DOWNLOADS.items()
+                for file, (name, kind) in _downloads(report).items()
             ],
         }
     )
+
+
+def _downloads(report: Report) -> dict[str, tuple[str, str]]:
+    """What a file below ``data/`` holds, and of what kind it is."""
+    files = feature_files(len(report.shapes))
+    parts = (
+        [""] if len(files) == 1 else [f", part {number + 1} of {len(files)}" for number in range(len(files))]
+    )
+    return _DOWNLOADS | {
+        file: (f"The feature table, for numpy{part}", "application/octet-stream")
+        for file, part in zip(files, parts, strict=True)
+    }
 
 
 def catalogue(report: Report, description: str) -> bytes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +16,7 @@ from small_database import OPTIONS, make_shape, write_database
 import shapeviz_report
 from shapeviz_report.cli import main
 from shapeviz_report.errors import ConfigError, MeshError, SiteError
+from shapeviz_report.pages import base
 from shapeviz_report.presets import PRESETS, scale
 from shapeviz_report.types import Report
 from shapeviz_report.writing import write_site
@@ -157,6 +159,21 @@ def test_what_is_no_site_of_this_version_says_so(built, database, cache, tmp_pat
     (site / "data" / "features.npz").write_bytes(b"PK\x03\x04 cut off")
     with pytest.raises(SiteError, match="not complete"):
         query(site)
+
+
+def test_features_that_a_large_site_leaves_out_are_described(
+    ask, built, database, cache, tmp_path, monkeypatch
+) -> None:
+    mesh = database / "box" / "1.off"
+    site = shutil.copytree(built[0] / "data", tmp_path / "site" / "data").parent
+    features = site / "data" / "features.npz"
+    features.unlink()
+    monkeypatch.setattr(base, "MOST_IN_FULL", 10)
+    with pytest.raises(SiteError, match=f"shapeviz-report describe DATABASE -o {re.escape(str(features))}"):
+        shapeviz_report.query(site, mesh, cache=cache)
+    options = ["--edge-length", OPTIONS["edge_length"], "--jobs", 1, "--cache", cache]
+    assert main([str(part) for part in ("describe", database, "-o", features, *options)]) == 0
+    assert shapeviz_report.query(site, mesh, cache=cache) == ask(mesh)
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.arrow import parquet_bytes
-from shapeviz_report.pages.base import is_in_full
+from shapeviz_report.pages.base import feature_files, is_in_full
 from shapeviz_report.projections import MAIN_PROJECTION
 from shapeviz_report.quality import hit_range
 from shapeviz_report.types import BinSelection, Report
@@ -32,14 +32,14 @@ from shapeviz_report.writing.data.tables import (
 )
 
 DATA_NAMES = (
-    r"summary\.json|(features|scores)\.npz|(features|shapes)\.parquet|selected-bins\.txt"
+    r"summary\.json|(features(-\d+)?|scores)\.npz|(features|shapes)\.parquet|selected-bins\.txt"
     r"|(shapes|copies|subsets|greedy|table2|retrieval|retrieval-classes|separation|projection-\w+)\.csv"
 )
 """The names that :func:`data_files` gives, as a regular expression."""
 
 
 def data_files(report: Report, version: str) -> Iterator[tuple[str, bytes]]:
-    """``summary.json``, ``shapes.csv``, ``features.npz``, both as Parquet where the build was told so, one
+    """``summary.json``, ``shapes.csv``, ``features.npz`` or its parts, both as Parquet where the build was told so, one
     ``projection-METHOD.csv`` a projection, and what a search found in ``subsets.csv``, ``greedy.csv`` and
     ``table2.csv``, the scores of bins in ``scores.npz``, the bins that separate all classes in ``selected-bins.txt``,
     and how well shapes are found in ``retrieval.csv`` and ``retrieval-classes.csv``, and how far classes are told apart
@@ -53,15 +53,16 @@ def data_files(report: Report, version: str) -> Iterator[tuple[str, bytes]]:
     """
     yield "summary.json", (json_text(summary(report, version), indent=1) + "\n").encode()
     yield "shapes.csv", csv_text(shape_rows(report))
-    yield (
-        "features.npz",
-        archive(
-            values=np.ascontiguousarray(report.features.values, dtype=_type_of_features(report)),
-            columns=np.array(report.features.columns, dtype=np.str_),
-            shape_ids=np.array(report.features.shape_ids, dtype=np.str_),
-            edges=report.edges,
-        ),
-    )
+    for name, part in feature_files(len(report.shapes)).items():
+        yield (
+            name,
+            archive(
+                values=np.ascontiguousarray(report.features.values[part], dtype=np.float64),
+                columns=np.array(report.features.columns, dtype=np.str_),
+                shape_ids=np.array(report.features.shape_ids[part], dtype=np.str_),
+                edges=report.edges,
+            ),
+        )
     if report.parameters.get("parquet"):
         yield "shapes.parquet", parquet_bytes(shape_columns(report))
         yield "features.parquet", parquet_bytes(_feature_columns(report))
@@ -96,18 +97,10 @@ def data_files(report: Report, version: str) -> Iterator[tuple[str, bytes]]:
         yield "selected-bins.txt", _bin_list(report.bins.automatic).encode()
 
 
-def _type_of_features(report: Report) -> type[np.floating]:
-    """Three digits are enough of very many shapes, unless a feature that was brought along is too large for them."""
-    half = not is_in_full(report) and float(np.abs(report.features.values).max()) < float(
-        np.finfo(np.float16).max
-    )
-    return np.float16 if half else np.float64
-
-
 def _feature_columns(report: Report) -> dict[str, npt.NDArray[Any] | Sequence[str | None]]:
-    """The values of ``features.npz``, below their names. Few programs read Parquet's numbers of 16 bits."""
-    kept = report.features.values.astype(_type_of_features(report))
-    columns = np.ascontiguousarray(kept.T, dtype=np.promote_types(kept.dtype, np.float32))
+    """The values of ``features.npz``, below their names; of very many shapes with seven digits."""
+    kind = np.float64 if is_in_full(report) else np.float32
+    columns = np.ascontiguousarray(report.features.values.T, dtype=kind)
     return {"id": report.features.shape_ids, **dict(zip(report.features.columns, columns, strict=True))}
 
 

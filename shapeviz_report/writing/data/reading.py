@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import struct
 import zipfile
 import zlib
@@ -11,6 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from importlib.metadata import version
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ import numpy as np
 from shapeviz_report.config import Config
 from shapeviz_report.errors import ConfigError, SiteError
 from shapeviz_report.files import read_regular
+from shapeviz_report.pages.base import MOST_IN_FULL, feature_files
 from shapeviz_report.presets import PRESETS, Preset
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 from shapeviz_report.writing.data.encoding import GENERATOR, read_archive, read_csv
@@ -78,12 +81,23 @@ def read_site(folder: Path) -> SiteData:
             header, *rows = read_csv(read_regular(data / "shapes.csv"))
             shapes = [dict(zip(header, row, strict=True)) for row in rows]
             _require(bool(shapes) and {"id", "name", "class", "file"} <= {*header}, "its columns are others")
+        whole = os.path.lexists(data / "features.npz")
+        files = ["features.npz"] if whole else list(feature_files(len(shapes)))
+        if not files:
+            raise SiteError(
+                f"the site {folder} holds no features, as one of more than {MOST_IN_FULL:,} shapes. Its owner can "
+                f"write them, from the meshes and the cache of the build: `shapeviz-report describe DATABASE -o "
+                f"{data / 'features.npz'}`"
+            )
+        found = [_read_features(data / file) for file in files]
         with _reading("features.npz"):
-            arrays = read_archive(read_regular(data / "features.npz"))
-            values, edges = (arrays[name].astype(np.float64, casting="safe") for name in ("values", "edges"))
-            columns, ids = arrays["columns"].tolist(), tuple(arrays["shape_ids"].tolist())
-            _require(values.shape == (len(ids), len(columns)), "its arrays do not fit together")
-            _require(bool(np.isfinite(values).all() and np.isfinite(edges).all()), "a value is not finite")
+            columns, edges = found[0].columns, found[0].edges
+            _require(
+                all(part.columns == columns and np.array_equal(part.edges, edges) for part in found),
+                "its parts are of different builds",
+            )
+            ids = tuple(chain.from_iterable(part.ids for part in found))
+            values = np.concatenate([part.values for part in found])
             _require(
                 [shape["id"] for shape in shapes] == list(ids), "it and shapes.csv are of different builds"
             )
@@ -115,6 +129,26 @@ def read_site(folder: Path) -> SiteData:
     width = sum(block.width for block in own)
     table = FeatureTable(ids, there, values[:, :width])
     return SiteData(folder, summary, shapes, table, blocks[len(own) :], edges)
+
+
+@dataclass(frozen=True)
+class _Features:
+    """A file of features, whole or a part."""
+
+    values: FloatArray
+    columns: list[str]
+    ids: list[str]
+    edges: FloatArray
+
+
+def _read_features(file: Path) -> _Features:
+    with _reading(file.name):
+        arrays = read_archive(read_regular(file))
+        values, edges = (arrays[name].astype(np.float64, casting="safe") for name in ("values", "edges"))
+        columns, ids = arrays["columns"].tolist(), arrays["shape_ids"].tolist()
+        _require(values.shape == (len(ids), len(columns)), "its arrays do not fit together")
+        _require(bool(np.isfinite(values).all() and np.isfinite(edges).all()), "a value is not finite")
+        return _Features(values, columns, ids, edges)
 
 
 @contextmanager

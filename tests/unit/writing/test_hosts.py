@@ -6,6 +6,7 @@ import pytest
 from reports import make_report, with_exported, with_models
 
 from shapeviz_report.config import Config
+from shapeviz_report.pages.base import thumbnail_size
 from shapeviz_report.writing import write_site
 from shapeviz_report.writing.hosts import note, refusals, weigh
 
@@ -20,7 +21,7 @@ def test_what_is_too_much_is_named_with_its_limit():
     assert "more than these hosts take: GitHub Pages (1.0 GB in all" in text
     assert "Cloudflare Pages (25 MiB a file, 20,000 files)" in text
     assert "Hugging Face (10,000 files a folder)" in text
-    assert text.endswith("Of that, 3D models are 1.6 GB, which --no-meshes leaves out.")
+    assert text.endswith("Of that, 3D models are 1.3 GB, which --no-meshes leaves out.")
     assert "--no-meshes" not in note(200_000, Config(meshes=False))
 
 
@@ -29,6 +30,24 @@ def test_less_is_written_of_more():
     assert weigh(10_001, Config(meshes=False)).files < weigh(10_000, Config(meshes=False)).files / 5
     assert weigh(500, Config(thumbnail_size=160, meshes=False)).bytes < weigh(500, Config(meshes=False)).bytes
     assert refusals(weigh(1_000, Config(meshes=False))) == []
+
+
+def test_a_hundred_thousand_shapes_without_models_fit_below_a_gigabyte():
+    weight = weigh(100_000, Config(meshes=False))
+    assert 800e6 < weight.bytes < 1e9
+    assert weight.folder < 10_000
+    assert weigh(100_000, Config(meshes=False, thumbnail_size=320)).bytes > 1e9
+    assert "Hugging Face" not in note(100_000, Config(meshes=False))
+
+
+def test_pictures_of_very_many_are_smaller_unless_one_says():
+    assert [thumbnail_size(Config(), shapes) for shapes in (10_000, 10_001)] == [320, 192]
+    assert thumbnail_size(Config(thumbnail_size=400), 100_000) == 400
+
+
+def test_no_file_is_too_large_for_a_host():
+    for shapes in (2_000, 5_000, 10_000, 12_000):
+        assert not any("MiB a file" in said for said in refusals(weigh(shapes, Config())))
 
 
 def test_files_are_counted_as_they_are_written(tmp_path):

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
+import shutil
 
 import numpy as np
 import pytest
 from packed_chunks import read_script
 from reports import make_report, multiplied
 
+from shapeviz_report.errors import SiteError
 from shapeviz_report.pages.base import MOST_IN_FULL, class_codes
-from shapeviz_report.types import FeatureBlock, FeatureTable
 from shapeviz_report.writing import write_site
-from shapeviz_report.writing.data import data_files
-from shapeviz_report.writing.data.encoding import read_archive
+from shapeviz_report.writing.data import read_site
+from shapeviz_report.writing.feature_files import write_feature_file
 
 pytestmark = pytest.mark.slow
 
@@ -72,20 +72,20 @@ def test_the_catalogue_is_of_the_database_alone(site, report):
     assert "hasPart" not in catalogue
 
 
-def test_features_have_three_digits(report):
-    values = features(report)
-    assert values.dtype == np.float16
-    np.testing.assert_allclose(values, report.features.values, rtol=1e-3, atol=1e-6)
+def test_it_holds_no_features_and_says_how_to_get_them(site):
+    assert not [*site.glob("data/features*")]
+    about = (site / "about.html").read_text(encoding="utf-8")
+    assert "shapeviz-report describe DATABASE -o features.npz" in about
+    catalogue = json.loads((site / "data" / "catalogue.jsonld").read_text(encoding="utf-8"))
+    offered = {download["contentUrl"].rpartition("/")[2] for download in catalogue["distribution"]}
+    assert offered <= {path.name for path in (site / "data").iterdir()}
+    with pytest.raises(SiteError, match=r"describe DATABASE -o \S+features\.npz"):
+        read_site(site)
 
 
-def test_features_too_large_for_that_are_whole(report):
+def test_features_that_its_owner_puts_there_are_read(site, report, tmp_path):
+    copy = shutil.copytree(site / "data", tmp_path / "data").parent
     table = report.features
-    large = np.hstack([table.values, np.linspace(0, 1e6, len(table.values))[:, None]])
-    blocks = (*table.blocks, FeatureBlock("own", 1, 1))
-    values = features(replace(report, features=FeatureTable(table.shape_ids, blocks, large)))
-    assert values.dtype == np.float64
-    np.testing.assert_array_equal(values, large)
-
-
-def features(report):
-    return read_archive(dict(data_files(report, "1"))["features.npz"])["values"]
+    write_feature_file(copy / "data" / "features.npz", report.database, report.shapes, table, report.edges)
+    with pytest.raises(SiteError, match="has other features than this version measures"):
+        read_site(copy)  # whole, if not of real features

@@ -11,8 +11,10 @@ from pyarrow import parquet
 from reports import NASTY_LABELS, make_report, with_bin_search, with_bins, with_scores, with_search
 
 from shapeviz_report.bins import read_bins
+from shapeviz_report.pages import base
 from shapeviz_report.types import Failure
 from shapeviz_report.writing.data import data_files, json_text, summary
+from shapeviz_report.writing.data.encoding import read_archive
 from shapeviz_report.writing.data.tables import shape_rows
 
 
@@ -94,6 +96,19 @@ def test_features_need_no_pickle(folder):
         assert tuple(content["columns"]) == report.features.columns
         assert tuple(content["shape_ids"]) == report.features.shape_ids
         np.testing.assert_array_equal(content["edges"], report.edges)
+
+
+def test_features_of_many_shapes_come_in_files_of_so_many_rows(tmp_path, monkeypatch):
+    monkeypatch.setattr(base, "ROWS_A_FILE", 7)
+    report = make_report(["ant", "bird"], 8)
+    files = {name: content for name, content in data_files(report, "1") if name.startswith("features")}
+    assert list(files) == ["features-1.npz", "features-2.npz", "features-3.npz"]
+    parts = [read_archive(content) for content in files.values()]
+    assert [len(part["values"]) for part in parts] == [7, 7, 2]
+    np.testing.assert_array_equal(np.concatenate([part["values"] for part in parts]), report.features.values)
+    assert tuple(np.concatenate([part["shape_ids"] for part in parts])) == report.features.shape_ids
+    for part in parts:
+        np.testing.assert_array_equal(part["edges"], report.edges)
 
 
 def test_summary_names_the_bins_that_maps_are_made_of():

@@ -11,6 +11,7 @@ from reports import make_report
 
 from shapeviz_report.building.query import find_similar
 from shapeviz_report.errors import CacheError, SiteError
+from shapeviz_report.pages import base
 from shapeviz_report.writing import write_site
 
 
@@ -92,6 +93,24 @@ def test_features_that_no_build_writes_are_told(site, tmp_path, change):
     np.savez(copy / "data" / "features.npz", **arrays)
     with pytest.raises(SiteError, match=r"not complete, build it again: features\.npz"):
         ask(copy, tmp_path / "cache")
+
+
+def test_features_in_several_files_are_one_table(tmp_path, monkeypatch):
+    monkeypatch.setattr(base, "ROWS_A_FILE", 10)
+    report = make_report()
+    write_site(report, tmp_path / "site")
+    data = tmp_path / "site" / "data"
+    assert sorted(path.name for path in data.glob("features*")) == [f"features-{n}.npz" for n in (1, 2, 3)]
+    with pytest.raises(SiteError, match="has other features than this version measures"):
+        ask(tmp_path / "site", tmp_path / "cache")  # whole, if not of real features
+    with np.load(data / "features-2.npz") as archive:
+        arrays = dict(archive)
+    np.savez(data / "features-2.npz", **arrays | {"edges": arrays["edges"] + 1})
+    with pytest.raises(SiteError, match=r"features\.npz: its parts are of different builds"):
+        ask(tmp_path / "site", tmp_path / "cache")
+    (data / "features-2.npz").unlink()
+    with pytest.raises(SiteError, match=r"features-2\.npz cannot be read"):
+        ask(tmp_path / "site", tmp_path / "cache")
 
 
 def test_a_cache_that_takes_no_results_is_refused_first(site, tmp_path):
