@@ -25,15 +25,18 @@ from PIL import Image, ImageDraw, ImageFilter
 from scipy.spatial import KDTree
 
 from shapeviz_report.bins import scale_bins
+from shapeviz_report.config import Config
 from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import BINS
 from shapeviz_report.neighbours import RELATED, find_nearest
 from shapeviz_report.order import classes_of
+from shapeviz_report.pages.base import thumbnail_size
 from shapeviz_report.pages.sampling import sample_rows
 from shapeviz_report.presets import PRESETS, compared_values, scale
 from shapeviz_report.projections import squared_distances
 from shapeviz_report.quality import NEIGHBOURS, hit_range
+from shapeviz_report.render.thumbnail import WEBP_METHOD, WEBP_QUALITY
 from shapeviz_report.retrieval import query_classes, rate, rate_chance, rate_subsets
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search import SearchSpace, make_space, search_features
@@ -433,14 +436,17 @@ def _pictures(random: np.random.Generator, codes: np.ndarray) -> Iterator[bytes]
     """A picture a shape: of shapes of a class, drawings that are alike."""
     classes = int(codes.max()) + 1
     variants = max(1, min(DRAWN, len(codes)) // classes)
-    drawings = [[_draw(random, code, variant) for variant in range(variants)] for code in range(classes)]
+    size = thumbnail_size(Config(), len(codes))
+    drawings = [
+        [_draw(random, code, variant, size) for variant in range(variants)] for code in range(classes)
+    ]
     chosen = random.integers(variants, size=len(codes))
     for row, code in enumerate(codes.tolist()):
         yield _marked(drawings[code][chosen[row]], row)
 
 
-def _draw(random: np.random.Generator, code: int, variant: int) -> bytes:
-    """A WebP image of about the size that a rendered shape has: a few overlapping grey bodies with soft shades."""
+def _draw(random: np.random.Generator, code: int, variant: int, size: int) -> bytes:
+    """A WebP image of about as many bytes as a rendered shape: a few overlapping grey bodies with soft shades."""
     form = np.random.default_rng(code)
     image = Image.new("RGBA", (256, 256), (0, 0, 0, 0))
     drawing = ImageDraw.Draw(image)
@@ -458,12 +464,12 @@ def _draw(random: np.random.Generator, code: int, variant: int) -> bytes:
             )
             drawing.ellipse(box, fill=(light, light - 4, light - 14, 255))
     grain = Image.fromarray(random.normal(128, 40, (256, 256)).clip(0, 255).astype(np.uint8))
-    soft = Image.merge("RGB", [grain.filter(ImageFilter.GaussianBlur(0.8))] * 3)
+    soft = Image.merge("RGB", [grain.filter(ImageFilter.GaussianBlur(0.65))] * 3)
     image = Image.merge(
-        "RGBA", (*Image.blend(image.convert("RGB"), soft, 0.6).split(), image.getchannel("A"))
+        "RGBA", (*Image.blend(image.convert("RGB"), soft, 0.8).split(), image.getchannel("A"))
     )
     file = io.BytesIO()
-    image.save(file, "WEBP", quality=82, method=0)
+    image.resize((size, size)).save(file, "WEBP", quality=WEBP_QUALITY, method=WEBP_METHOD)
     return file.getvalue()
 
 
