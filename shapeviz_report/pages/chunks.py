@@ -617,7 +617,7 @@ class FeatureWords(TypedDict):
 
 
 class Feature(FeatureWords):
-    """A feature: its columns, its words, and between which values the chunk "bins" is cut into steps."""
+    """A feature: its columns, its words, and between which values the parts "bins" are cut into steps."""
 
     name: str
     start: int
@@ -676,12 +676,16 @@ class Workbench(TypedDict):
     Attributes
     ----------
     sample : (m,) int32 array, or None
-        The shapes whose values the chunk "bins" holds, rising; None for all.
+        The shapes whose values the parts "bins" hold, rising; None for all.
+    bytesOfBins, bytesAPart : int
+        Of all these parts together, and of each but the last.
     bins : list of int, or None
         The columns that the maps of the site are made from; None for all.
     """
 
     sample: npt.NDArray[np.int32] | None
+    bytesOfBins: int
+    bytesAPart: int
     features: list[Feature]
     called: list[str]
     sentences: list[str]
@@ -856,9 +860,6 @@ class Chunks(TypedDict, total=False):
         Where the search laid out a sample.
     texts : list of str
         What a search finds a shape by beside its id, name and class: labels and metadata.
-    bins : bytes
-        The compared values, column after column, in 65,535 steps from ``low`` to ``high`` of the feature; uint16. Of
-        the shapes of ``Workbench.sample`` where there are too many for a browser.
     scores : bytes
         The score of every scorer, class and column in 65,535 steps; uint16.
     engine : str
@@ -883,7 +884,6 @@ class Chunks(TypedDict, total=False):
     subsets: SubsetMaps
     faith: SubsetNeighbours
     workbench: Workbench
-    bins: bytes
     scores: bytes
     selection: Selection
     engine: str
@@ -941,6 +941,9 @@ class Parts(TypedDict, total=False):
     pictures : PicturePart
         Class by class, first those without one; of a class in the order of the shapes. Not in a site of one file that
         has them as files.
+    bins : bytes
+        One after the other, the compared values, column after column, in 65,535 steps from ``low`` to ``high`` of the
+        feature; uint16. Of the shapes of ``Workbench.sample`` where there are too many for a browser.
     neighbours : bytes
         A part a space of a comparison: the nearest shapes of every shape; uint32.
     rows : bytes
@@ -955,6 +958,7 @@ class Parts(TypedDict, total=False):
 
     details: list[ShapeDetails]
     pictures: PicturePart
+    bins: bytes
     neighbours: bytes
     rows: bytes
     columns: bytes

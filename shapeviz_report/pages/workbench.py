@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -39,6 +40,9 @@ from shapeviz_report.wording.registry import all_global_wordings, all_wordings
 #: Steps of a value from the lowest to the highest of its feature, and of a score from 0 to 1.
 STEPS = 65535
 
+#: Bytes of values a part. Some hosts take 25 MiB a file, and values that do not pack at all take a fifteenth more.
+BYTES_A_PART = 17_000_000
+
 
 class WorkbenchPage:
     """Classes and features, the original map, the scores of all bins, and the map of the chosen bins."""
@@ -55,7 +59,6 @@ class WorkbenchPage:
         sample = None if is_in_full(report) else sample_rows(class_codes(report))
         chunks: Chunks = {
             "workbench": _workbench(report, preset, spans, sample, classes),
-            "bins": _bins(report.features, preset, spans, sample),
         }
         if report.scores is not None:
             chunks["scores"] = _steps(report.scores.values, 0.0, 1.0)
@@ -67,6 +70,7 @@ class WorkbenchPage:
                 "scored": report.scores is not None,
             },
             chunks=chunks,
+            parts={"bins": _bins(report.features, preset, spans, sample)},
         )
 
 
@@ -79,8 +83,11 @@ def _workbench(
 ) -> Workbench:
     """All but the values: what the columns are, and what the page starts from."""
     projection, hits = next(iter(report.projections.values()))
+    shapes = len(report.shapes) if sample is None else len(sample)
     return {
         "sample": sample,
+        "bytesOfBins": 2 * shapes * len(report.features.columns),
+        "bytesAPart": BYTES_A_PART,
         "features": _features(report, spans),
         # In few plain words; empty for features that were brought along.
         "called": list(call_bins(report.features, report.edges)),
@@ -159,14 +166,16 @@ def _spans(table: FeatureTable, preset: Preset) -> Spans:
     }
 
 
-def _bins(table: FeatureTable, preset: Preset, spans: Spans, sample: IntArray | None) -> bytes:
+def _bins(table: FeatureTable, preset: Preset, spans: Spans, sample: IntArray | None) -> Iterator[bytes]:
     """The compared values of all shapes, or of a sample, column after column, each a number of steps between the ends
-    of its feature."""
+    of its feature: in parts."""
     values = table.values if sample is None else table.values[sample]
     compared = compared_values(replace(table, values=values), preset)
-    return b"".join(
+    whole = b"".join(
         _steps(compared[:, table.slice_of(block.name)].T, *spans[block.name]) for block in table.blocks
     )
+    for start in range(0, len(whole), BYTES_A_PART):
+        yield whole[start : start + BYTES_A_PART]
 
 
 def _steps(values: np.ndarray, low: float, high: float) -> bytes:

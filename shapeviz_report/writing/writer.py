@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from hashlib import sha256
@@ -101,12 +102,14 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
     shapes are half a gigabyte, and models of 10,000 are nearly one."""
     contents = compute_contents(report)
     chunks: dict[str, str] = {}
+    counts = Counter[str]()
     for _, content in contents:
         for name, parts in content.parts.items():
             digest = sha256()
             for number, part in enumerate(parts):
                 script = chunk_script(f"{name}-{number}", *_pack_part(name, part))
                 digest.update(script)
+                counts[name] += 1
                 yield f"chunks/{name}-{number}.js", script
             chunks[name] = f"chunks/{name}-*.js?{digest.hexdigest()[:8]}"
     assets = {
@@ -120,6 +123,9 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
     addresses = {name: f"assets/{name}?{sha256(data).hexdigest()[:8]}" for name, data in assets.items()}
     environment = make_environment()
     environment.globals["asset"] = addresses.__getitem__
+    environment.globals["parts"] = lambda name: [
+        chunks[name].replace("*", str(number)) for number in range(counts[name])
+    ]
     environment.globals["content_security_policy"] = CONTENT_SECURITY_POLICY
     chunks |= {
         name.removeprefix("chunk-").removesuffix(".js"): address
@@ -161,6 +167,7 @@ def whole_site(report: Report) -> bytes:
     data, left_out = split_large(dict(_data(report)), MOST_EMBEDDED)
     environment = make_environment(single_file=True, left_out=left_out)
     environment.globals["asset"] = "assets/".__add__
+    environment.globals["parts"] = lambda name: ()
     environment.globals["content_security_policy"] = inline.policy
     *scripts_before, opening = map(Markup, inline.scripts)
     text = environment.get_template("single-file.html").render(

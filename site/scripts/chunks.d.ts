@@ -393,7 +393,7 @@ declare namespace Chunk {
     rooted: boolean;
     ease: number;
   }
-  /** A feature: its columns, its words, and between which values the chunk "bins" is cut into steps. */
+  /** A feature: its columns, its words, and between which values the parts "bins" are cut into steps. */
   interface Feature {
     title: string;
     aspect: string;
@@ -437,6 +437,8 @@ declare namespace Chunk {
   /** The bins but for their values. */
   interface Workbench {
     sample: Int32Array | null;
+    bytesOfBins: number;
+    bytesAPart: number;
     features: Feature[];
     called: string[];
     sentences: string[];
@@ -569,7 +571,6 @@ declare namespace Chunk {
     subsets: SubsetMaps;
     faith: SubsetNeighbours;
     workbench: Workbench;
-    bins: ArrayBuffer;
     scores: ArrayBuffer;
     selection: Selection;
     engine: string;
@@ -597,6 +598,7 @@ declare namespace Chunk {
   interface Parts {
     details: ShapeDetails[];
     pictures: PicturePart;
+    bins: ArrayBuffer;
     neighbours: ArrayBuffer;
     rows: ArrayBuffer;
     columns: ArrayBuffer;

@@ -10,7 +10,7 @@ import pytest
 from reports import make_report
 from waiting import drawn_again, eventually
 
-from shapeviz_report.pages import base
+from shapeviz_report.pages import base, workbench
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.similarity import rank_similar
 from shapeviz_report.writing import write_site
@@ -135,5 +135,25 @@ def test_nothing_is_read_but_what_is_shown(both, report):
         if "/chunks/" in address
     }
     assert {"rows", "components", "classes"} <= asked
-    assert "columns" not in asked
-    assert not any("chunk-bins" in address for address in page.watch.requests)
+    assert not {"columns", "bins"} & asked
+
+
+def test_a_file_that_would_be_too_large_is_cut_and_read_as_one(open_page, sites, report, tmp_path):
+    size = 2 * report.features.values.size
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(workbench, "BYTES_A_PART", 999)
+        write_site(report, tmp_path)
+    said = {}
+    for site in (sites["whole"], tmp_path):
+        page = featured(
+            open_page(
+                site.name, address=f"{site.as_uri()}/shape.html#id={report.shapes[SHAPE].id}&parts=Sc[1]"
+            )
+        )
+        bars = page.locator(".of-bin-button")
+        said[site] = bars.evaluate_all("(bars) => bars.map((bar) => bar.getAttribute('aria-label'))")
+        assert agreed(similar(page), named(report))
+    assert said[tmp_path] == said[sites["whole"]]
+    page = open_page("cut", address=f"{tmp_path.as_uri()}/workbench.html")
+    asked = [address for address in page.watch.requests if "/chunks/bins-" in address]
+    assert len(asked) == -(-size // 999) > 3

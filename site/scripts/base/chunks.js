@@ -68,6 +68,26 @@ export function part(name, number) {
 }
 
 /**
+ * All parts of a chunk of bytes, which are read one after the other and not kept beside the whole.
+ * @param {keyof Chunk.Parts} name
+ * @param {number} length of all
+ * @param {number} aPart of each but the last
+ */
+export async function joined(name, length, aPart) {
+  const whole = new Uint8Array(length);
+  for (let start = 0; start < length; start += aPart) {
+    const key = `${name}-${start / aPart}`;
+    const { bytes } = await taken(key, () => addressOf(name).replace("*", String(start / aPart)));
+    const reader = unpacked(bytes).getReader();
+    for (let [place, read] = [start, await reader.read()]; !read.done; read = await reader.read()) {
+      whole.set(read.value, place);
+      place += read.value.length;
+    }
+  }
+  return whole.buffer;
+}
+
+/**
  * Where a chunk is; of one that comes in parts a star stands for the number of the part.
  * @param {string} name
  */
@@ -90,13 +110,17 @@ export function modelBytes(name) {
  * @returns {Promise<any>}
  */
 async function load(name, address) {
-  const { kind, bytes } = standing(name) ?? (await received(name, address));
+  const { kind, bytes } = await taken(name, address);
   if (kind === "stored") return columnsOf(bytes.buffer);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  const response = new Response(stream);
+  const response = new Response(unpacked(bytes));
   if (kind === "json") return response.json();
   const buffer = await response.arrayBuffer();
   return kind === "columns" ? columnsOf(buffer) : buffer;
+}
+
+/** @param {Uint8Array<ArrayBuffer>} bytes */
+function unpacked(bytes) {
+  return new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
 }
 
 const ARRAYS = {
@@ -150,7 +174,9 @@ function standing(name) {
  * @param {() => string} address
  * @returns {Promise<{ kind: Kind, bytes: Uint8Array<ArrayBuffer> }>}
  */
-async function received(name, address) {
+async function taken(name, address) {
+  const inDocument = standing(name);
+  if (inDocument !== null) return inDocument;
   const { handed } = window.shapeviz;
   if (!handed.has(name)) await addScript(address());
   const { kind, length, text } = /** @type {Handed} */ (handed.get(name));

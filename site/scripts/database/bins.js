@@ -1,6 +1,6 @@
 // The bins of all features: their names, what they mean, and their value for every shape.
 
-import { chunk } from "../base/chunks.js";
+import { chunk, joined } from "../base/chunks.js";
 import { entry } from "../base/entry.js";
 import { currentTheme } from "../base/theme.js";
 import { measured, percent, percents, shortened } from "../base/words.js";
@@ -13,8 +13,13 @@ let loaded = null;
 
 /** The bins of the site, fetched once a page. */
 export function loadBins() {
-  loaded ??= Promise.all([chunk("workbench"), chunk("bins")]).then((found) => new Bins(...found));
+  loaded ??= load();
   return loaded;
+}
+
+async function load() {
+  const data = await chunk("workbench");
+  return new Bins(data, await joined("bins", data.bytesOfBins, data.bytesAPart));
 }
 
 /** What stands in names of bins and in no words. */
@@ -23,7 +28,7 @@ const OF_NAMES = /[[\]:]/;
 export class Bins {
   /**
    * @param {Chunk.Workbench} data
-   * @param {ArrayBuffer} bytes the chunk "bins"
+   * @param {ArrayBuffer} bytes the parts "bins"
    */
   constructor(data, bytes) {
     this.features = data.features;

@@ -13,15 +13,15 @@ import { goToLook, watchLookLink } from "../bins/look-section.js";
 import { PathPlayer } from "../bins/path-player.js";
 import { binsTables } from "../bins/tables.js";
 import { Turntable } from "../bins/turntable.js";
-import { Bins } from "../database/bins.js";
+import { loadBins } from "../database/bins.js";
 import { Database } from "../database/database.js";
 import { Pointing } from "../map/pointing.js";
 import { carryView } from "../tray/carry.js";
 import { clearOnEscape, Tray } from "../tray/tray.js";
 
 async function main() {
-  const [overview, selection, data, bytes] = await chunks("overview", "selection", "workbench", "bins");
-  const bins = new Bins(data, bytes);
+  const [overview, selection] = await chunks("overview", "selection");
+  const bins = await loadBins();
   const database = new Database(overview, currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: binsAddress(database, bins, selection, firstBin(selection, database, bins)),
@@ -41,7 +41,7 @@ async function main() {
     goToLook();
   };
   /** @param {number[]} columns */
-  const open = (columns) => workbenchAddress(columns, data.features);
+  const open = (columns) => workbenchAddress(columns, bins.features);
   if (selection.minimal.length > 0) new ClassCards(database, selection, state, chips, { open }).render();
   if (selection.path.length > 0)
     new PathPlayer(database, selection, bins, state, chips, { open, pointing, choose, announce }).start();

@@ -7,7 +7,7 @@ import { openPage } from "../base/page.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
 import { chosenColors, knownColor } from "../colors/choice.js";
-import { Bins } from "../database/bins.js";
+import { loadBins } from "../database/bins.js";
 import { Database } from "../database/database.js";
 import { Card } from "../map/card.js";
 import { dragging, NOTHING_POINTED } from "../map/scene.js";
@@ -27,8 +27,7 @@ import { WorkMaps } from "../workbench/maps.js";
 import { workTables } from "../workbench/tables.js";
 
 async function main() {
-  const [overview, data, bytes] = await Promise.all([chunk("overview"), chunk("workbench"), chunk("bins")]);
-  const bins = new Bins(data, bytes);
+  const [overview, data, bins] = await Promise.all([chunk("overview"), chunk("workbench"), loadBins()]);
   const database = new Database(overview, currentTheme);
   const { state, written, announce, ready } = await openPage({
     address: workAddress(database, data),

@@ -51,11 +51,11 @@ class TestBins:
     def test_values_read_back_to_half_a_step(self, preset) -> None:
         report = with_external(make_report(features=FEATURES))
         report = replace(report, parameters={"preset": preset})
-        made = chunks(report)
+        content = WorkbenchPage().content(report)
+        made, held = content.chunks, b"".join(content.parts["bins"])
         compared = compared_values(report.features, PRESETS[preset])
-        steps = np.frombuffer(made["bins"], dtype="<u2").reshape(
-            len(report.features.columns), len(report.shapes)
-        )
+        assert len(held) == made["workbench"]["bytesOfBins"]
+        steps = np.frombuffer(held, dtype="<u2").reshape(len(report.features.columns), len(report.shapes))
         assert made["workbench"]["scaling"] == {"default": "balanced", "paper": "plain"}[preset]
         for feature in made["workbench"]["features"]:
             columns = slice(feature["start"], feature["start"] + feature["dimensions"] * feature["bins"])

@@ -75,7 +75,8 @@ def test_a_chunk_holds_the_maps(tmp_path):
 def test_a_chunk_of_bytes_keeps_them(tmp_path):
     report = make_report()
     write_site(report, tmp_path)
-    assert chunk(tmp_path, "bins") == WorkbenchPage().content(report).chunks["bins"]
+    [part] = WorkbenchPage().content(report).parts["bins"]
+    assert read_script(tmp_path / "chunks" / "bins-0.js") == ("bins-0", part)
 
 
 def test_a_model_is_a_script_of_its_own(tmp_path):
