@@ -39,7 +39,7 @@ style: $(INSTALLED) $(SCRIPT_TOOLS)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/lint-imports
-	for system in linux darwin win32; do $(BIN)/mypy --platform $$system --cache-dir .mypy_cache/$$system || exit; done
+	printf '%s\n' linux darwin win32 | xargs -P 3 -I SYSTEM $(BIN)/mypy --platform SYSTEM --cache-dir .mypy_cache/SYSTEM
 	PATH="$(CURDIR)/$(BIN):$$PATH" npm run --silent check
 
 .PHONY: docs

@@ -10,8 +10,8 @@ import trimesh
 OPTIONS = {"edge_length": 0.06, "thumbnail_size": 64, "jobs": 1, "search": "none"}
 """Coarse meshes, small pictures and no search: the same way through, in seconds, half of them the start of a worker."""
 
-WITH_SEARCH = OPTIONS | {"search": "tsne", "jobs": 2}
-"""All subsets of features, and two workers."""
+WITH_SEARCH = OPTIONS | {"search": "tsne"}
+"""All subsets of features."""
 
 
 def make_shape(kind: str, index: int) -> trimesh.Trimesh:

@@ -8,7 +8,7 @@ import shutil
 from pathlib import Path
 
 import pytest
-from small_database import WITH_SEARCH, write_database
+from small_database import OPTIONS, WITH_SEARCH, write_database
 
 import shapeviz_report
 
@@ -32,6 +32,14 @@ def built(database, first_cache, tmp_path_factory):
         # the process that comes second finds all of it there
         fcntl.flock(lock, fcntl.LOCK_EX)
         return site, shapeviz_report.build(database, site, cache=first_cache, **WITH_SEARCH)
+
+
+@pytest.fixture(scope="session")
+def unsearched(database, cache, tmp_path_factory) -> Path:
+    """The site of ``database`` without a search."""
+    site = tmp_path_factory.mktemp("unsearched") / "site"
+    shapeviz_report.build(database, site, cache=cache, **OPTIONS)
+    return site
 
 
 @pytest.fixture(scope="session")

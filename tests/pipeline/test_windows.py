@@ -9,7 +9,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from small_database import WITH_SEARCH, read_site
+from small_database import OPTIONS, read_site
 
 SIMULATION = Path(__file__).parents[1] / "simulated_windows"
 
@@ -28,17 +28,17 @@ def run(script: str, *arguments: object) -> str:
     return done.stdout
 
 
-def test_the_site_is_the_same(database, built, tmp_path) -> None:
+def test_the_site_is_the_same(database, unsearched, tmp_path) -> None:
     run(
         f"""
         import shapeviz_report
-        shapeviz_report.build(sys.argv[1], sys.argv[2], cache=sys.argv[3], **{WITH_SEARCH!r})
+        shapeviz_report.build(sys.argv[1], sys.argv[2], cache=sys.argv[3], **{OPTIONS | {"jobs": 2}!r})
         """,
         database,
         tmp_path / "site",
         tmp_path / "cache",
     )
-    assert read_site(tmp_path / "site") == read_site(built[0])
+    assert read_site(tmp_path / "site") == read_site(unsearched)
     assert sorted(os.listdir(tmp_path)) == ["cache", "site"]
 
 
