@@ -420,7 +420,7 @@ def with_paintings(report: Report) -> Report:
 
 def with_models(report: Report) -> Report:
     """The report with the models of balls, more and more stretched. In their first dimension the bins are layers from
-    bottom to top, in each further one they are turned by one bin more."""
+    bottom to top, in each further one they are turned by one bin more. The last shape has colours, red to the right."""
     sphere = ball(2)
     models = []
     for number in range(len(report.shapes)):
@@ -428,7 +428,10 @@ def with_models(report: Report) -> Report:
         model = simplify(stretched)
         layers = np.clip((model.vertices[:, 1] + 1) * 5, 0, 9).astype(np.uint8)
         bins = np.stack([(layers + turn) % 10 for turn in range(len(report.edges))]).astype(np.uint8)
-        models.append(gzip.compress(pack_model(model, bins, np.eye(3)), mtime=0))
+        last = number == len(report.shapes) - 1
+        colors = np.where(model.vertices[:, :1] > 0, [[200, 20, 20]], [[20, 60, 200]]).astype(np.uint8)
+        packed = pack_model(model, bins, np.eye(3), colors if last else None)
+        models.append(gzip.compress(packed, mtime=0))
     return replace(report, models=tuple(models))
 
 

@@ -340,6 +340,46 @@ def test_a_feature_of_parts_opens_where_the_shape_stands_out(shape, reports):
     assert again.locator(".histogram").nth(1).locator("select").input_value() == str(other)
 
 
+def test_colours_or_clay(shape):
+    page = shape(hash_="#id=class003/0007")
+    looks = page.locator("#looks")
+    assert not looks.is_visible()
+    page.click("#show-3d")
+    eventually(page, looks.is_visible)
+    drawn_again(page)
+    own = seen(page)
+    chosen = looks.locator("input:checked")
+    assert chosen.input_value() == "own"
+    # by the keyboard alone
+    chosen.focus()
+    page.keyboard.press("ArrowRight")
+    assert address(page)["clay"] == [""]
+    assert chosen.input_value() == "clay"
+    assert page.evaluate("document.activeElement.value") == "clay"
+    drawn_again(page)
+    clay = seen(page)
+    assert changed(own, clay) > 0.1
+    # a link brings it back, at once in 3D
+    again = shape(hash_=page.evaluate("location.hash"))
+    eventually(again, again.locator("#looks").is_visible)
+    assert again.locator("#looks input:checked").input_value() == "clay"
+    # the values of a bin are neither
+    page.locator("#histograms button[data-column='2']").click()
+    eventually(page, lambda: not looks.is_visible())
+    page.click("text=Plain again")
+    eventually(page, looks.is_visible)
+    looks.locator("text=its colours").click()
+    assert "clay" not in address(page)
+    drawn_again(page)
+    assert changed(own, seen(page)) < 0.02
+    # where there are no colours there is nothing to choose
+    bare = shape()
+    bare.click("#show-3d")
+    eventually(bare, lambda: bare.locator("#stage canvas").count() == 1)
+    drawn_again(bare)
+    assert not bare.locator("#looks").is_visible()
+
+
 def test_a_bar_colours_the_shape(shape):
     page = shape()
     assert not [url for url in page.watch.requests if "/models/" in url]

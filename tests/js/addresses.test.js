@@ -166,7 +166,7 @@ const PAGES = {
     shapePageAddress(database),
     [
       "",
-      "id=ant%2F2&map=pca&features=Gc&bins=Gc%3A1-3&neighbourhood=&bin=Gc%3A2&parts=FPFH%5B3%5D&beside=ant%2F1&within=Gc&select=lost",
+      "id=ant%2F2&map=pca&features=Gc&bins=Gc%3A1-3&neighbourhood=&bin=Gc%3A2&clay=&parts=FPFH%5B3%5D&beside=ant%2F1&within=Gc&select=lost",
       "id=nobody",
     ],
   ],
@@ -251,7 +251,7 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
     // Any text is valid there.
     for (const key of ["find", "bin", "parts", "closed", "down", "sample", "exact", "by", "pictures", "color"])
       keys.delete(key);
-    if (page === "shape") for (const key of ["features", "bins", "within", "neighbourhood"]) keys.delete(key);
+    if (page === "shape") for (const key of ["features", "bins", "within", "neighbourhood", "clay"]) keys.delete(key);
     for (const key of keys)
       for (const word of NONSENSE) assert.equal(writtenAgain([[key, word]]), usual, `${key}=${word}`);
   });

@@ -27,6 +27,12 @@ test("a model without colours is of clay", () => {
   assert.deepEqual(Array.from(shown), Array.from(Float32Array.from([...CLAY, ...CLAY, ...CLAY])));
 });
 
+test("a model with colours is of clay where they are not wanted", () => {
+  const [bare, model] = [unpackModel(packed([])), unpackModel(packed([255, 0, 188, 255, 0, 0, 255, 0, 0]))];
+  assert.deepEqual([bare.colored, model.colored], [false, true]);
+  assert.deepEqual(paint.plain(model, { clay: true }), paint.plain(bare));
+});
+
 test("a model with colours has them, black and white within what things send back", () => {
   // red, green, then blue of the three vertices: white, black, and a red
   const model = unpackModel(packed([255, 0, 188, 255, 0, 0, 255, 0, 0]));

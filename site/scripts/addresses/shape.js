@@ -26,6 +26,7 @@ import { selected } from "./selected.js";
  * @property {string} bins
  * @property {boolean} neighbourhood whether similar shapes are those by neighbourhood, of all features
  * @property {string | null} bin
+ * @property {boolean} clay whether the model is drawn in clay, whatever colours its file has
  * @property {string} parts
  * @property {number | null} beside a shape whose surface is compared with this one's
  * @property {string} within the feature that it is compared by; all of them where it is none
@@ -46,6 +47,7 @@ export function shapePageAddress(database) {
     { name: "bins", key: "bins", kind: text, standard: "" },
     { name: "neighbourhood", key: "neighbourhood", kind: flag, standard: false, words: "the order by neighbourhood" },
     { name: "bin", key: "bin", kind: text, standard: null },
+    { name: "clay", key: "clay", kind: flag, standard: false, words: "the shape in clay" },
     { name: "parts", key: "parts", kind: text, standard: "" },
     { name: "beside", key: "beside", kind: named(database.ids, "shape"), standard: null, words: "the shape beside it" },
     { name: "within", key: "within", kind: text, standard: "" },

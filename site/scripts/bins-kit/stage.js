@@ -9,8 +9,12 @@ import { canDraw, View } from "../viewer/view.js";
 /** @import { Model } from "../viewer/model.js" */
 
 /**
- * How a shape is shown: what its colours say, and the colours of its model, three numbers a vertex, in linear light.
- * @typedef {{ label: string, paint: (solid: Model) => Float32Array | Promise<Float32Array> }} Showing
+ * How a shape is shown: what its colours say, and the colours of its model, three numbers a vertex, in linear light; and
+ * what to do once the model is on the screen.
+ * @typedef {object} Showing
+ * @property {string} label
+ * @property {(solid: Model) => Float32Array | Promise<Float32Array>} paint
+ * @property {(solid: Model) => void} [shown]
  */
 
 const KEPT = 8;
@@ -44,12 +48,12 @@ export class Stage {
    * @param {number} shape
    * @param {Showing} how
    */
-  async show(shape, { label, paint }) {
+  async show(shape, how) {
     this.latest = Symbol("shown");
     const impossible = this.#impossible();
     if (impossible !== null) this.#say(shape, impossible);
-    else if (!this.asked) this.#offer(shape, { label, paint });
-    else return this.#turn(shape, label, paint);
+    else if (!this.asked) this.#offer(shape, how);
+    else return this.#turn(shape, how);
     return false;
   }
 
@@ -107,10 +111,9 @@ export class Stage {
 
   /**
    * @param {number} shape
-   * @param {Showing["label"]} label
-   * @param {Showing["paint"]} paint
+   * @param {Showing} how
    */
-  async #turn(shape, label, paint) {
+  async #turn(shape, { label, paint, shown }) {
     const { latest } = this;
     this.node.setAttribute("aria-busy", "true");
     let solid;
@@ -130,6 +133,7 @@ export class Stage {
     this.solid = solid;
     view.canvas.setAttribute("aria-label", label);
     this.node.removeAttribute("aria-busy");
+    shown?.(solid);
     return true;
   }
 

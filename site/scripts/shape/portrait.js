@@ -30,13 +30,15 @@ export class Portrait {
     this.state = state;
     this.node = document.getElementById("stage");
     this.words = document.getElementById("painted");
+    this.looks = document.getElementById("looks");
     /** @param {number} shape */
     const load = async (shape) => modelBytes((await chunk("selection")).models?.[shape] ?? "");
     this.stage = new Stage(this.node, { database, load: models ? load : null, keys: "turn-keys" });
     state.listen((changed) => {
-      if (["shape", "bin", "theme"].some((name) => changed.has(name))) this.render();
+      if (["shape", "bin", "clay", "theme"].some((name) => changed.has(name))) this.render();
       if (changed.has("bin") && state.get("bin") !== null) this.#bringIntoSight();
     });
+    this.looks.addEventListener("change", () => state.set({ clay: this.looks.querySelector("[value=clay]").checked }));
   }
 
   /**
@@ -56,21 +58,32 @@ export class Portrait {
     return column < 0 ? null : column;
   }
 
+  /** The shape that was rendered last. @type {number | null} */
+  #shown = null;
+
   render() {
-    const { database } = this;
+    const { database, looks } = this;
     const bins = this.#known?.bins;
     const shape = this.state.get("shape");
     if (shape === null) return;
     const column = this.#column;
     if (this.#known) this.#tell(this.#known, shape, column);
     const dimension = column === null || !bins ? null : bins.dimensionOf(column);
-    // Who asks for a bin asks for its colours.
-    if (dimension !== null) this.stage.asked = true;
+    const clay = this.state.get("clay");
+    // Who asks for a bin asks for its colours, and who asks for clay for the model that has it.
+    if (dimension !== null || clay) this.stage.asked = true;
+    // what a model is drawn in can be chosen where there is a choice; the choice stays in place while it is made
+    if (shape !== this.#shown || dimension !== null) looks.hidden = true;
+    this.#shown = shape;
+    for (const input of looks.querySelectorAll("input")) input.checked = (input.value === "clay") === clay;
     this.stage.show(shape, {
       label: `${database.names[shape]} in 3D${dimension === null ? "" : `, values of ${this.state.get("bin")}`}`,
       paint: async (solid) => {
         this.#paint ??= new Paint(await chunk("selection"));
-        return dimension === null ? this.#paint.plain(solid) : this.#paint.values(solid, dimension);
+        return dimension === null ? this.#paint.plain(solid, { clay }) : this.#paint.values(solid, dimension);
+      },
+      shown: ({ colored }) => {
+        looks.hidden = dimension !== null || !colored;
       },
     });
   }

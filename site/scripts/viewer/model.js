@@ -44,6 +44,8 @@ export function unpackModel(buffer) {
     view,
     positions,
     faces,
+    /** Whether its file has colours. */
+    colored: channels !== null,
     /**
      * The colour of a vertex as its file has it, sRGB from 0 to 255; null where it has none.
      * @param {number} vertex

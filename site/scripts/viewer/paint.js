@@ -18,11 +18,12 @@ export class Paint {
   }
 
   /**
-   * The colours of its file, or clay.
+   * The colours of its file; clay where it has none, or where they are not wanted.
    * @param {Model} solid
+   * @param {{ clay?: boolean }} [options]
    */
-  plain(solid) {
-    return this.#fill(solid, (vertex) => reflected(solid.color(vertex)) ?? this.clay);
+  plain(solid, { clay = false } = {}) {
+    return this.#fill(solid, (vertex) => (clay ? null : reflected(solid.color(vertex))) ?? this.clay);
   }
 
   /**
