@@ -19,7 +19,8 @@ demo: $(INSTALLED) ## build the demo site in demo-site/
 
 .PHONY: test
 test: style drawing-library browsers ## run every check and every test
-	$(BIN)/pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder --durations 25
+	@# Three processes on two cores: tests of builds and browsers wait for a third of their time.
+	$(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder --durations 25
 
 .PHONY: check
 check: style drawing-library ## the quick part of it: style, imports, types, scripts, and the unit and contract tests that are not slow

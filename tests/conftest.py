@@ -9,9 +9,16 @@ import pytest
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Whole builds come first: at the end, one process would be left with the longest of them."""
-    builds = Path(__file__).parent / "pipeline"
-    items.sort(key=lambda item: not item.path.is_relative_to(builds))
+    """One process begins with the build that compiles what all others load, another with pages in browsers; then come
+    whole builds: at the end, one process would be left with the longest of them."""
+    tests = Path(__file__).parent
+    order = [
+        tests / "pipeline" / "test_build.py",
+        tests / "browser" / "everywhere",
+        tests / "pipeline",
+        tests,
+    ]
+    items.sort(key=lambda item: next(n for n, place in enumerate(order) if item.path.is_relative_to(place)))
 
 
 @pytest.fixture(scope="session")
