@@ -508,8 +508,11 @@ def _print_check(result: CheckResult) -> None:
             _say(f"  {count:6,}  {what}")
     if result.lost:
         _say("", f"Colours are left out of {_count(len(result.lost), 'shape', 'shapes')}:")
+        losing: dict[str, list[str]] = {}
         for shape, lost in result.lost.items():
-            _say(*(f"  {shape}: {what}" for what in lost))
+            for what in lost:
+                losing.setdefault(what, []).append(shape)
+        _say(*(f"  {_listed(shapes)}: {what}" for what, shapes in losing.items()))
     if result.copies:
         copies = sum(len(group.shapes) - 1 for group in result.copies)
         groups = _count(len(result.copies), "group", "groups")

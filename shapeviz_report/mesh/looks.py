@@ -16,7 +16,11 @@ from shapeviz_report.mesh.readers.gltf import GLTF, list_pictures
 from shapeviz_report.mesh.readers.limits import MOST_LOOKS
 from shapeviz_report.mesh.readers.mtl import list_materials, read_materials
 
-MOST_FILES = 512
+MOST_FILES = 1024
+"""Names that are looked for."""
+
+MOST_LETTERS = 1000
+"""Of a name."""
 
 Read = Callable[[str, int], bytes | None]
 """Gives the content of a file by its name, if it is there and has no more than so many bytes."""
@@ -46,7 +50,7 @@ def collect_looks(suffix: str, data: bytes, read: Read) -> dict[str, bytes]:
         _add(files, read, list_images(data))
     elif suffix == ".obj":
         _add(files, read, list_materials(data))
-        _add(files, read, [name for text in list(files.values()) for name in _pictures(text)])
+        _add(files, read, (name for text in list(files.values()) for name in _pictures(text)))
     return files
 
 
@@ -69,9 +73,13 @@ def _pictures(text: bytes) -> Iterator[str]:
 
 
 def _add(files: dict[str, bytes], read: Read, names: Iterable[str]) -> None:
+    tried: set[str] = set()
     for name in names:
-        left = MOST_LOOKS - sum(map(len, files.values()))
-        if name in files or len(files) >= MOST_FILES or PurePosixPath(name).is_absolute() or ":" in name:
+        if name in tried or len(name) > MOST_LETTERS or PurePosixPath(name).is_absolute() or ":" in name:
             continue
-        if (content := read(name, left)) is not None:
+        if len(tried) == MOST_FILES:
+            break
+        tried.add(name)
+        content = read(name, MOST_LOOKS - sum(map(len, files.values())))
+        if content is not None:
             files[name] = content

@@ -114,13 +114,13 @@ class Pictures:
     Attributes
     ----------
     images : list of (h, w, 3) uint8 arrays
-    lost : list of str
-        Which were left out, and why.
+    lost : dict of str to None
+        What is left out, and why, each once.
     """
 
     def __init__(self) -> None:
         self.images: list[Bytes] = []
-        self.lost: list[str] = []
+        self.lost: dict[str, None] = {}
         self._places: dict[Hashable, int] = {}
 
     def place(self, key: Hashable, name: str, read: Callable[[], bytes | None]) -> int:
@@ -141,21 +141,23 @@ class Pictures:
 
     def _add(self, name: str, read: Callable[[], bytes | None]) -> int:
         if len(self.images) == MOST_PICTURES:
-            self.lost.append(f"{name} is one more picture than the {MOST_PICTURES} that are shown")
+            self.lose(name, f"is one more picture than the {MOST_PICTURES} that are shown")
             return -1
         content = read()
         picture = None if content is None else read_picture(content)
         if picture is None:
-            self.lost.append(f"{name} {MISSING if content is None else 'is no picture that can be read'}")
+            self.lose(name, MISSING if content is None else "is no picture that can be read")
             return -1
         self.images.append(picture)
         return len(self.images) - 1
 
     def miss_places(self, name: str) -> None:
         """A picture is left out, for the surface does not say where it lies on it."""
-        told = f"{name} has no place on the surface, which lacks texture coordinates"
-        if told not in self.lost:
-            self.lost.append(told)
+        self.lose(name, "has no place on the surface, which lacks texture coordinates")
+
+    def lose(self, name: str, why: str) -> None:
+        """Something of this name is left out."""
+        self.lost[f"{name[:100]} {why}"] = None
 
 
 def bake(paint: Paint, corners: FloatArray, mesh: Mesh) -> Bytes:

@@ -95,10 +95,11 @@ def read_collada(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     return _Reader(_parse(data), files).read()
 
 
-def list_images(data: bytes) -> list[str]:
-    """The files of pictures that a COLLADA may name, each once."""
-    texts = (match.decode("utf-8", "replace") for match in _IMAGE.findall(data))
-    return list(dict.fromkeys(_image_name(html.unescape(text)) for text in texts))
+def list_images(data: bytes) -> Iterator[str]:
+    """The files of pictures that a COLLADA may name, one after the other: there may be very many."""
+    return (
+        _image_name(html.unescape(match[1].decode("utf-8", "replace"))) for match in _IMAGE.finditer(data)
+    )
 
 
 def _image_name(uri: str) -> str:
@@ -161,6 +162,8 @@ class _Reader:
         self.sources: list[tuple[Element | None, list[_Cut], bool]] = []
         """Of every part: what shows it, its triangles, and whether they were turned round."""
         self.pictures = Pictures()
+        self.known: dict[Element, FloatArray] = {}
+        """What was read of sources that primitives share."""
         self.by_id: dict[tuple[str, str], list[Element]] = {}
         for element in root.iter(etree.Element):
             if (name := element.get("id")) is not None:
@@ -450,6 +453,10 @@ class _Reader:
         self, instance: Element | None, cuts: list[_Cut], turned: bool
     ) -> tuple[npt.NDArray[np.generic], ...]:
         """Colour (m, 3, 3), place in a picture (m, 3, 2) and picture (m, 3) of the corners of a part's triangles."""
+        found = (
+            () if instance is None else instance.iterfind("bind_material/technique_common/instance_material")
+        )
+        bindings = {one.get("symbol"): one for one in found}
         looks: dict[str | None, _Look] = {}
         painted = [
             (np.empty((0, 3, 3), np.uint8), np.empty((0, 3, 2), np.float32), np.empty((0, 3), np.int16))
@@ -457,7 +464,7 @@ class _Reader:
         for cut in cuts:
             symbol = cut.primitive.get("material")
             if symbol not in looks:
-                looks[symbol] = self.find_look(instance, symbol)
+                looks[symbol] = self.find_look(symbol, bindings.get(symbol))
             painted.append(self.paint_cut(cut, looks[symbol]))
         columns = (np.concatenate(column) for column in zip(*painted, strict=True))
         return tuple(column[:, ::-1] if turned else column for column in columns)
@@ -495,21 +502,18 @@ class _Reader:
         if not found:
             return None
         one, offset = next(((one, o) for one, o in found if one.get("set", "0") == number), found[0])
-        rows, column = self.rows(one), cut.table[:, offset]
+        source = self.target(one, "source", attribute="source")
+        if source not in self.known:
+            self.known[source] = self.rows(one)
+        rows, column = self.known[source], cut.table[:, offset]
         there = (column >= 0) & (column < len(rows))
         values = np.full((len(column), rows.shape[1]), np.nan)
         values[there] = rows[column[there]]
         return values
 
-    def find_look(self, instance: Element | None, symbol: str | None) -> _Look:
+    def find_look(self, symbol: str | None, binding: Element | None) -> _Look:
         """How the primitives with a symbol look where an instance binds a material to it; where it binds none, that of
         this id."""
-        binding = None
-        for one in (
-            () if instance is None else instance.iterfind("bind_material/technique_common/instance_material")
-        ):
-            if one.get("symbol") == symbol:
-                binding = one
         material = self.refer("material", f"#{symbol}" if binding is None else binding.get("target"))
         reference = None if material is None else material.find("instance_effect")
         effect = None if reference is None else self.refer("effect", reference.get("url"))

@@ -153,7 +153,9 @@ def _paint_materials(
     used = [materials.get(name, WHITE) for _, name in uses]
     colors = np.array([material.color for material in used])[of_face]
     found = Pictures()
-    found.lost += [f"{names[0]} {MISSING}" for names in libraries if files.keys().isdisjoint(names)]
+    for names in libraries:
+        if files.keys().isdisjoint(names):
+            found.lose(names[0], MISSING)
     places_of = [
         found.place(name, name, partial(files.get, name)) if (name := material.picture) else -1
         for material in used
@@ -170,9 +172,9 @@ def _paint_materials(
     there = (index >= 0) & (index < len(points))
     places = np.zeros((len(index), 2), np.float32)
     places[there] = points[index[there]] * [1, -1] + [0, 1]
-    names = {place: material.picture for place, material in zip(places_of, used, strict=True)}
+    called = {place: material.picture for place, material in zip(places_of, used, strict=True)}
     for place in np.setdiff1d(pictures, [-1, *pictures[there]]).tolist():
-        found.miss_places(names[place])
+        found.miss_places(called[place])
     pictures = np.where(there, pictures, np.int16(-1))
     return Paint(np.repeat(colors, sizes, axis=0), places, pictures, tuple(found.images), tuple(found.lost))
 

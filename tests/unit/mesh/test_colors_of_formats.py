@@ -388,6 +388,17 @@ def test_collada_pictures_elsewhere_are_not_opened(tmp_path: Path, uri) -> None:
     assert len(lost(files)) == 1
 
 
+def test_collada_names_of_pictures_are_looked_for_up_to_a_bound(tmp_path: Path) -> None:
+    names = "".join(
+        f"<image><init_from>{'x' * (number % 3000)}{number}.png</init_from></image>"
+        for number in range(20_000)
+    )
+    (tmp_path / "a.dae").write_bytes(collada(effect(TEXTURE, SAMPLER), images=names)["a.dae"])
+    (tmp_path / "0.png").write_bytes(png())
+    (tmp_path / ("x" * 200 + "18200.png")).write_bytes(png())
+    assert list(collect_files(tmp_path / "a.dae", tmp_path)) == ["a.dae", "0.png"]
+
+
 @pytest.mark.parametrize(
     "effects",
     [
