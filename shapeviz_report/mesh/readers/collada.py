@@ -92,7 +92,17 @@ def read_collada(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     MeshError
         If it is anything else, or holds a surface that is not read.
     """
-    return _Reader(_parse(data), files).read()
+    reader = _Reader(_parse(data), files)
+    up = reader.up_axis()
+    mesh = PolygonMesh.of_triangles(*join_parts(reader.place_geometries()), up=up)
+    return replace(mesh, paint=partial(_paint, data, files) if reader.is_painted() else None)
+
+
+def _paint(data: bytes, files: Mapping[str, bytes]) -> Paint:
+    """The colours of all corners. The document is read once more: kept until now, it would take more memory than the
+    surface."""
+    reader = _Reader(_parse(data), files)
+    return reader.paint(list(reader.place_geometries()))
 
 
 def list_images(data: bytes) -> Iterator[str]:
@@ -169,16 +179,17 @@ class _Reader:
             if (name := element.get("id")) is not None:
                 self.by_id.setdefault((element.tag, name), []).append(element)
 
-    def read(self) -> PolygonMesh:
+    def up_axis(self) -> UpAxis:
         up = _UP_AXES.get((self.root.findtext("asset/up_axis") or "Y_UP").strip())
         if up is None:
             raise MeshError("its up_axis is none of X_UP, Y_UP and Z_UP")
-        parts = list(self.place_geometries())
-        mesh = PolygonMesh.of_triangles(*join_parts(parts), up=up)
-        painted = next(self.root.iter("effect"), None) is not None or any(
+        return up
+
+    def is_painted(self) -> bool:
+        """Whether anything of it may say something of colours."""
+        return next(self.root.iter("effect"), None) is not None or any(
             element.get("semantic") == "COLOR" for element in self.root.iter("input")
         )
-        return replace(mesh, paint=partial(self.paint, parts) if painted else None)
 
     # scene
 
