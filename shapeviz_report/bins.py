@@ -15,7 +15,7 @@ import numpy as np
 
 from shapeviz_report.cells import part_cells, read_cell
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.files import read_regular
+from shapeviz_report.files import decode_text, read_regular
 from shapeviz_report.presets import Preset, compared_values
 from shapeviz_report.types import FeatureBlock, FeatureTable, FloatArray
 
@@ -47,7 +47,7 @@ def read_bins(path: Path, blocks: Sequence[FeatureBlock]) -> tuple[str, ...]:
     """
     columns = {column: place for place, column in enumerate(c for block in blocks for c in block.columns)}
     try:
-        text = read_regular(path, MOST_BYTES).decode("utf-8-sig")
+        text = decode_text(read_regular(path, MOST_BYTES))
         names = _READERS.get(path.suffix.lower(), _read_text)(text)
     except (OSError, ValueError, RecursionError, csv.Error) as error:
         said = error.strerror if isinstance(error, OSError) else error

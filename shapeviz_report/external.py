@@ -19,7 +19,7 @@ import numpy.typing as npt
 from shapeviz_report.arrow import column_numbers, column_texts, read_parquet, require_pyarrow
 from shapeviz_report.cells import part_cells, read_cell
 from shapeviz_report.errors import ConfigError
-from shapeviz_report.files import read_regular
+from shapeviz_report.files import decode_text, read_regular
 from shapeviz_report.types import FloatArray
 
 MOST_EXTERNAL_BYTES = 256 * 1024**2
@@ -159,7 +159,7 @@ def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
 
 def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
     """Ids and values of a table: of some columns, or of all but those that say what a shape is."""
-    ways = list(part_cells(content.decode("utf-8-sig").lstrip("\r\n"), strict=True))
+    ways = list(part_cells(decode_text(content).lstrip("\r\n"), strict=True))
     table = next((way for way in ways if "id" in way.header), ways[0])
     head, rows = table.header, [row for row in table.rows if row]
     if not head:

@@ -49,3 +49,11 @@ def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:
     if max(len(content), status.st_size) > most:
         raise TooLargeError(path, most)
     return content
+
+
+def decode_text(content: bytes) -> str:
+    """The text of a file that somebody brings along, in UTF-8 with or without its mark. Raises ``ValueError``."""
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ValueError("it is not UTF-8; save it so (spreadsheets call it CSV UTF-8)") from error

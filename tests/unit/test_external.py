@@ -48,6 +48,13 @@ def test_tables_parted_in_any_way(tmp_path, name, delimiter, told) -> None:
     assert load_external(tmp_path / name, IDS).tolist() == [[1, 2.5], [3, 4], [5, 6]]
 
 
+@pytest.mark.parametrize("encoding", ["cp1252", "utf-16"])
+def test_tables_in_other_encodings_say_what_to_do(tmp_path, encoding) -> None:
+    (tmp_path / "own.csv").write_bytes("id;Höhe\nant/1;1\n".encode(encoding))
+    with pytest.raises(ConfigError, match="cannot be read: it is not UTF-8; save it so"):
+        load_external(tmp_path / "own.csv", IDS)
+
+
 def test_parquet_by_ids_with_numbers_or_lists(tmp_path) -> None:
     columns = {
         "class": ["c", "z", "a", "a"],
