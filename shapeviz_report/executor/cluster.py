@@ -93,7 +93,7 @@ class DaskExecutor:
         try:
             # A client keeps its last messages for developers, a thousand of up to a megabyte: ours hold mesh files.
             with dask.config.set({"distributed.admin.low-level-log-length": 0}):
-                self._client = Client(address, timeout=ANSWER_TIME, set_as_default=False)
+                self._client = _connect(Client, address)
         except (OSError, ValueError, TypeError, MemoryError, ImportError) as error:
             # Dask says so of schemes that it knows and cannot use here; another service's answer is read as a size
             raise ClusterError(
@@ -221,6 +221,18 @@ class DaskExecutor:
             if 0 < len(others) < len(workers):
                 found.append((sent, others))
         return found
+
+
+def _connect(client_class: Any, address: str) -> Any:
+    """A Dask client of a scheduler; one that does not come about is closed, or Python's end waits for it."""
+    client = client_class.__new__(client_class)
+    try:
+        client.__init__(address, timeout=ANSWER_TIME, set_as_default=False)
+    except BaseException:
+        with suppress(OSError):
+            client.close()
+        raise
+    return client
 
 
 @dataclass(frozen=True)

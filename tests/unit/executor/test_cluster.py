@@ -6,6 +6,8 @@ import gc
 import os
 import platform
 import signal
+import subprocess
+import sys
 import time
 from functools import partial
 
@@ -33,10 +35,23 @@ def test_a_scheduler_that_is_not_there(monkeypatch) -> None:
         DaskExecutor("tcp://127.0.0.1:9", 60, None, platform.python_version, os.getpid)
 
 
-def test_an_address_that_is_none(monkeypatch) -> None:
-    monkeypatch.setattr(module, "ANSWER_TIME", 1.0)
-    with pytest.raises(ClusterError, match="does not answer"):
-        DaskExecutor("nonsense://", 60, None, platform.python_version, os.getpid)
+@pytest.mark.parametrize("address", ["nonsense", "nonsense://", "tls://127.0.0.1:9", ""])
+def test_an_address_that_is_none_is_said_and_nothing_else(address) -> None:
+    program = f"""
+import os, platform
+from shapeviz_report.errors import ClusterError
+from shapeviz_report.executor.cluster import DaskExecutor
+try:
+    DaskExecutor({address!r}, 60, None, platform.python_version, os.getpid)
+except ClusterError as error:
+    print(error)
+"""
+    # What Python's end has to wait for, it waits for twice as long as a scheduler has to answer.
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=2 * module.ANSWER_TIME
+    )
+    assert ended.stdout.startswith(f"The Dask scheduler at {address!r} does not answer: ")
+    assert (ended.stderr, ended.returncode) == ("", 0)
 
 
 def test_a_worker_with_other_code_is_refused(address) -> None:
