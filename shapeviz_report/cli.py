@@ -96,6 +96,8 @@ def _run(arguments: Sequence[str] | None) -> int:
         options = _parser().parse_args(arguments)
         handler = logging.StreamHandler(_Patient(sys.stderr))
         handler.setFormatter(_LogFormatter("%(levelname)s: %(message)s"))
+        # what Dask logs of a cluster that fails, as tracebacks, ends the build with a sentence of ours
+        handler.addFilter(lambda record: record.name.partition(".")[0] != "distributed")
         logging.basicConfig(level=logging.WARNING, handlers=[handler])
         import_numba()
         return int(options.command(options))

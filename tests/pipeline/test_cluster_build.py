@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from contextlib import contextmanager
 
 import pytest
@@ -51,6 +53,26 @@ def test_the_same_site_though_workers_are_killed_half_way(built, database, tmp_p
     assert (tmp_path / "cache" / "facts").exists()
     assert not (tmp_path / "cache" / "prepared").exists(), "prepared meshes stay where they are made"
     assert read_site(site) == read_site(tmp_path / "site")
+
+
+def test_a_scheduler_that_goes_ends_the_build_with_a_sentence_and_nothing_else(database, tmp_path) -> None:
+    with running_cluster(tmp_path, workers=1) as cluster:
+        build = subprocess.Popen(
+            [sys.executable, "-m", "shapeviz_report", "build", database, "-o", tmp_path / "site"]
+            + ["--scheduler", cluster.address, "--cache", tmp_path / "cache"],
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        assert build.stderr is not None
+        said = [line for line, _ in zip(build.stderr, range(2), strict=False)]
+        cluster.scheduler.kill()
+        said += build.stderr
+        assert build.wait() == 1
+    assert [line.partition(":")[0] for line in said[:2]] == ["Reading the database\n", "Measuring shapes"]
+    assert said[2:] == [
+        "shapeviz-report: The Dask scheduler has gone. What was computed is kept: start it and its workers again, "
+        "then the same command continues.\n"
+    ]
 
 
 def test_a_cluster_and_a_number_of_processes_exclude_each_other(database, tmp_path) -> None:
