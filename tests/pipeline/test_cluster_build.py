@@ -57,9 +57,9 @@ def test_the_same_site_though_workers_are_killed_half_way(built, database, tmp_p
 
 def test_a_scheduler_that_goes_ends_the_build_with_a_sentence_and_nothing_else(database, tmp_path) -> None:
     with running_cluster(tmp_path, workers=1) as cluster:
+        options = ["-o", tmp_path / "site", "--scheduler", cluster.address, "--cache", tmp_path / "cache"]
         build = subprocess.Popen(
-            [sys.executable, "-m", "shapeviz_report", "build", database, "-o", tmp_path / "site"]
-            + ["--scheduler", cluster.address, "--cache", tmp_path / "cache"],
+            [sys.executable, "-m", "shapeviz_report", "build", database, *options],
             stderr=subprocess.PIPE,
             text=True,
         )
