@@ -920,6 +920,9 @@ class ClassPart(TypedDict):
     ----------
     shapes : int
     means, variances : (w,) float32 array
+    upTo : (w,) float32 array
+        Of each bin, the variance of the share of the surface that lies in it and in those before it of its dimension;
+        not in levels, and 0 for a feature of whole shapes.
     cells : (w * c,) uint32 array
         Column after column, how many shapes have a value of each cell of ``Levels.levelsACell`` levels.
     """
@@ -927,6 +930,7 @@ class ClassPart(TypedDict):
     shapes: int
     means: npt.NDArray[np.float32]
     variances: npt.NDArray[np.float32]
+    upTo: npt.NDArray[np.float32]
     cells: npt.NDArray[np.uint32]
 
 

@@ -207,17 +207,37 @@ def _classes(levels: LevelTable) -> Iterator[ClassPart]:
 
 def _spread(levels: LevelTable, values: ByteArray) -> ClassPart:
     width = values.shape[1]
-    cells, sums, squares = np.zeros(width * CELLS, np.int64), np.zeros(width), np.zeros(width)
+    cells = np.zeros(width * CELLS, np.int64)
+    sums, squares, upto_sums, upto_squares = np.zeros((4, width))
     first = np.arange(width) * CELLS
     for start in range(0, len(values), BLOCK):
         some = values[start : start + BLOCK]
         cells += np.bincount((some // LEVELS_A_CELL + first).ravel(), minlength=len(cells))
         sums += some.sum(axis=0, dtype=float)
         squares += (some.astype(float) ** 2).sum(axis=0)
-    means = sums / len(values)
+        upto = _shares_upto(levels, some)
+        upto_sums += upto.sum(axis=0)
+        upto_squares += (upto**2).sum(axis=0)
+    means, upto_means = sums / len(values), upto_sums / len(values)
     return {
         "shapes": len(values),
         "means": means.astype(np.float32),
         "variances": np.maximum(squares / len(values) - means**2, 0).astype(np.float32),
+        "upTo": np.maximum(upto_squares / len(values) - upto_means**2, 0).astype(np.float32),
         "cells": cells.astype(np.uint32),
     }
+
+
+def _shares_upto(levels: LevelTable, some: ByteArray) -> FloatArray:
+    """Of each bin, the share of the surface that lies in it and in those before it of its dimension; 0 for a feature
+    of whole shapes. (m, w)."""
+    shares = np.zeros(some.shape)
+    for block in levels.table.blocks:
+        if block.bins == 1:
+            continue
+        columns = levels.table.slice_of(block.name)
+        low, high = levels.low[columns], levels.high[columns]
+        compared = low + (high - low) / LEVELS * some[:, columns]
+        own = compared**2 if levels.preset.balanced else compared
+        shares[:, columns] = own.reshape(len(some), -1, block.bins).cumsum(axis=2).reshape(len(some), -1)
+    return shares

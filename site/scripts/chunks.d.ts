@@ -592,6 +592,7 @@ declare namespace Chunk {
     shapes: number;
     means: Float32Array;
     variances: Float32Array;
+    upTo: Float32Array;
     cells: Uint32Array;
   }
   /** Chunks that come in parts: what one of each holds. Those from `rows` on are only there with the chunk */

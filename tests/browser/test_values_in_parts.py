@@ -94,9 +94,10 @@ def test_histograms_say_what_the_values_are(both, report):
         assert own == pytest.approx(other, abs=1.1)
 
 
-def test_two_groups_are_told_apart_alike(both):
+@pytest.mark.parametrize("other", ["class:cup", "rest"], ids=["one by one", "counted"])
+def test_two_groups_are_told_apart_alike(both, other):
     told = {}
-    for name, page in both("compare.html#a=class:ant&b=class:cup").items():
+    for name, page in both(f"compare.html#a=class:ant&b={other}").items():
         page.wait_for_selector("#result:not([hidden])", state="attached")
         told[name] = [
             page.locator("#answer h2").inner_text(),
@@ -107,6 +108,19 @@ def test_two_groups_are_told_apart_alike(both):
         ]
     assert told["parts"][:2] == told["whole"][:2]
     assert told["parts"][2] == pytest.approx(told["whole"][2], abs=1)
+
+
+def test_classes_are_compared_without_reading_their_columns(both):
+    page = both("compare.html#a=class:ant&b=rest")["parts"]
+    page.wait_for_selector("#result:not([hidden])", state="attached")
+    asked = [
+        address.rpartition("/")[2].partition("-")[0]
+        for address in page.watch.requests
+        if "/chunks/" in address
+    ]
+    assert asked.count("classes") == 2
+    assert "columns" not in asked
+    assert "sample" not in page.locator("#answer").inner_text()
 
 
 def test_what_sets_outliers_apart_is_told(both):

@@ -5,6 +5,7 @@ import { test } from "node:test";
 import { changeWords, difference } from "../../site/scripts/base/figures.js";
 import { count, grouped, measured, percent, percents } from "../../site/scripts/base/words.js";
 import { Contrast, ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
+import { RowValues } from "../../site/scripts/database/group-values.js";
 
 test("shares that differ read differently, with no more digits than that takes", () => {
   assert.deepEqual(percents(0.28, 0.019), ["28\u00a0%", "1.9\u00a0%"]);
@@ -55,10 +56,10 @@ test("a share of pairs of places that hardly differs is told after what one sees
     inPercent: (column) => column < 2,
     ease: () => 1,
   });
-  const contests = [{ first: Int32Array.of(0, 1), second: Int32Array.of(2, 3), shuffles: 0 }];
+  const sample = { a: [0, 1], b: [2, 3], rest: [] };
+  const [a, b, rest] = [sample.a, sample.b, sample.rest].map((rows) => new RowValues(bins, rows));
   const apart = { effect: Float64Array.of(1, 0.9, 0.99), limit: 0.1, away: new Float64Array(4) };
-  const found = /** @type {any} */ ({ apart, both: undefined });
-  const contrast = new Contrast(bins, { a: [0, 1], b: [2, 3], rest: [] }, contests, found);
+  const contrast = new Contrast(bins, { a, b, rest }, sample, /** @type {any} */ ({ apart, against: null }));
   assert.deepEqual(contrast.told.at(-1), 0);
   assert.ok(Math.abs(contrast.gap(0) - 0.001) < 1e-12);
   // Any other value has no scale on which one could say that it is nothing.

@@ -3,7 +3,6 @@
 import { element } from "../base/dom.js";
 import { count, percent, percents } from "../base/words.js";
 import { worth } from "./contrasts.js";
-import { mean } from "./distribution.js";
 import { binCount, called, inBoth, moreOf, statement } from "./words.js";
 
 /** @import { Contrast } from "./contrasts.js" */
@@ -171,17 +170,14 @@ function gap({ means }) {
  * @param {Chunk.Sides} words
  * @returns {SideOfEdge | null}
  */
-function bestSide({ bins, sample }, { start, below, above }) {
-  const sums = { a: new Float64Array(sample.a.length), b: new Float64Array(sample.b.length) };
+function bestSide({ bins, values: { a, b } }, { start, below, above }) {
   /** @type {SideOfEdge | null} */
   let best = null;
   for (const edge of below.keys()) {
-    for (const side of /** @type {const} */ (["a", "b"]))
-      sample[side].forEach((row, place) => (sums[side][place] += bins.share(start + edge, row)));
-    const means = { a: mean(sums.a), b: mean(sums.b) };
-    const spread = Math.sqrt(
-      (squares(sums.a, means.a) + squares(sums.b, means.b)) / Math.max(sample.a.length + sample.b.length - 2, 1),
-    );
+    const [own, others] = [a.upTo(start + edge), b.upTo(start + edge)];
+    const means = { a: own.mean, b: others.mean };
+    const squares = a.count * own.variance + b.count * others.variance;
+    const spread = Math.sqrt(squares / Math.max(a.count + b.count - 2, 1));
     // The side says more of which there is more, else the smaller one.
     const upper = below[edge].fewer || (!above[edge].fewer && means.a + means.b > 1);
     const side = {
@@ -208,14 +204,6 @@ function sentence({ means, side }, a, b, data) {
 }
 
 /**
- * @param {Float64Array} values
- * @param {number} middle
- */
-function squares(values, middle) {
-  return values.reduce((sum, value) => sum + (value - middle) ** 2, 0);
-}
-
-/**
  * What both have in common against the other shapes, by the bin that is easiest to picture; null if nothing.
  * @param {Contrast} contrast
  * @param {Group} a
@@ -223,10 +211,9 @@ function squares(values, middle) {
  * @param {Chunk.Comparison} data
  */
 function inCommon(contrast, a, b, data) {
-  const { bins, sample, shared } = contrast;
+  const { bins, values, shared } = contrast;
   /** @param {number} column */
-  const means = (column) =>
-    [sample.a, sample.b, sample.rest].map((rows) => mean(rows.map((row) => bins.share(column, row))));
+  const means = (column) => [values.a, values.b, values.rest].map((group) => group.mean(column));
   const column = shared.find((own) => {
     const [first, second, others] = bins.isShare(own) && bins.ease(own) > 1 ? means(own) : [0, 0, 0];
     return Math.min(Math.abs(first - others), Math.abs(second - others)) >= SEEN;
@@ -236,8 +223,8 @@ function inCommon(contrast, a, b, data) {
 }
 
 /** @param {Contrast} contrast */
-function tooFew({ sample }) {
-  const fewest = Math.min(sample.a.length, sample.b.length);
+function tooFew({ values }) {
+  const fewest = Math.min(values.a.count, values.b.count);
   return fewest < 5 ? ` With ${count(fewest, "shape")} in a group, only very large differences could show.` : "";
 }
 

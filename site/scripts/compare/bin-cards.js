@@ -2,7 +2,7 @@
 
 import { element } from "../base/dom.js";
 import { exactly, inWords } from "../bins-kit/bin-name.js";
-import { distribution, mean } from "./distribution.js";
+import { distribution } from "./distribution.js";
 import { inBoth, meaning, pairs, statement } from "./words.js";
 
 /** @import { View } from "./groups-view.js" */
@@ -20,17 +20,20 @@ export function binCard(column, view, { shared = false } = {}) {
   hue.style.background = bins.color(column);
   /**
    * @param {Group | View["rest"]} group
-   * @param {number[]} rows
    */
-  const row = (group, rows) => ({
-    mark: group.mark(),
-    name: group.name,
-    color: group.color(),
-    values: rows.map((index) => bins.share(column, index)),
-  });
-  const rows = [row(a, contrast.sample.a), row(b, contrast.sample.b)];
-  if (shared) rows.push(row(rest, contrast.sample.rest));
-  const means = rows.map(({ values }) => mean(values));
+  const row = (group) => {
+    const values = contrast.values[group.side];
+    return {
+      mark: group.mark(),
+      name: group.name,
+      color: group.color(),
+      points: values.points(column),
+      each: values.each,
+      mean: values.mean(column),
+    };
+  };
+  const rows = (shared ? [a, b, rest] : [a, b]).map(row);
+  const means = rows.map(({ mean }) => mean);
   return element(
     "li",
     { class: "bin-of-two" },

@@ -1,21 +1,29 @@
 // What sets two groups apart and what they share, worked out by the engine.
 
-import { sampled } from "../database/sample.js";
+import { RowValues, shareAbove, shareAhead } from "../database/group-values.js";
+import { LevelBins } from "../database/level-bins.js";
+import { readCounts } from "../database/level-counts.js";
 import { startEngine } from "../engine/client.js";
-import { mean } from "./distribution.js";
+import { apartBy, pooled } from "../engine/contrast.js";
+import { counts, wholeValues } from "./whole-values.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Engine, Job, Listener } from "../engine/client.js" */
-/** @import { Contrast as Found } from "../engine/contrast.js" */
+/** @import { Contest, Contrast as Found } from "../engine/contrast.js" */
+/** @import { GroupValues } from "../database/group-values.js" */
 
 /**
- * The rows that speak for both groups, and for all other shapes.
- * @typedef {{ a: number[], b: number[], rest: number[] }} Sample
+ * Something of both groups, and of all other shapes.
+ * @template Kind
+ * @typedef {{ a: Kind, b: Kind, rest: Kind }} OfGroups
  */
 
 /** Of a larger group a sample speaks: enough to know a share to two parts in a hundred. */
-export const MOST_COMPARED = 500;
+const MOST_COMPARED = 500;
+
+/** Where values are counted, so many shapes of a group say what chance does, and which is the most central of them. */
+const MOST_BESIDE = 200;
 
 const SHUFFLES = 499;
 const SEED = 0;
@@ -30,7 +38,7 @@ const SEEN = 0.01;
 export const ENOUGH = 3;
 
 export class Contrasts {
-  /** @type {Engine | null} */
+  /** @type {Promise<Engine> | null} */
   #engine = null;
 
   /**
@@ -43,14 +51,6 @@ export class Contrasts {
     this.database = database;
     this.data = data;
     this.bins = bins;
-  }
-
-  /**
-   * The rows of a group that speak for it, rising.
-   * @param {number[]} shapes
-   */
-  #sample(shapes) {
-    return [...sampled(Int32Array.from(shapes), this.database.groups, MOST_COMPARED)];
   }
 
   /**
@@ -67,33 +67,31 @@ export class Contrasts {
       const bins = await this.bins();
       const taken = new Set([...a, ...b]);
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
-      const sample = { a: this.#sample(a), b: this.#sample(b), rest: this.#sample(outside) };
+      this.#engine ??= startEngine(null);
+      const [engine, counted] = await Promise.all([
+        this.#engine,
+        bins instanceof LevelBins ? this.#counted(bins, { a, b, rest: outside }) : null,
+      ]);
+      /** @param {number[]} shapes */
+      const some = (shapes) => bins.some(shapes, this.database.groups, counted ? MOST_BESIDE : MOST_COMPARED);
+      const sample = { a: some(a), b: some(b), rest: some(outside) };
       const rows = [...sample.a, ...sample.b, ...sample.rest];
-      const [engine] = await Promise.all([this.#engine ?? startEngine(null), bins.know(rows)]);
-      this.#engine = engine;
-      /**
-       * @param {number} from
-       * @param {number} count
-       */
-      const numbers = (from, count) => Int32Array.from({ length: count }, (_, place) => from + place);
-      const own = numbers(0, sample.a.length);
-      const others = numbers(own.length, sample.b.length);
-      const rest = numbers(own.length + others.length, sample.rest.length);
-      const contests = [{ first: own, second: others, shuffles: SHUFFLES }];
-      if (rest.length > 1) {
-        contests.push({ first: Int32Array.from([...own, ...others]), second: rest, shuffles: SHUFFLES });
-        contests.push({ first: own, second: rest, shuffles: 0 }, { first: others, second: rest, shuffles: 0 });
-      }
-      const values = valuesOf(bins, rows);
-      const blocks = Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column));
-      job = engine.run(
-        "contrast",
-        { rows: rows.length, values, blocks, weights: this.data.weights, contests, seed: SEED },
-        report,
-      );
+      await bins.know(rows);
+      const given = {
+        rows: rows.length,
+        values: valuesOf(bins, rows),
+        blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
+        weights: this.data.weights,
+      };
+      const { contests, read } = counted ? byCounts(counted, sample, given) : byRows(sample);
+      job = engine.run("contrast", { ...given, contests, seed: SEED }, report);
       if (cancelled) job.cancel();
-      const [apart, both, ownRest, othersRest] = await job.done;
-      return new Contrast(bins, sample, contests, { apart, both, ownRest, othersRest });
+      const values = counted ?? {
+        a: new RowValues(bins, sample.a),
+        b: new RowValues(bins, sample.b),
+        rest: new RowValues(bins, sample.rest),
+      };
+      return new Contrast(bins, values, sample, read(await job.done));
     })();
     return {
       done,
@@ -103,6 +101,121 @@ export class Contrasts {
       },
     };
   }
+
+  /**
+   * The values of both groups and of all other shapes, if all shapes of both are counted or in few parts; else null.
+   * @param {LevelBins} bins
+   * @param {OfGroups<number[]>} groups
+   * @returns {Promise<OfGroups<GroupValues> | null>}
+   */
+  async #counted(bins, { a, b, rest }) {
+    const [own, others] = await Promise.all([a, b].map((shapes) => wholeValues(bins, shapes, this.database)));
+    if (own === null || others === null) return null;
+    const outside =
+      (await wholeValues(bins, rest, this.database)) ??
+      (await readCounts(bins, this.database.classes.length)).without(counts(own, bins)).without(counts(others, bins));
+    return { a: own, b: others, rest: outside };
+  }
+}
+
+/**
+ * What the engine is asked, and how its answers are read.
+ * @typedef {object} Asked
+ * @property {Contest[]} contests
+ * @property {(answers: Found[]) => Differences} read
+ *
+ * How both groups differ from each other; together from all other shapes, and each from those, with effects as of
+ * Contrast; null where there are no others.
+ * @typedef {{ apart: Found, against: { both: Found, a: Float64Array, b: Float64Array } | null }} Differences
+ */
+
+/**
+ * Of the rows themselves.
+ * @param {OfGroups<number[]>} sample
+ * @returns {Asked}
+ */
+function byRows(sample) {
+  const { a, b, rest } = placesOf(sample);
+  const contests = [{ first: a, second: b, shuffles: SHUFFLES }];
+  if (rest.length > 1)
+    contests.push(
+      { first: [...a, ...b], second: rest, shuffles: SHUFFLES },
+      { first: a, second: rest, shuffles: 0 },
+      { first: b, second: rest, shuffles: 0 },
+    );
+  return {
+    contests,
+    read: ([apart, both, own, others]) => ({
+      apart,
+      against: both ? { both, a: own.effect, b: others.effect } : null,
+    }),
+  };
+}
+
+/**
+ * Of what is known of all shapes; by the rows only what chance does, and who is in the middle.
+ * @param {OfGroups<GroupValues>} values
+ * @param {OfGroups<number[]>} sample
+ * @param {{ blocks: Int32Array, weights: number[] }} given
+ * @returns {Asked}
+ */
+function byCounts(values, sample, given) {
+  const { a, b, rest } = placesOf(sample);
+  const [own, others, outside] = [values.a, values.b, values.rest].map((group) => group.moments());
+  const [dealt, against] = inProportion([a, b], [own.count, others.count]);
+  /** @type {Contest[]} */
+  const contests = [
+    { first: dealt, second: against, shuffles: SHUFFLES, whole: apartBy(own, others, given) },
+    { first: a, second: b, shuffles: 0 },
+  ];
+  if (outside.count > 1) {
+    const [first, second, third] = inProportion([a, b, rest], [own.count, others.count, outside.count]);
+    contests.push({
+      first: [...first, ...second],
+      second: third,
+      shuffles: SHUFFLES,
+      whole: apartBy(pooled(own, others), outside, given),
+    });
+  }
+  return {
+    contests,
+    read: ([apart, { away }, both]) => ({
+      apart: { ...apart, away },
+      against: both
+        ? { both, a: apartBy(own, outside, given).effect, b: apartBy(others, outside, given).effect }
+        : null,
+    }),
+  };
+}
+
+/**
+ * Where the rows of each group stand among those of all three.
+ * @param {OfGroups<number[]>} sample
+ */
+function placesOf({ a, b, rest }) {
+  /**
+   * @param {number} from
+   * @param {number} count
+   */
+  const numbers = (from, count) => Array.from({ length: count }, (_, place) => from + place);
+  return {
+    a: numbers(0, a.length),
+    b: numbers(a.length, b.length),
+    rest: numbers(a.length + b.length, rest.length),
+  };
+}
+
+/**
+ * As many of some lists as stand in the relation of some sizes, from all over each list.
+ * @param {number[][]} lists
+ * @param {number[]} sizes
+ */
+function inProportion(lists, sizes) {
+  const share = Math.min(...lists.map((list, place) => list.length / sizes[place]));
+  return lists.map((list, place) => {
+    const count = Math.min(Math.max(Math.round(share * sizes[place]), 1), list.length);
+    return Array.from({ length: count }, (_, number) => list[Math.floor((number * list.length) / count)]);
+  });
 }
 
 /**
@@ -123,17 +236,15 @@ function valuesOf(bins, rows) {
 export class Contrast {
   /**
    * @param {Bins} bins
-   * @param {Sample} sample
-   * @param {{ first: Int32Array, second: Int32Array, shuffles: number }[]} contests
-   * @param {{ apart: Found, both: Found, ownRest: Found, othersRest: Found }} found
+   * @param {OfGroups<GroupValues>} values
+   * @param {OfGroups<number[]>} sample the shapes of each group that are at hand
+   * @param {Differences} found
    */
-  constructor(bins, sample, contests, { apart, both, ownRest, othersRest }) {
+  constructor(bins, values, sample, { apart, against }) {
     this.bins = bins;
-    this.sample = sample;
+    this.values = values;
     this.apart = apart;
-    this.both = both;
-    const [{ first, second }] = contests;
-    this.difference = Array.from(apart.effect, (effect) => standardised(effect, first.length, second.length));
+    this.difference = differences(apart.effect, values.a, values.b);
     this.ranked = [...this.difference.keys()].filter((column) => apart.effect[column] !== 0);
     this.ranked.sort((one, other) => Math.abs(apart.effect[other]) - Math.abs(apart.effect[one]) || one - other);
     this.beyond = this.ranked.filter((column) => this.isBeyond(column));
@@ -147,7 +258,7 @@ export class Contrast {
         worth(this.difference[other], bins.ease(other)) - worth(this.difference[one], bins.ease(one)) ||
         Math.abs(this.difference[other]) - Math.abs(this.difference[one]),
     );
-    this.shared = both === undefined ? [] : this.#findShared(contests, ownRest, othersRest);
+    this.shared = against === null ? [] : this.#findShared(against);
     this.central = {
       a: nearest(sample.a, apart.away),
       b: nearest(sample.b, apart.away.subarray(sample.a.length)),
@@ -170,20 +281,13 @@ export class Contrast {
   /**
    * Bins that both groups have more of than the other shapes, or both less, beyond chance, and in which they are closer
    * to each other than either is to those; the clearest first.
-   * @param {{ first: Int32Array, second: Int32Array, shuffles: number }[]} contests
-   * @param {Found} ownRest
-   * @param {Found} othersRest
+   * @param {NonNullable<Differences["against"]>} against
    */
-  #findShared(contests, ownRest, othersRest) {
-    const { bins, both, difference } = this;
-    const [own, others] = [2, 3].map((number) => {
-      const { first, second } = contests[number];
-      const { effect } = number === 2 ? ownRest : othersRest;
-      return Array.from(effect, (value) => standardised(value, first.length, second.length));
-    });
+  #findShared({ both, a, b }) {
+    const { bins, difference, values } = this;
+    const [own, others] = [differences(a, values.a, values.rest), differences(b, values.b, values.rest)];
     /** @param {number} column */
     const clear = (column) => Math.min(Math.abs(own[column]), Math.abs(others[column])) - Math.abs(difference[column]);
-    this.against = { a: own, b: others };
     return [...difference.keys()]
       .filter(
         (column) =>
@@ -210,7 +314,7 @@ export class Contrast {
    * @param {number} column
    */
   gap(column) {
-    const { a, b } = this.sample;
+    const { a, b } = this.values;
     return this.#apart(column, a, b);
   }
 
@@ -219,7 +323,7 @@ export class Contrast {
    * @param {number} column
    */
   #isSeen(column) {
-    const { a, b, rest } = this.sample;
+    const { a, b, rest } = this.values;
     return Math.min(this.#apart(column, a, rest), this.#apart(column, b, rest)) >= SEEN;
   }
 
@@ -229,23 +333,21 @@ export class Contrast {
    * @param {boolean} more
    */
   #isOfMost(column, more) {
-    const { bins, sample } = this;
-    const others = mean(sample.rest.map((row) => bins.share(column, row)));
-    return [sample.a, sample.b].every(
-      (rows) => 2 * rows.filter((row) => bins.share(column, row) > others === more).length > rows.length,
-    );
+    const { a, b, rest } = this.values;
+    const others = rest.mean(column);
+    return [a, b].every((group) => {
+      const above = shareAbove(group.points(column), others);
+      return (more ? above : 1 - above) > 0.5;
+    });
   }
 
   /**
    * @param {number} column
-   * @param {number[]} rows
-   * @param {number[]} others
+   * @param {GroupValues} group
+   * @param {GroupValues} other
    */
-  #apart(column, rows, others) {
-    const { bins } = this;
-    if (!bins.inPercent(column)) return 1;
-    const [own, other] = [rows, others].map((shapes) => mean(shapes.map((row) => bins.share(column, row))));
-    return Math.abs(own - other);
+  #apart(column, group, other) {
+    return this.bins.inPercent(column) ? Math.abs(group.mean(column) - other.mean(column)) : 1;
   }
 
   /**
@@ -253,15 +355,8 @@ export class Contrast {
    * @param {number} column
    */
   ahead(column) {
-    const { bins, sample } = this;
-    const others = sample.b.map((row) => bins.value(column, row)).sort((a, b) => a - b);
-    let total = 0;
-    for (const row of sample.a) {
-      const value = bins.value(column, row);
-      const [below, upTo] = [lower(others, value), lower(others, value, true)];
-      total += below + (upTo - below) / 2;
-    }
-    return total / (sample.a.length * sample.b.length);
+    const { a, b } = this.values;
+    return shareAhead(a.points(column), b.points(column));
   }
 }
 
@@ -291,28 +386,22 @@ function standardised(effect, first, second) {
 }
 
 /**
+ * Effects as differences of means, in standard deviations within the groups.
+ * @param {Float64Array} effects
+ * @param {GroupValues} first
+ * @param {GroupValues} second
+ */
+function differences(effects, first, second) {
+  return Array.from(effects, (effect) => standardised(effect, first.count, second.count));
+}
+
+/**
  * Rows by rising distance from the mean of their group: the most central first.
  * @param {number[]} rows
  * @param {Float64Array<ArrayBufferLike>} away
  */
 function nearest(rows, away) {
   return [...rows.keys()].sort((one, other) => away[one] - away[other] || one - other).map((place) => rows[place]);
-}
-
-/**
- * How many of rising values are below a value, or up to it.
- * @param {number[]} rising
- * @param {number} value
- * @param {boolean} [including]
- */
-function lower(rising, value, including = false) {
-  let [from, to] = [0, rising.length];
-  while (from < to) {
-    const middle = (from + to) >> 1;
-    if (rising[middle] < value || (including && rising[middle] === value)) from = middle + 1;
-    else to = middle;
-  }
-  return from;
 }
 
 /**

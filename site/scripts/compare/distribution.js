@@ -4,22 +4,42 @@ import { element, svg } from "../base/dom.js";
 import { measured, percent } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 
+/** @import { Point } from "../database/group-values.js" */
+
 /**
- * A group's values; `at` is one that stands out.
- * @typedef {{ mark: SVGElement | null, name: string, color: string, values: number[], at?: number }} Row
+ * A group's values, rising, each of them a shape or not, and their mean; `at` is one that stands out.
+ * @typedef {object} Row
+ * @property {SVGElement | null} mark
+ * @property {string} name
+ * @property {string} color
+ * @property {Point[]} points
+ * @property {boolean} each
+ * @property {number} mean
+ * @property {number} [at]
  */
 
 /** Above so many shapes in a group, dots would only be a smear: then bars say how many lie where. */
-const MOST_DOTS = 60;
+export const MOST_DOTS = 60;
 const BARS = 28;
 const ROW = 22;
+
+/**
+ * Whether a group's shapes are dots.
+ * @param {{ count: number, each: boolean }} values
+ */
+export function hasDots({ count, each }) {
+  return each && count <= MOST_DOTS;
+}
 
 /**
  * @param {Row[]} rows
  * @param {boolean} share whether values are shares
  */
 export function distribution(rows, share) {
-  const all = rows.flatMap(({ values, at }) => (at === undefined ? values : [...values, at]));
+  const all = rows.flatMap(({ points, at }) => [
+    ...points.map(({ value }) => value),
+    ...(at === undefined ? [] : [at]),
+  ]);
   const [lowest, highest] = [Math.min(...all), Math.max(...all)];
   const [least, most] = share ? [0, Math.min(axisEnd(highest), 1)] : [lowest, highest > lowest ? highest : lowest + 1];
   /** @param {number} value */
@@ -31,7 +51,7 @@ export function distribution(rows, share) {
     rows.map((row) => [
       element("span", { class: "group-name" }, row.mark, element("bdi", {}, row.name)),
       strip(row, place),
-      element("span", { class: "mean" }, told(mean(row.values))),
+      element("span", { class: "mean" }, told(row.mean)),
     ]),
     element("span", { class: "group-name" }),
     element(
@@ -47,10 +67,15 @@ export function distribution(rows, share) {
  * @param {Row} row
  * @param {(value: number) => number} place
  */
-function strip({ values, color, at }, place) {
-  const rising = [...values].sort((a, b) => a - b);
-  const parts = rising.length <= MOST_DOTS ? dots(rising, color, place) : bars(rising, color, place);
-  const line = svg("rect", { x: `${place(mean(values))}%`, y: 2, width: 2, height: ROW - 4, class: "at-mean" });
+function strip({ points, each, mean, color, at }, place) {
+  const parts = hasDots({ count: points.length, each })
+    ? dots(
+        points.map(({ value }) => value),
+        color,
+        place,
+      )
+    : bars(points, color, place);
+  const line = svg("rect", { x: `${place(mean)}%`, y: 2, width: 2, height: ROW - 4, class: "at-mean" });
   const outstanding =
     at !== undefined && svg("circle", { cx: `${place(at)}%`, cy: ROW / 2, r: 5, class: "outstanding" });
   return svg("svg", { class: "dots-of", height: ROW, width: "100%", "aria-hidden": "true" }, parts, line, outstanding);
@@ -79,13 +104,14 @@ function dots(rising, color, place) {
 }
 
 /**
- * @param {number[]} rising
+ * @param {Point[]} points
  * @param {string} color
  * @param {(value: number) => number} place
  */
-function bars(rising, color, place) {
+function bars(points, color, place) {
   const counts = new Array(BARS).fill(0);
-  for (const value of rising) counts[Math.min(Math.floor(((place(value) - 2) / 96) * BARS), BARS - 1)] += 1;
+  for (const { value, weight } of points)
+    counts[Math.min(Math.floor(((place(value) - 2) / 96) * BARS), BARS - 1)] += weight;
   const most = Math.max(...counts);
   const width = 96 / BARS;
   const marks = counts.map((count, bar) => {
@@ -95,9 +121,4 @@ function bars(rising, color, place) {
   const group = svg("g", {}, marks);
   group.style.fill = color;
   return group;
-}
-
-/** @param {number[] | Float64Array} values */
-export function mean(values) {
-  return Array.from(values).reduce((sum, value) => sum + value, 0) / values.length;
 }

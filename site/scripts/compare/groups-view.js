@@ -11,7 +11,8 @@ import { Inquiry } from "../engine/inquiry.js";
 import { answer, kinship } from "./answer.js";
 import { binCard } from "./bin-cards.js";
 import { Chooser } from "./chooser.js";
-import { Contrasts, MOST_COMPARED, varied } from "./contrasts.js";
+import { Contrasts, varied } from "./contrasts.js";
+import { hasDots } from "./distribution.js";
 import { featureRows } from "./feature-rows.js";
 import { Groups, isSame } from "./groups.js";
 import { OnShapes } from "./on-shapes.js";
@@ -255,8 +256,8 @@ export class GroupsView {
     const { contrast, a, b, bins } = view;
     const kin = neighbours === null ? null : kinship(a, b, neighbours);
     const sampled = [a, b]
-      .filter(({ shapes }) => shapes.length > MOST_COMPARED)
-      .map((group) => [called(group), ` by a sample of ${grouped(MOST_COMPARED)}`]);
+      .filter(({ side, shapes }) => contrast.values[side].count < shapes.length)
+      .map((group) => [called(group), ` by a sample of ${grouped(contrast.values[group.side].count)}`]);
     document.getElementById("answer").replaceChildren(
       ...answer(contrast, a, b, data, kin),
       ...(sampled.length > 0
@@ -291,7 +292,7 @@ export class GroupsView {
     const within = contrast.beyond.length === 0;
     document.getElementById("apart-words").textContent = within
       ? "These bins differ most between the two groups, but no more than bins do when the shapes are dealt out at random."
-      : `Ranked by the difference of the means in relation to the spread within the groups; those that are easily pictured first. Each mark is a shape${contrast.sample.a.length > 60 || contrast.sample.b.length > 60 ? ", or each bar how many shapes of a large group lie there" : ""}; the line is the mean.`;
+      : `Ranked by the difference of the means in relation to the spread within the groups; those that are easily pictured first. Each mark is a shape${[contrast.values.a, contrast.values.b].every(hasDots) ? "" : ", or each bar how many shapes of a large group lie there"}; the line is the mean.`;
     const list = document.getElementById("apart-bins");
     list.classList.toggle("within", within);
     list.replaceChildren(...columns.map((column) => binCard(column, view)));
@@ -303,7 +304,7 @@ export class GroupsView {
     const view = /** @type {View} */ (this.view);
     const { contrast, bins, a, b } = view;
     const columns = varied(contrast.shared, bins, SHARED);
-    const nobody = contrast.sample.rest.length < 2;
+    const nobody = contrast.values.rest.count < 2;
     document
       .getElementById("shared-words")
       .replaceChildren(

@@ -2,24 +2,30 @@
 
 import { compareAddress } from "../addresses/compare.js";
 import { element, picture, swatch } from "../base/dom.js";
+import { entry } from "../base/entry.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
 import { count, figure, grouped } from "../base/words.js";
 import { inWords } from "../bins-kit/bin-name.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { kind } from "../database/kind.js";
+import { RowValues } from "../database/group-values.js";
+import { LevelBins } from "../database/level-bins.js";
+import { CountedValues } from "../database/level-counts.js";
 import { sampled } from "../database/sample.js";
-import { distribution, mean } from "./distribution.js";
+import { distribution } from "./distribution.js";
 import { groupName } from "./groups.js";
+import { wholeValues } from "./whole-values.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Bins } from "../database/bins.js" */
+/** @import { GroupValues } from "../database/group-values.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Neighbours } from "./neighbours.js" */
 
 /**
- * What is usual in a class: some of its shapes, and by column their mean, mean share and spread.
- * @typedef {{ rows: number[], means: Float64Array, shares: Float64Array, spreads: Float64Array }} Usual
+ * What is usual in a class, and by column the mean and the spread of its compared values.
+ * @typedef {{ values: RowValues | CountedValues, means: Float64Array, spreads: Float64Array }} Usual
  */
 
 const PAGE = 12;
@@ -36,7 +42,7 @@ const TELLING = 0.03;
 const LEAST_SPREAD = 0.2;
 
 export class Outliers {
-  /** @type {Map<number, Usual>} */
+  /** @type {Map<number, Promise<Usual>>} */
   #usual = new Map();
 
   /**
@@ -130,8 +136,14 @@ export class Outliers {
       const node = item.querySelector(".reasons");
       const index = Number(item.dataset.index);
       if (node.childElementCount > 0) continue;
-      await bins.know([index, ...[database.groups[index], data.rival[index]].flatMap((group) => this.#rowsOf(group))]);
-      node.replaceChildren(...this.#reasons(index, bins));
+      const [own, rival] = await Promise.all(
+        [database.groups[index], data.rival[index]].map((group) => this.#usualOf(group, bins)),
+      );
+      await bins.know([
+        index,
+        ...[own, rival].flatMap(({ values }) => (values instanceof RowValues ? values.rows : [])),
+      ]);
+      node.replaceChildren(...this.#reasons(index, bins, own, rival));
     }
   }
 
@@ -255,22 +267,23 @@ export class Outliers {
    * Bins in which a shape is unlike its class and like the other one.
    * @param {number} index
    * @param {Bins} bins
+   * @param {Usual} own
+   * @param {Usual} rival
    */
-  #reasons(index, bins) {
-    const { database, data } = this;
-    const [group, other] = [database.groups[index], data.rival[index]];
-    const [own, rival] = [this.#usualOf(group, bins), this.#usualOf(other, bins)];
-    const size = own.rows.length - 1;
+  #reasons(index, bins, own, rival) {
+    const { values } = own;
+    const size = values.count - 1;
+    const counted = !(values instanceof RowValues) || values.rows.includes(index);
     /** @type {[number, number][]} */
     const scored = [];
     for (let column = 0; column < bins.count; column += 1) {
       const value = bins.value(column, index);
       // The class without the shape itself.
-      const usual = own.rows.includes(index) ? (own.means[column] * (size + 1) - value) / size : own.means[column];
+      const usual = counted ? (own.means[column] * (size + 1) - value) / size : own.means[column];
       const spread = Math.max(own.spreads[column], LEAST_SPREAD * Math.sqrt(bins.variance(column)), 1e-9);
       const [away, near] = [(value - usual) / spread, (value - rival.means[column]) / spread];
       if ((value - usual) * (rival.means[column] - usual) <= 0) continue;
-      if (bins.isShare(column) && Math.abs(bins.share(column, index) - own.shares[column]) < TELLING) continue;
+      if (bins.isShare(column) && Math.abs(bins.share(column, index) - values.mean(column)) < TELLING) continue;
       const gain = Math.abs(away) - Math.abs(near);
       if (gain > 0) scored.push([gain, column]);
     }
@@ -289,32 +302,36 @@ export class Outliers {
           `No single bin sets it apart from its ${kind(this.database)}: it is unlike in many ways, a little in each.`,
         ),
       ];
-    return chosen.map(([, column]) => this.#reason(index, column, group, other, bins));
+    const fellows = !counted ? values : without(values, index);
+    return chosen.map(([, column]) => this.#reason(index, column, bins, fellows, rival.values));
   }
 
   /**
    * @param {number} index
    * @param {number} column
-   * @param {number} group
-   * @param {number} other
    * @param {Bins} bins
+   * @param {GroupValues} fellows the others of its class
+   * @param {GroupValues} others those of the closest other class
    */
-  #reason(index, column, group, other, bins) {
+  #reason(index, column, bins, fellows, others) {
     const { database, data } = this;
+    const [group, other] = [database.groups[index], data.rival[index]];
     const share = bins.isShare(column);
-    /** @param {number} of */
-    const row = (of) => {
-      const rows = this.#usualOf(of, bins).rows.filter((shape) => shape !== index);
-      return {
-        mark: swatch(database.symbol(of), database.color(of)),
-        name: database.className(of),
-        color: database.color(of),
-        values: rows.map((shape) => bins.share(column, shape)),
-      };
-    };
+    /**
+     * @param {number} of
+     * @param {GroupValues} values
+     */
+    const row = (of, values) => ({
+      mark: swatch(database.symbol(of), database.color(of)),
+      name: database.className(of),
+      color: database.color(of),
+      points: values.points(column),
+      each: values.each,
+      mean: values.mean(column),
+    });
     const own = bins.share(column, index);
-    const rows = [{ ...row(group), at: own }, row(other)];
-    const means = rows.map(({ values }) => mean(values));
+    const rows = [{ ...row(group, fellows), at: own }, row(other, others)];
+    const means = rows.map(({ mean }) => mean);
     const [itself, usual] = bins.tell(column, [own, means[0]]);
     const words = share
       ? [element("b", {}, itself), ` of its ${data.whole.replace("the ", "")} ${data.clauses[column]}`]
@@ -340,40 +357,42 @@ export class Outliers {
   }
 
   /**
-   * The shapes that tell what is usual in a class.
-   * @param {number} group
-   */
-  #rowsOf(group) {
-    const { groups } = this.database;
-    const own = [...groups.keys()].filter((index) => groups[index] === group);
-    return [...sampled(own, groups, MOST_USUAL)];
-  }
-
-  /**
    * Means and spreads of a class in every bin.
    * @param {number} group
    * @param {Bins} bins
-   * @returns {Usual}
    */
   #usualOf(group, bins) {
-    const known = this.#usual.get(group);
-    if (known !== undefined) return known;
-    const rows = this.#rowsOf(group);
-    const usual = {
-      rows,
-      means: new Float64Array(bins.count),
-      shares: new Float64Array(bins.count),
-      spreads: new Float64Array(bins.count),
-    };
-    for (let column = 0; column < bins.count; column += 1) {
-      const values = rows.map((row) => bins.value(column, row));
-      usual.means[column] = mean(values);
-      usual.shares[column] = mean(rows.map((row) => bins.share(column, row)));
-      usual.spreads[column] = Math.sqrt(mean(values.map((value) => (value - usual.means[column]) ** 2)));
-    }
-    this.#usual.set(group, usual);
-    return usual;
+    return entry(this.#usual, group, async () => {
+      const values = await this.#valuesOf(group, bins);
+      const { means, variances } = values.moments();
+      return { values, means, spreads: variances.map(Math.sqrt) };
+    });
   }
+
+  /**
+   * @param {number} group
+   * @param {Bins} bins
+   */
+  async #valuesOf(group, bins) {
+    const { database } = this;
+    const own = [...database.groups.keys()].filter((index) => database.groups[index] === group);
+    const whole = bins instanceof LevelBins ? await wholeValues(bins, own, database) : null;
+    return whole ?? new RowValues(bins, [...sampled(own, database.groups, MOST_USUAL)]);
+  }
+}
+
+/**
+ * The values of a group without one of its shapes, which is at hand.
+ * @param {RowValues | CountedValues} values
+ * @param {number} index
+ */
+function without(values, index) {
+  return values instanceof CountedValues
+    ? values.without(CountedValues.of(new RowValues(values.bins, [index]), values.bins))
+    : new RowValues(
+        values.bins,
+        values.rows.filter((shape) => shape !== index),
+      );
 }
 
 /**

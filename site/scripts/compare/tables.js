@@ -3,7 +3,6 @@
 import { table } from "../base/tables.js";
 import { figure, grouped, percent } from "../base/words.js";
 import { highestOf } from "../database/hit-range.js";
-import { mean } from "./distribution.js";
 import { signed } from "./outliers.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
@@ -36,16 +35,14 @@ export function compareTables(database, data, state, { groups, outliers, matrix 
 function ofGroups(view) {
   if (!view) return [];
   const { contrast, a, b, bins } = view;
-  const { apart, difference, sample } = contrast;
+  const { apart, difference, values } = contrast;
   /** @param {number} column */
   const line = (column) => {
     const told = bins.telling(column);
-    /** @param {number[]} rows */
-    const average = (rows) => told(mean(rows.map((row) => bins.share(column, row))));
     return [
       bins.names[column],
-      average(sample.a),
-      average(sample.b),
+      told(values.a.mean(column)),
+      told(values.b.mean(column)),
       signed(difference[column]),
       figure(contrast.ahead(column)),
       contrast.isBeyond(column) ? "yes" : "no",
@@ -89,10 +86,7 @@ function ofGroups(view) {
         ["Bin", `Mean of ${a.name}`, `Mean of ${b.name}`, "Mean of the others"],
         contrast.shared
           .slice(0, MOST_BINS)
-          .map((column) => [
-            ...line(column).slice(0, 3),
-            bins.telling(column)(mean(sample.rest.map((row) => bins.share(column, row)))),
-          ]),
+          .map((column) => [...line(column).slice(0, 3), bins.telling(column)(values.rest.mean(column))]),
       ),
   ].filter(Boolean);
 }

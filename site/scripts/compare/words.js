@@ -2,7 +2,6 @@
 
 import { element } from "../base/dom.js";
 import { capitalised, grouped } from "../base/words.js";
-import { mean } from "./distribution.js";
 
 /** @import { Bins } from "../database/bins.js" */
 /** @import { Contrast } from "./contrasts.js" */
@@ -25,12 +24,8 @@ export function called(group) {
  * @param {Chunk.Comparison} data
  */
 export function statement(column, contrast, a, b, data) {
-  const { bins, sample } = contrast;
-  const values = {
-    a: sample.a.map((row) => bins.share(column, row)),
-    b: sample.b.map((row) => bins.share(column, row)),
-  };
-  const means = { a: mean(values.a), b: mean(values.b) };
+  const { bins, values } = contrast;
+  const means = { a: values.a.mean(column), b: values.b.mean(column) };
   const [more, less] = contrast.difference[column] > 0 ? [a, b] : [b, a];
   const told = bins.tell(column, [means[more.side], means[less.side]]);
   return bins.isShare(column)

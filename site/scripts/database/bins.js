@@ -5,6 +5,7 @@ import { entry } from "../base/entry.js";
 import { currentTheme } from "../base/theme.js";
 import { measured, percent, percents, shortened } from "../base/words.js";
 import { BinWords } from "./bin-words.js";
+import { sampled } from "./sample.js";
 
 const STEPS = 65535;
 
@@ -195,6 +196,16 @@ export class Bins {
   async know(_shapes) {}
 
   /**
+   * So many of some shapes that speak for all of them, rising; all where there are no more.
+   * @param {number[]} shapes rising
+   * @param {ArrayLike<number>} groups
+   * @param {number} most
+   */
+  some(shapes, groups, most) {
+    return [...sampled(shapes, groups, most)];
+  }
+
+  /**
    * What `share` gives for every shape.
    * @param {number} column
    * @returns {Promise<number[]>}
@@ -230,8 +241,15 @@ export class Bins {
    */
   shareAt(column, step) {
     const value = this.valueAt(column, step);
-    const { rooted } = this.features[this.#featureOf[column]];
-    return rooted || (this.balanced && this.isShare(column)) ? value * value : value;
+    return this.isSquare(column) ? value * value : value;
+  }
+
+  /**
+   * Whether what `share` gives is the square of the compared value.
+   * @param {number} column
+   */
+  isSquare(column) {
+    return this.features[this.#featureOf[column]].rooted || (this.balanced && this.isShare(column));
   }
 
   /**

@@ -4,6 +4,7 @@
 import { chunk, part } from "../base/chunks.js";
 import { Bins, loadBins } from "./bins.js";
 import { levelsOf, STEPS } from "./levels.js";
+import { sampledByParts } from "./sample.js";
 
 /** Shapes that are kept at hand, at least; 2.7 kB each. */
 const MOST_KNOWN = 4000;
@@ -39,10 +40,26 @@ export class LevelBins extends Bins {
   /** @type {Int32Array | null} */
   #places = null;
 
+  /** The place of every shape in the order of the rows. */
+  get places() {
+    this.#places ??= placesIn(this.levels.order);
+    return this.#places;
+  }
+
+  /**
+   * About so many of some shapes, from few parts of the rows.
+   * @param {number[]} shapes rising
+   * @param {ArrayLike<number>} _groups
+   * @param {number} most
+   */
+  some(shapes, _groups, most) {
+    return sampledByParts(shapes, this.places, this.levels.rowsAPart, most);
+  }
+
   /** @param {Iterable<number>} shapes */
   async know(shapes) {
-    const { order, rowsAPart } = this.levels;
-    const places = (this.#places ??= placesIn(order));
+    const { rowsAPart } = this.levels;
+    const { places } = this;
     const wanted = new Set(shapes);
     /** @type {Map<number, number[]>} */
     const byPart = new Map();

@@ -26,6 +26,31 @@ export function sampled(rows, groups, most = MOST_SHAPES) {
   return Int32Array.from(ranked.slice(0, most), ({ row }) => row).sort();
 }
 
+/** Of values that come in parts, so many parts are read for a sample at most; each is 50 kB. */
+const MOST_PARTS = 100;
+
+/**
+ * About `most` of some shapes whose values come in parts, rising: all that lie in some of the parts, which are taken at
+ * equal steps from all that hold any. Every shape is as likely as any other to be taken, and as the parts follow class by
+ * class, each class is taken in proportion. Which shapes of a class share a part has nothing to do with their values, so
+ * a sample by parts says as much as one shape by shape of its size. All where few parts hold them all.
+ * @param {number[]} shapes rising
+ * @param {ArrayLike<number>} places of all shapes in the order of the parts
+ * @param {number} aPart
+ * @param {number} most
+ */
+export function sampledByParts(shapes, places, aPart, most) {
+  /** @type {Map<number, number[]>} */
+  const held = new Map();
+  for (const shape of shapes) entry(held, Math.floor(places[shape] / aPart), () => []).push(shape);
+  const parts = [...held.keys()].sort((a, b) => a - b);
+  const wanted = Math.min(Math.ceil((parts.length * most) / Math.max(shapes.length, most)), MOST_PARTS);
+  if (parts.length <= wanted) return shapes;
+  return Array.from({ length: wanted }, (_, number) => parts[Math.floor(((number + 0.5) * parts.length) / wanted)])
+    .flatMap((number) => /** @type {number[]} */ (held.get(number)))
+    .sort((a, b) => a - b);
+}
+
 /**
  * A number for each row that has nothing to do with where it stands.
  * @param {number} row

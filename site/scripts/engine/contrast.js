@@ -3,8 +3,19 @@
 import { Random } from "./random.js";
 
 /**
- * Two groups of rows without a common one, and how often they are dealt out anew.
- * @typedef {{ first: Int32Array | number[], second: Int32Array | number[], shuffles: number }} Contest
+ * Two groups of rows without a common one, and how often they are dealt out anew. Where they are a sample of what is
+ * known as a whole, in proportion, only chance is known by them.
+ * @typedef {object} Contest
+ * @property {Int32Array | number[]} first
+ * @property {Int32Array | number[]} second
+ * @property {number} shuffles
+ * @property {Whole} [whole]
+ *
+ * What is known of the compared values of a group, column by column.
+ * @typedef {{ count: number, means: Float64Array, variances: Float64Array }} Moments
+ *
+ * How far two groups are apart, as Contrast has it: the share of each feature, and last of all.
+ * @typedef {{ sizes: [number, number], effect: Float64Array, shares: Float64Array }} Whole
  *
  * The values of a table, and what a squared difference in each feature counts.
  * @typedef {{ rows: number, values: Float32Array, blocks: Int32Array, weights: number[] }} Given
@@ -71,24 +82,23 @@ export function* contrast(_table, { rows, values, blocks, weights, contests, see
  * @param {number} seed
  * @returns {Generator<number, Contrast, void>}
  */
-function* compare(given, { first, second, shuffles }, seed) {
+function* compare(given, { first, second, shuffles, whole }, seed) {
   const standard = standardised(given, first, second);
-  const { columns, count } = standard;
+  const { columns } = standard;
   yield 0;
   const own = smaller(first, second);
-  const sign = first.length === own.length ? 1 : -1;
-  const effect = new Float64Array(columns);
-  const observed = shares(standard, own, effect);
-  const sums = columnSums(standard, own);
+  const { effect, shares: observed, sizes } = whole ?? measured(standard, first, second);
   const away = distances(standard, first.length);
   /** @type {Float64Array[]} */
   const dealt = [];
   const highest = new Float64Array(shuffles);
   const random = new Random(seed);
   const scratch = new Float64Array(columns);
-  const part = Math.max(own.length / MOST_DEALT, 1);
+  const part = whole ? 1 : Math.max(own.length / MOST_DEALT, 1);
   const some = part > 1 ? standardised(given, everyOf(first, part), everyOf(second, part)) : standard;
-  const size = Math.round(own.length / part);
+  // Of a sample more may be dealt out than it has of the smaller group, which may be a handful.
+  const size = whole ? Math.min(...sizes, MOST_DEALT, some.count >> 1) : Math.round(own.length / part);
+  const count = sizes[0] + sizes[1];
   const order = Int32Array.from({ length: some.count }, (_, place) => place);
   for (let shuffle = 0, work = 0; shuffle < shuffles; shuffle += 1) {
     deal(order, size, random);
@@ -112,12 +122,93 @@ function* compare(given, { first, second, shuffles }, seed) {
     ),
   );
   return {
-    effect: effect.map((value, column) => Math.sign(sums[column]) * sign * value),
+    effect,
     limit: atLimit(highest),
     features: judged.slice(0, -1),
     all: judged[judged.length - 1],
     away,
   };
+}
+
+/**
+ * How far two groups are apart, by their moments: what `measured` says of all their rows.
+ * @param {Moments} first
+ * @param {Moments} second
+ * @param {Pick<Given, "blocks" | "weights">} given
+ * @returns {Whole}
+ */
+export function apartBy(first, second, { blocks, weights }) {
+  const features = weights.length;
+  const effect = new Float64Array(blocks.length);
+  const [between, totals] = [new Float64Array(features + 1), new Float64Array(features + 1)];
+  const count = first.count + second.count;
+  for (let column = 0; column < effect.length; column += 1) {
+    const difference = first.means[column] - second.means[column];
+    const own = (first.count * second.count * difference ** 2) / count;
+    const squares = own + first.count * first.variances[column] + second.count * second.variances[column];
+    const mean = (first.count * first.means[column] + second.count * second.means[column]) / count;
+    if (squares <= leastSquares(count, mean)) continue;
+    effect[column] = (Math.sign(difference) * own) / squares;
+    for (const place of [blocks[column], features]) {
+      between[place] += own * weights[blocks[column]];
+      totals[place] += squares * weights[blocks[column]];
+    }
+  }
+  return {
+    sizes: [first.count, second.count],
+    effect,
+    shares: between.map((own, place) => (totals[place] > 0 ? own / totals[place] : 0)),
+  };
+}
+
+/**
+ * Of two groups together.
+ * @param {Moments} first
+ * @param {Moments} second
+ * @returns {Moments}
+ */
+export function pooled(first, second) {
+  const count = first.count + second.count;
+  const [own, others] = [first.count / count, second.count / count];
+  return {
+    count,
+    means: first.means.map((mean, column) => own * mean + others * second.means[column]),
+    variances: first.variances.map(
+      (variance, column) =>
+        own * variance +
+        others * second.variances[column] +
+        own * others * (first.means[column] - second.means[column]) ** 2,
+    ),
+  };
+}
+
+/**
+ * As `apartBy`, by the rows.
+ * @param {Standard} standard
+ * @param {ArrayLike<number>} first
+ * @param {ArrayLike<number>} second
+ * @returns {Whole}
+ */
+function measured(standard, first, second) {
+  const own = smaller(first, second);
+  const sign = first.length === own.length ? 1 : -1;
+  const effect = new Float64Array(standard.columns);
+  const found = shares(standard, own, effect);
+  const sums = columnSums(standard, own);
+  return {
+    sizes: [first.length, second.length],
+    effect: effect.map((value, column) => Math.sign(sums[column]) * sign * value),
+    shares: found,
+  };
+}
+
+/**
+ * Squares about a mean that single precision does not tell from none.
+ * @param {number} count
+ * @param {number} mean
+ */
+function leastSquares(count, mean) {
+  return count * (1e-6 * Math.abs(mean)) ** 2;
 }
 
 /**
@@ -172,8 +263,7 @@ function standardised({ rows, values, blocks, weights }, first, second) {
     for (let place = 0; place < count; place += 1) mean += values[start + chosen[place]] / count;
     let squares = 0;
     for (let place = 0; place < count; place += 1) squares += (values[start + chosen[place]] - mean) ** 2;
-    // Below this, single precision knows no difference.
-    if (squares <= count * (1e-6 * Math.abs(mean)) ** 2) continue;
+    if (squares <= leastSquares(count, mean)) continue;
     spread[column] = squares * weights[blocks[column]];
     const factor = 1 / Math.sqrt(squares);
     for (let place = 0; place < count; place += 1)

@@ -112,6 +112,16 @@ def test_classes_count_their_levels(report, table, parts):
         assert part["shapes"] == len(own)
         np.testing.assert_allclose(part["means"], own.mean(axis=0), rtol=1e-5)
         np.testing.assert_allclose(part["variances"], own.var(axis=0), rtol=1e-4, atol=1e-4)
+        shares = report.features.values if code == 3 else report.features.values[codes == code]
+        for block in report.features.blocks:
+            columns = report.features.slice_of(block.name)
+            if block.bins == 1:
+                assert not part["upTo"][columns].any()
+                continue
+            dimensions = shares[:, columns].reshape(len(own), -1, block.bins)
+            np.testing.assert_allclose(
+                np.sqrt(part["upTo"][columns]), dimensions.cumsum(axis=2).std(axis=0).ravel(), atol=0.01
+            )
         cells = part["cells"].reshape(own.shape[1], levels.CELLS)
         for column in (0, 7, own.shape[1] - 1):
             np.testing.assert_array_equal(
