@@ -26,7 +26,7 @@ from shapeviz_report.executor.local import LocalExecutor
 from shapeviz_report.executor.memory import memory_share
 
 ANSWER_TIME = 15.0
-"""Seconds that a scheduler has to answer."""
+"""Seconds that a scheduler has to answer at the beginning, and the workers at the end."""
 
 PATIENCE = 60.0
 """Seconds to wait for a worker when a cluster has none."""
@@ -108,7 +108,8 @@ class DaskExecutor:
         # What the scheduler's end leaves undone ends with the workers.
         with suppress(OSError, TimeoutError):
             if self._client.status == "running":
-                self._client.run(_release, on_error="ignore")
+                # a frozen worker never answers
+                self._client.run(_release, on_error="ignore", callback_timeout=ANSWER_TIME)
         with suppress(OSError, TimeoutError):
             self._client.close()
 
