@@ -52,7 +52,7 @@ window.engine = {
   },
   async start(table) {
     open?.close();
-    open = await startEngine(receive(table));
+    open = await startEngine(() => receive(table));
   },
   async run(name, parameters) {
     const reports = [];

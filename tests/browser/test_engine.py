@@ -49,6 +49,31 @@ def test_hit_is_that_of_python(engine_page, random, rows, classes, unlabelled, g
     assert found["hitOfAll"] == pytest.approx(expected.nh_s, abs=1e-12)
 
 
+def test_a_table_is_made_once_for_the_first_task_that_needs_it(engine_page):
+    made = engine_page.page.evaluate(
+        """async () => {
+            let tables = 0;
+            const started = await engine.startEngine(() => {
+                tables += 1;
+                const values = Float32Array.of(0, 1, 2, 3);
+                return { rows: 4, columns: 1, values, blocks: Int32Array.of(0), weights: [1], scaling: "plain" };
+            });
+            const xy = Float64Array.of(0, 0, 1, 1, 2, 2, 3, 3);
+            await started.run("hit", { xy, groups: Int32Array.of(0, 0, 1, 1), k: 1 }).done;
+            const counts = [tables];
+            const contest = { positive: Int32Array.of(0, 1), negative: Int32Array.of(2, 3) };
+            for (let time = 0; time < 2; time += 1) {
+                const task = { method: "anova", contests: [contest], columns: Int32Array.of(0), seed: 0 };
+                const { scores } = await started.run("score", task).done;
+                counts.push(tables, scores[0]);
+            }
+            started.close();
+            return counts;
+        }"""
+    )
+    assert made == [0, 1, 1, 1, 1]
+
+
 @pytest.mark.parametrize(("unlabelled", "classes"), [(0, 4), (5, 4), (5, 17)])
 def test_bins_grow_as_in_python(engine_page, random, unlabelled, classes):
     """On a grid, with many equal distances; of 17 classes each has fewer shapes than neighbours count elsewhere."""

@@ -79,6 +79,13 @@ def test_the_first_look_is_useful(bench, site):
     assert nh(page, "original") is not None
     assert nh(page, "refined") is None
     assert "No bins are chosen yet" in page.locator("figure[data-map=refined] .empty").inner_text()
+    names = "figure[data-map={}] .labels text"
+    assert page.locator(names.format("original")).count() == 5
+    assert page.locator(names.format("refined")).count() == 0
+    choose_best(page, 3)
+    eventually(page, lambda: page.locator(names.format("refined")).count() > 0)
+    page.click("#undo")
+    answered(page)
     assert page.locator("#separation-words").inner_text() == "all 5 classes, each from the rest"
     assert page.locator("#class-table tbody tr").count() == 5
     assert page.locator("#feature-list .use[aria-pressed=true]").count() == 3

@@ -8,6 +8,9 @@ import { entry } from "./entry.js";
  *
  * A chunk as its script hands it over: so many bytes in letters of fifteen bits.
  * @typedef {{ kind: Kind, length: number, text: string }} Handed
+ *
+ * A chunk in letters of either kind, and what those from one place to another stand for.
+ * @typedef {{ kind: Kind, letters: number, decode: (from: number, to: number) => Uint8Array<ArrayBuffer> }} Packed
  */
 
 /** Called in the head: chunks may arrive before the scripts that want them. */
@@ -77,8 +80,8 @@ export async function joined(name, length, aPart) {
   const whole = new Uint8Array(length);
   for (let start = 0; start < length; start += aPart) {
     const key = `${name}-${start / aPart}`;
-    const { bytes } = await taken(key, () => addressOf(name).replace("*", String(start / aPart)));
-    const reader = unpacked(bytes).getReader();
+    const packed = await taken(key, () => addressOf(name).replace("*", String(start / aPart)));
+    const reader = unpacked(packed).getReader();
     for (let [place, read] = [start, await reader.read()]; !read.done; read = await reader.read()) {
       whole.set(read.value, place);
       place += read.value.length;
@@ -110,17 +113,34 @@ export function modelBytes(name) {
  * @returns {Promise<any>}
  */
 async function load(name, address) {
-  const { kind, bytes } = await taken(name, address);
-  if (kind === "stored") return columnsOf(bytes.buffer);
-  const response = new Response(unpacked(bytes));
+  const packed = await taken(name, address);
+  const { kind, letters, decode } = packed;
+  if (kind === "stored") return columnsOf(decode(0, letters).buffer);
+  const response = new Response(unpacked(packed));
   if (kind === "json") return response.json();
   const buffer = await response.arrayBuffer();
   return kind === "columns" ? columnsOf(buffer) : buffer;
 }
 
-/** @param {Uint8Array<ArrayBuffer>} bytes */
-function unpacked(bytes) {
-  return new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+/** Letters that are decoded at a time: of either kind so many are whole bytes. */
+const DECODED = 32768;
+
+/**
+ * What is in a chunk, piece by piece: decoded as a whole, it would be in memory twice.
+ * @param {Packed} packed
+ */
+function unpacked({ letters, decode }) {
+  let from = 0;
+  /** @type {ReadableStream<Uint8Array<ArrayBuffer>>} */
+  const pieces = new ReadableStream({
+    pull(controller) {
+      const to = Math.min(from + DECODED, letters);
+      controller.enqueue(decode(from, to));
+      if (to === letters) controller.close();
+      from = to;
+    },
+  });
+  return pieces.pipeThrough(new DecompressionStream("gzip"));
 }
 
 const ARRAYS = {
@@ -157,22 +177,29 @@ function columnsOf(buffer) {
 /**
  * Data that stands in the document, in base64, where the site is one file.
  * @param {string} name
- * @returns {{ kind: Kind, bytes: Uint8Array<ArrayBuffer> } | null}
+ * @returns {Packed | null}
  */
 function standing(name) {
   const block = document.getElementById(`chunk-${name}`);
   if (block === null) return null;
-  const letters = atob(block.textContent);
-  // `Uint8Array.from` with a function takes thirty times as long, seconds for a large database.
-  const bytes = new Uint8Array(letters.length);
-  for (let place = 0; place < letters.length; place += 1) bytes[place] = letters.charCodeAt(place);
-  return { kind: /** @type {Kind} */ (block.dataset.kind), bytes };
+  const text = block.textContent;
+  return {
+    kind: /** @type {Kind} */ (block.dataset.kind),
+    letters: text.length,
+    decode(from, to) {
+      const held = atob(text.slice(from, to));
+      // `Uint8Array.from` with a function takes thirty times as long, seconds for a large database.
+      const bytes = new Uint8Array(held.length);
+      for (let place = 0; place < held.length; place += 1) bytes[place] = held.charCodeAt(place);
+      return bytes;
+    },
+  };
 }
 
 /**
  * @param {string} name
  * @param {() => string} address
- * @returns {Promise<{ kind: Kind, bytes: Uint8Array<ArrayBuffer> }>}
+ * @returns {Promise<Packed>}
  */
 async function taken(name, address) {
   const inDocument = standing(name);
@@ -181,7 +208,11 @@ async function taken(name, address) {
   if (!handed.has(name)) await addScript(address());
   const { kind, length, text } = /** @type {Handed} */ (handed.get(name));
   handed.delete(name);
-  return { kind, bytes: bytesOf(text, length) };
+  return {
+    kind,
+    letters: text.length,
+    decode: (from, to) => bytesOf(text.slice(from, to), Math.min((to * 15) / 8, length) - (from * 15) / 8),
+  };
 }
 
 /** The letter of fifteen bits without any set; `FIRST_LETTER` of `writing/packing.py`. */

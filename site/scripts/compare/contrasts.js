@@ -67,7 +67,7 @@ export class Contrasts {
       const bins = await this.bins();
       const taken = new Set([...a, ...b]);
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
-      this.#engine ??= startEngine(null);
+      this.#engine ??= startEngine();
       const [engine, counted] = await Promise.all([
         this.#engine,
         bins instanceof LevelBins ? this.#counted(bins, { a, b, rest: outside }) : null,

@@ -19,24 +19,32 @@ export class Cancelled extends Error {
   }
 }
 
+/** Tasks that need no table. */
+const WITHOUT_TABLE = new Set(["hit", "contrast"]);
+
 /**
- * Start the engine on a table of features, whose values are the engine's from then on: a copy would be many megabytes.
+ * Start the engine. What it works on is made for the first task that needs it, and is the engine's from then on: it would
+ * be many megabytes for who only looks, and a copy as many again.
  *
- * @param {FeatureValues | null} table null where tasks bring their own
+ * @param {() => FeatureValues | null} [makeTable] where tasks do not bring their own
  * @returns {Promise<Engine>}
  */
-export async function startEngine(table) {
+export async function startEngine(makeTable = () => null) {
   const start = /** @type {() => Promise<Worker>} */ (window.shapeviz.startWorker);
-  const engine = new Engine(await start());
+  const engine = new Engine(await start(), makeTable);
   await engine.ready;
-  engine.worker.postMessage({ table }, table === null ? [] : [table.values.buffer]);
   return engine;
 }
 
 export class Engine {
-  /** @param {Worker} worker */
-  constructor(worker) {
+  /**
+   * @param {Worker} worker
+   * @param {() => FeatureValues | null} makeTable
+   */
+  constructor(worker, makeTable) {
     this.worker = worker;
+    /** @type {(() => FeatureValues | null) | null} null once it was asked */
+    this.makeTable = makeTable;
     /** @type {Map<number, Waiting>} */
     this.jobs = new Map();
     this.started = 0;
@@ -61,10 +69,17 @@ export class Engine {
    * @returns {Job}
    */
   run(name, parameters, onProgress = (_) => {}) {
+    if (!WITHOUT_TABLE.has(name)) this.#giveTable();
     const id = this.started++;
     const done = new Promise((resolve, reject) => this.jobs.set(id, { resolve, reject, onProgress }));
     this.worker.postMessage({ run: { id, name, parameters } });
     return { done, cancel: () => this.cancel(id) };
+  }
+
+  #giveTable() {
+    const table = this.makeTable?.() ?? null;
+    this.makeTable = null;
+    if (table !== null) this.worker.postMessage({ table }, [table.values.buffer]);
   }
 
   /** @param {number} id */

@@ -44,7 +44,8 @@ export class LiveScene extends Scene {
    * @param {ShapeMap} map
    */
   show(map) {
-    if (calm()) this.#arrive(map);
+    const there = !this.moving && map.x === this.database.methods[this.target].x;
+    if (there || calm()) this.#arrive(map);
     else this.#glide(map, map);
   }
 

@@ -66,14 +66,16 @@ export class MapView {
    * @param {object} [how]
    * @param {boolean} [how.charted] whether a chart draws the marks at rest; a map that is seen first waits for none
    * @param {() => void} [how.settled] called as often as pictures were chosen
+   * @param {() => boolean} [how.covered] whether something else stands over it, so that nobody would read its names
    */
-  constructor(scene, figure, { charted = true, settled = () => {} } = {}) {
+  constructor(scene, figure, { charted = true, settled = () => {}, covered = () => false } = {}) {
     this.scene = scene;
     this.database = scene.database;
     this.state = scene.state;
     this.figure = figure;
     this.charted = charted;
     this.settled = settled;
+    this.covered = covered;
     this.name = /** @type {MapName} */ (figure.dataset.view);
     /** @type {Coloring | null} what its reader colours the map by, if not by classes */
     this.chosenColoring = null;
@@ -396,7 +398,7 @@ export class MapView {
     this.#keepInView();
     this.#drawMarks();
     this.drawRings();
-    if (this.width >= NAMED_WIDTH) this.#name();
+    if (this.width >= NAMED_WIDTH && !this.covered()) this.#name();
     else this.labels.clear();
     this.settled();
   }
@@ -709,8 +711,8 @@ export class MapView {
   #name() {
     const { scene, database, pictured } = this;
     const { scale, left, top } = this.lay();
-    const key = [this.name, scene.target, database.revision, this.width, this.height, scale, left, top].join(" ");
-    const seen = [this.state.get("hidden"), this.chosenColoring, this.shift];
+    const key = [this.name, scene.target, this.width, this.height, scale, left, top].join(" ");
+    const seen = [this.state.get("hidden"), this.chosenColoring, this.shift, database.methods[scene.target].x];
     const before = this.#namedFor;
     this.#namedFor = { key, seen, pictured };
     const same = before?.key === key && isEqual(before.seen, seen) && isEqual(before.pictured, pictured);

@@ -26,7 +26,7 @@ export async function withOthers(database, map, rows) {
     { length: 2 * shapes.length },
     (_, place) => (place % 2 === 0 ? map.x : map.y)[shapes[place >> 1]],
   );
-  const engine = await startEngine(null);
+  const engine = await startEngine();
   const placed = await engine.run("beside", { compared: { numbers }, shapes, xy, others }).done;
   engine.close();
   const [x, y] = [Float64Array.from(map.x), Float64Array.from(map.y)];

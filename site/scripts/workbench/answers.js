@@ -85,14 +85,14 @@ export class Answers {
 
   #start() {
     const { bins, data } = this;
-    return startEngine({
+    return startEngine(() => ({
       rows: bins.rows,
       columns: bins.count,
       values: bins.values(),
       blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
       weights: bins.features.map(({ weight }) => weight),
       scaling: data.scaling,
-    });
+    }));
   }
 
   /**

@@ -45,7 +45,9 @@ export class WorkMaps {
     watchLines(state);
     this.views = scenes.map((scene, place) => {
       const figure = document.querySelector(`figure[data-map="${WHICH[place]}"]`);
-      const view = new MapView(scene, figure, { charted: false });
+      const covered = () =>
+        state.get(`${WHICH[place]}Map`) === null && state.get(`${WHICH[place]}Status`).kind === "none";
+      const view = new MapView(scene, figure, { charted: false, covered });
       scene.views = [view];
       return view;
     });
