@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 INSTALL = "pip install 'shapeviz-report[parquet]'"
 
+Columns = list[tuple[str, list[str] | None]]
+"""Names of columns, and their cells as texts; None where cells are no texts. A name may come twice."""
+
 _FRACTION = re.compile(r"\.(\d*?)0*(?=\D|$)")
 """The fraction of a second, with the zeros at its end apart."""
 
@@ -61,6 +64,16 @@ def parquet_bytes(columns: Mapping[str, npt.NDArray[Any] | Sequence[str | None]]
 def _encodable(text: str) -> str:
     """Text as UTF-8 can have it: a file name that is no valid text holds lone surrogates."""
     return text.encode("utf-8", "backslashreplace").decode()
+
+
+def parquet_texts(content: bytes, most_cells: int, most_bytes: int) -> Columns:
+    """The columns of a file as :func:`read_parquet` reads it, by their names, as :func:`column_texts` has them."""
+    return table_texts(read_parquet(content, most_cells, most_bytes))
+
+
+def table_texts(table: pyarrow.Table) -> Columns:
+    """The columns of a table by their names, as :func:`column_texts` has them."""
+    return list(zip(table.column_names, map(column_texts, table.columns)))
 
 
 def read_parquet(content: bytes, most_cells: int, most_bytes: int) -> pyarrow.Table:

@@ -19,6 +19,7 @@ import numpy.typing as npt
 from shapeviz_report.arrow import column_numbers, column_texts, read_parquet, require_pyarrow
 from shapeviz_report.cells import part_cells, read_cell
 from shapeviz_report.errors import ConfigError
+from shapeviz_report.executor import call_apart
 from shapeviz_report.files import decode_text, read_regular
 from shapeviz_report.types import FloatArray
 
@@ -217,10 +218,15 @@ def _read_columns(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
     return ids, np.hstack(found)
 
 
+def _read_parquet(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
+    """As :func:`_read_columns`, in another process: pyarrow is C++, and the file perhaps a stranger's."""
+    return call_apart(_read_columns, content, columns)
+
+
 _READ: dict[str, Callable[[bytes, Sequence[str]], tuple[list[str], npt.NDArray[Any]]]] = {
     ".npz": _read_archive,
     ".csv": _read_table,
     ".tsv": _read_table,
-    ".parquet": _read_columns,
+    ".parquet": _read_parquet,
 }
 """What reads rows with ids, by suffix."""

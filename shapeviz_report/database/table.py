@@ -9,11 +9,12 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeGuard
+from typing import Any, TypeGuard
 
-from shapeviz_report.arrow import column_texts, frame_table, read_parquet, require_pyarrow
+from shapeviz_report.arrow import Columns, frame_table, parquet_texts, require_pyarrow, table_texts
 from shapeviz_report.cells import part_cells
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.finder import Finder, spellings
@@ -21,11 +22,9 @@ from shapeviz_report.database.folder import leads_outside, scan_folder
 from shapeviz_report.database.formats import MESH_SUFFIXES, is_read, split_name, suffix_of, why_not_read
 from shapeviz_report.database.text import clean, decode, encodable, readable
 from shapeviz_report.errors import ConfigError, DatabaseError
+from shapeviz_report.executor import call_apart
 from shapeviz_report.files import read_regular
 from shapeviz_report.types import Database, Failure, ShapeEntry
-
-if TYPE_CHECKING:
-    import pyarrow
 
 FILE_COLUMN = "file"
 LABEL_COLUMN = "label"
@@ -128,7 +127,7 @@ class Listing:
             ) from error
         told = Path(f"of {self.name}")  # "The table of the data frame has ..."
         _check_cells(told, found.num_rows * found.num_columns)
-        content = _column_rows(found, told)
+        content = _column_rows(table_texts(found), told)
         files = [os.path.abspath(row.file) for row in content.rows if row.file]
         if not files:
             raise DatabaseError("The data frame lists no files.")
@@ -357,7 +356,7 @@ def _read(table: Path) -> Content:
 def _read_parquet(table: Path) -> Content:
     try:
         require_pyarrow(f"The table {table}", "or save it as CSV")
-        found = read_parquet(read_regular(table, MOST_BYTES), MOST_CELLS, MOST_UNPACKED)
+        found = call_apart(parquet_texts, read_regular(table, MOST_BYTES), MOST_CELLS, MOST_UNPACKED)
     except ConfigError as error:
         raise DatabaseError(f"{error}.") from error
     except (OSError, ValueError) as error:
@@ -366,15 +365,15 @@ def _read_parquet(table: Path) -> Content:
     return _column_rows(found, table)
 
 
-def _column_rows(found: pyarrow.Table, table: Path) -> Content:
+def _column_rows(found: Columns, table: Path) -> Content:
     """The rows of a table of columns with types."""
     texts = {}
     left_out = []
-    names = [name for name in found.column_names if not _INDEX.fullmatch(name)]
+    found = [(name, cells) for name, cells in found if not _INDEX.fullmatch(name)]
+    names = [name for name, _ in found]
     columns = _columns(names)
     _check_names(columns, names, table)
-    for column, name in zip(columns, names):
-        cells = column_texts(found[name])
+    for column, (name, cells) in zip(columns, found):
         if cells is None:
             left_out.append(name)
         elif any(len(cell) > MOST_LETTERS for cell in cells):
@@ -382,7 +381,9 @@ def _column_rows(found: pyarrow.Table, table: Path) -> Content:
                 f"The table {table} has a value longer than {MOST_LETTERS:,} letters in its column '{name}'."
             )
         else:
-            texts[column] = cells
+            # a text of many rows stays one
+            tidy = cache(str.strip if column == FILE_COLUMN else clean)
+            texts[column] = [*map(tidy, cells)]
     warnings = []
     if left_out:
         warnings.append(

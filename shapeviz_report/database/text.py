@@ -36,8 +36,12 @@ def readable(name: str) -> str:
 
 
 def encodable(text: str) -> str:
-    """Text without the lone surrogates that JSON can smuggle in and no encoding can write."""
-    return text.encode("utf-8", errors="surrogatepass").decode("utf-8", errors="replace")
+    """Text without the lone surrogates that JSON can smuggle in and no encoding can write; itself, if it has none."""
+    try:
+        text.encode("utf-8")
+    except UnicodeEncodeError:
+        return text.encode("utf-8", errors="surrogatepass").decode("utf-8", errors="replace")
+    return text
 
 
 def clean(text: str) -> str:

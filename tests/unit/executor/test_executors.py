@@ -14,7 +14,7 @@ import pytest
 from cluster import running_cluster
 
 from shapeviz_report.errors import MeshError, WorkerError
-from shapeviz_report.executor import Executor, LocalExecutor
+from shapeviz_report.executor import Executor, LocalExecutor, apart, call_apart
 from shapeviz_report.executor.cluster import DaskExecutor
 from shapeviz_report.mesh import read_mesh
 
@@ -244,3 +244,14 @@ def test_no_process_is_left_behind(make_executor) -> None:
 def test_a_worker_whose_disk_is_full_ends_the_run_with_a_sentence(executor) -> None:
     with pytest.raises(WorkerError, match="cannot go on: No space left on device"):
         collect(executor, exec, [("open('/dev/full', 'wb', 0).write(b'0')",)])
+
+
+def test_what_is_called_apart_ends_no_other_process(monkeypatch) -> None:
+    assert call_apart(divmod, 7, 2) == (3, 1)
+    with pytest.raises(ValueError, match="invalid literal"):
+        call_apart(int, "seven")
+    with pytest.raises(ValueError, match=r"^the process working on it ended \(exit code 5\)"):
+        call_apart(os._exit, 5)
+    monkeypatch.setattr(apart, "MOST_SECONDS", 1.0)
+    with pytest.raises(ValueError, match=r"^it took longer than 1 seconds$"):
+        call_apart(time.sleep, 600)
