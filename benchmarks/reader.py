@@ -74,8 +74,8 @@ def visits(shape: str, classes: tuple[str, str]) -> dict[str, list[Step]]:
             Step("Shapes", f"{READY} && {pictures('#grid img')}"),
             Step(
                 "search",
-                "document.querySelector('#grid .cell .name')?.textContent.includes('777')",
-                typed("bowl 777"),
+                "document.querySelector('#grid .cell .name')?.textContent !== first",
+                f"const first = document.querySelector('#grid .cell .name').textContent; {typed('bowl')}",
             ),
         ],
         f"shape.html#id={shape}": [
