@@ -542,6 +542,25 @@ class TestOverview:
         page.wait_for_selector("html[data-ready]", state="attached")
         assert page.locator("#features input:checked").get_attribute("value") == "best"
 
+    def test_what_looks_for_places_says_so_meanwhile(self, open_page):
+        page = open_page("sampled")
+        page.evaluate(
+            """() => {
+                window.told = new Set();
+                new MutationObserver(() => {
+                    for (const node of document.querySelectorAll(".surface .placing"))
+                        told.add(node.textContent + node.querySelector("progress").max);
+                }).observe(document.body, { childList: true, subtree: true });
+                location.hash = "features=Gc+Sc";
+            }"""
+        )
+        chosen = page.locator("#features input[value=chosen]")
+        eventually(page, lambda: chosen.is_checked())
+        assert page.evaluate("[...told]") == [
+            "The search laid out a sample. Finding a place for each of the 16 other shapes1"
+        ]
+        assert page.locator(".placing").count() == 0
+
     def test_where_a_sample_was_searched_any_subset_has_all_shapes(self, open_page, site):
         page = open_page("sampled", "index.html#features=Gc+Sc")
         assert page.locator("#features input:checked").get_attribute("value") == "chosen"
