@@ -5,7 +5,7 @@ import { part } from "../base/chunks.js";
 import { entry } from "../base/entry.js";
 import { LevelBins } from "./level-bins.js";
 import { levelsOf } from "./levels.js";
-import { first, NOTHING, Similarity } from "./similarity.js";
+import { first, Similarity, weightOf } from "./similarity.js";
 
 /** @import { Bins } from "./bins.js" */
 /** @import { Choice, Similar } from "./similarity.js" */
@@ -182,10 +182,7 @@ export class LevelSimilarity {
    */
   #weight(column, { columns }) {
     const { bins } = this;
-    if (!columns) return bins.levels.weights[bins.featureOf(column)];
-    if (!bins.balanced) return 1;
-    const variance = bins.variance(column);
-    return Math.sqrt(variance) > NOTHING ? 1 / variance : 0;
+    return columns ? weightOf(bins, bins.variance(column)) : bins.levels.weights[bins.featureOf(column)];
   }
 }
 

@@ -1,7 +1,7 @@
 // The values of all shapes of a database that has too many of them for one chunk, in parts that are loaded when asked for.
 
 import { chunk, part } from "../base/chunks.js";
-import { NOTHING } from "./similarity.js";
+import { weightOf } from "./similarity.js";
 
 /** @import { Bins } from "./bins.js" */
 
@@ -18,8 +18,8 @@ export async function numbersOfBins(bins, columns) {
   const { low, high, variances } = await chunk("levels");
   return Promise.all(
     Array.from(columns, async (column) => {
-      const weight = !bins.balanced ? 1 : Math.sqrt(variances[column]) > NOTHING ? 1 / variances[column] : 0;
-      return { values: await levelsOf(bins, column), unit: ((high[column] - low[column]) / STEPS) ** 2 * weight };
+      const unit = ((high[column] - low[column]) / STEPS) ** 2 * weightOf(bins, variances[column]);
+      return { values: await levelsOf(bins, column), unit };
     }),
   );
 }

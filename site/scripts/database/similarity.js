@@ -24,7 +24,17 @@ import { entry } from "../base/entry.js";
 const TIE = 1e-9;
 
 /** A spread below this is rounding: the column or feature is the same for all shapes, and tells nothing. */
-export const NOTHING = 1e-12;
+const NOTHING = 1e-12;
+
+/**
+ * What a squared difference in a bin of such a variance counts where bins are compared.
+ * @param {{ balanced: boolean }} bins
+ * @param {number} variance
+ */
+export function weightOf({ balanced }, variance) {
+  if (!balanced) return 1;
+  return Math.sqrt(variance) > NOTHING ? 1 / variance : 0;
+}
 
 export class Similarity {
   /** @param {Bins} bins */
@@ -179,11 +189,7 @@ export class Similarity {
 
   /** @param {number} column */
   #columnWeight(column) {
-    if (!this.bins.balanced) return 1;
-    return entry(this.#columnWeights, column, () => {
-      const variance = this.bins.variance(column);
-      return Math.sqrt(variance) > NOTHING ? 1 / variance : 0;
-    });
+    return entry(this.#columnWeights, column, () => weightOf(this.bins, this.bins.variance(column)));
   }
 
   /** @param {number} feature */
