@@ -76,7 +76,9 @@ def test_every_document_is_a_page(documentation) -> None:
 
 def test_links_to_documents_go_by_their_titles(documentation) -> None:
     page = (documentation / "using" / "learned-features.html").read_text(encoding="utf-8")
-    assert re.search(r'href="\.\./method/method\.html"><span>Method</span>', page)
+    assert re.search(
+        r'href="\.\./method/method\.html"><span>Descriptors, maps, and the publication</span>', page
+    )
     assert not re.search(r"\.md</(?:span|code)></a>", page)
 
 
