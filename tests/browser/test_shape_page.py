@@ -269,6 +269,8 @@ def test_reasons_and_ways_to_go_on(shape, reports):
             bar.evaluate("node => parseFloat(node.style.height)") for bar in card.locator(".alike i").all()
         ]
         assert heights == pytest.approx(100 * other.closer, abs=4)
+        # What is said of two features holds of both.
+        assert ("nearer than all others" in words) == (sorted(heights)[-2] == 100)
         assert card.locator("a", has_text="Compare").count() == (labels[other.row] != "bird")
     assert (
         f"{sum(labels[other.row] == 'bird' for other in found)} of these 12"

@@ -297,8 +297,10 @@ export class SimilarShapes extends Comparing {
     const nearer = (feature) =>
       closer[feature] === 1 ? "nearer than all others" : `nearer than ${wholePercent(closer[feature])} of all shapes`;
     const words = ["Alike in ", name(first)];
-    if (order.length > 2) words.push(" and ", name(second));
-    words.push(` (${nearer(first)})`);
+    const two = order.length > 2;
+    if (two) words.push(" and ", name(second));
+    // Of both no more is said than holds of both.
+    words.push(` (${nearer(two ? second : first)})`);
     if (order.length > 1 && closer[last] < ALIKE)
       words.push("; least in ", name(last), ` (${wholePercent(closer[last])})`);
     return [...words, "."];

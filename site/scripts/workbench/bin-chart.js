@@ -198,6 +198,7 @@ export class BinChart {
       value: 10,
       "aria-label": "How many bins to add or remove",
       oninput: () => this.#offer(),
+      onchange: () => (this.number.value = String(this.#wanted)),
     });
     this.add = action("bin-add", "Add the best", () => this.#add(this.#best()));
     this.remove = action("bin-remove", "Remove the weakest", () => this.giveUp(this.#weakest()));
@@ -357,7 +358,7 @@ export class BinChart {
   }
 
   get #wanted() {
-    return Math.max(Math.floor(Number(this.number.value)) || 1, 1);
+    return Math.min(Math.max(Math.floor(Number(this.number.value)) || 1, 1), this.bins.count);
   }
 
   /** The best bins that are not chosen yet; those with a score of 0 separate nothing. */

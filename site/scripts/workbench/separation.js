@@ -79,5 +79,11 @@ export function separationWords(separation, groups, database) {
     return `${names([one])} from ${others.length === 1 ? names(others) : "the rest"}`;
   }
   const manner = positive.length < 2 ? "" : separation.each ? ", each" : ", together,";
-  return `${names(positive)}${manner} from ${negative === null ? "the rest" : names(negative)}`;
+  if (negative === null) return `${names(positive)}${manner} from the rest`;
+  if (manner === ", each")
+    return `${names(positive)}, each from ${negative.join() === positive.join() ? "each other" : names(negative)}`;
+  // What is ticked on both sides counts on the first.
+  const others = negative.filter((group) => !positive.includes(group));
+  const those = positive.length + others.length === groups.length ? "the rest" : names(others);
+  return `${names(positive)}${manner} from ${separation.each ? "each of " : ""}${those}`;
 }
