@@ -9,7 +9,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from shapeviz_report.cli import EXIT_CODES, GROUPS, _parser
+from shapeviz_report.cli.arguments import EXIT_CODES, GROUPS, command_parser
 from shapeviz_report.config import Config
 
 OPTIONS = {option.name: option for option in dataclasses.fields(Config)}
@@ -56,7 +56,9 @@ class ExitCodes(SphinxDirective):
 
 
 def _commands() -> dict[str, argparse.ArgumentParser]:
-    (commands,) = (action for action in _parser()._actions if isinstance(action, argparse._SubParsersAction))
+    (commands,) = (
+        action for action in command_parser()._actions if isinstance(action, argparse._SubParsersAction)
+    )
     return dict(commands.choices)
 
 

@@ -118,7 +118,7 @@ def test_only_a_changed_mesh_is_computed_again(database, own_cache, built, tmp_p
 
 def test_killed_at_any_moment_a_second_run_continues(database, unsearched, tmp_path) -> None:
     cache, site = tmp_path / "cache", tmp_path / "site"
-    command = [sys.executable, "-m", "shapeviz_report.cli", "build", str(database), "-o", str(site)]
+    command = [sys.executable, "-m", "shapeviz_report", "build", str(database), "-o", str(site)]
     command += [
         "--cache",
         str(cache),
@@ -157,7 +157,7 @@ def test_termination_stops_the_workers(tmp_path) -> None:
     command = [
         sys.executable,
         "-m",
-        "shapeviz_report.cli",
+        "shapeviz_report",
         "build",
         str(database),
         "-o",

@@ -19,7 +19,7 @@ from shapeviz_report.cli import main
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "shapeviz_report.cli", *map(str, arguments)]
+    command = [sys.executable, "-m", "shapeviz_report", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True)
 
 
@@ -148,7 +148,7 @@ def test_check_lists_ids_in_the_order_of_external_features(database) -> None:
 
 
 def test_a_reader_that_goes_away_is_no_error(database) -> None:
-    command = f"{sys.executable} -m shapeviz_report.cli check '{database}' --list | head -1"
+    command = f"{sys.executable} -m shapeviz_report check '{database}' --list | head -1"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
     assert done.stdout == "ball/0\n"
     assert "Traceback" not in done.stderr

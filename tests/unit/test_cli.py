@@ -11,7 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from shapeviz_report import cli
+from shapeviz_report.cli import main
+from shapeviz_report.cli.arguments import GROUPS
+from shapeviz_report.cli.results import print_database
+from shapeviz_report.cli.terminal import one_line
 from shapeviz_report.config import Config
 from shapeviz_report.database import read_database
 
@@ -31,15 +34,15 @@ def test_numbers_agree_with_their_words(
         path = tmp_path / file
         path.parent.mkdir(exist_ok=True)
         path.touch()
-    cli._print_database(read_database(tmp_path))
+    print_database(read_database(tmp_path))
     told = capsys.readouterr().out
     assert all(words in told for words in said), told
 
 
 def test_every_option_has_one_place_in_the_help() -> None:
-    placed = Counter(name for names in cli.GROUPS.values() for name in names)
+    placed = Counter(name for names in GROUPS.values() for name in names)
     assert placed == Counter(field.name for field in dataclasses.fields(Config)), (
-        "give every option of Config a place in GROUPS of cli.py"
+        "give every option of Config a place in GROUPS of cli/arguments.py"
     )
 
 
@@ -71,7 +74,7 @@ def complete(shell: str, folder: Path, script: str, command: str) -> list[str]:
 
 
 def script_of(shell: str, capsys: pytest.CaptureFixture[str]) -> str:
-    assert cli.main(["completion", shell]) == 0
+    assert main(["completion", shell]) == 0
     return capsys.readouterr().out
 
 
@@ -104,4 +107,4 @@ def test_zsh_takes_its_script(capsys: pytest.CaptureFixture[str], tmp_path: Path
 
 
 def test_spaces_of_all_kinds_are_shown() -> None:
-    assert cli._one_line("0.2\u00a0% of 1\u202f000\u2028\u3000\x85") == "0.2 % of 1 000? ?"
+    assert one_line("0.2\u00a0% of 1\u202f000\u2028\u3000\x85") == "0.2 % of 1 000? ?"

@@ -18,7 +18,7 @@ WAYS = {
     "the script": ([COMMAND], {}),
     "the script, entries that lead there": ([COMMAND], {"PYTHONPATH": os.pathsep.join(["", ".", "sub"])}),
     "the module": ([sys.executable, "-m", "shapeviz_report"], {}),
-    "the command line": ([sys.executable, "-m", "shapeviz_report.cli"], {}),
+    "the command line": ([sys.executable, "-m", "shapeviz_report"], {}),
     "safe": ([sys.executable, "-P", "-m", "shapeviz_report"], {}),
 }
 OPTIONAL = {

@@ -7,8 +7,8 @@ import sys
 
 import pytest
 
-from shapeviz_report import cli
 from shapeviz_report.building.progress import TimeLeft, in_words
+from shapeviz_report.cli import terminal
 
 
 def test_starting_and_compiling_tell_nothing_of_the_rest() -> None:
@@ -68,9 +68,9 @@ def test_times_are_told_as_one_would(seconds, words) -> None:
 
 def test_without_a_terminal_progress_is_lines(monkeypatch) -> None:
     now = 0.0
-    monkeypatch.setattr(cli.time, "monotonic", lambda: now)
+    monkeypatch.setattr(terminal.time, "monotonic", lambda: now)
     monkeypatch.setattr(sys, "stderr", io.StringIO())
-    with cli.TerminalProgress().stage("Preparing meshes", 2000) as advance:
+    with terminal.TerminalProgress().stage("Preparing meshes", 2000) as advance:
         for _ in range(100):
             now += 1.0
             advance()

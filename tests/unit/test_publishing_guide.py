@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from shapeviz_report.cli import _parser
+from shapeviz_report.cli.arguments import command_parser
 from shapeviz_report.config import load_config
 
 DOCS = Path(__file__).resolve().parents[2] / "docs" / "using"
@@ -26,7 +26,7 @@ def test_there_are_commands():
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands_are_understood(command):
-    options = _parser().parse_args(shlex.split(command)[1:])
+    options = command_parser().parse_args(shlex.split(command)[1:])
     assert options.database == Path("shapes")
 
 
@@ -57,7 +57,7 @@ def test_the_action_checks_and_builds_what_it_is_given():
     commands = [step["run"] for step in steps if step.get("run", "").startswith("shapeviz-report")]
     assert [command.split()[1] for command in commands] == ["check", "build"]
     for command in commands:
-        options = _parser().parse_args(shlex.split(command.replace(" $OPTIONS", ""))[1:])
+        options = command_parser().parse_args(shlex.split(command.replace(" $OPTIONS", ""))[1:])
         assert options.cache == ".shapeviz-cache"
     for step in steps:
         assert "shell" in step or "uses" in step
