@@ -300,6 +300,13 @@ def test_without_a_search_or_3d_data_every_bin_can_still_be_read(bins, name):
     assert "--no-meshes" in page.locator("#stage .empty").inner_text()
 
 
+@pytest.mark.parametrize("width", [390, 1000, 1280])
+def test_names_of_classes_have_room_beside_their_bars(bins, width):
+    page = bins(viewport={"width": width, "height": 720})
+    room = page.locator("#bin-words .of-bin .names").first.evaluate("node => node.clientWidth")
+    assert room >= 72  # "airplane" with its mark
+
+
 @pytest.mark.parametrize("width", [390, 1280])
 def test_nothing_is_wider_than_the_window(bins, width):
     page = bins(viewport={"width": width, "height": 720})
