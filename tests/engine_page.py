@@ -46,12 +46,16 @@ def make_table(
 ) -> dict[str, Any]:
     """Compared values (n, d) as the engine takes them; without ``blocks`` they are of one feature."""
     rows, columns = values.shape
+    features = 1 if blocks is None else int(blocks.max()) + 1
     return {
         "rows": rows,
         "columns": columns,
-        "values": values.T.astype(np.float32).ravel(),
+        "steps": values.T.astype(np.float32).ravel(),
+        "most": 1,
+        "low": [0.0] * features,
+        "high": [1.0] * features,
         "blocks": np.zeros(columns, np.int32) if blocks is None else blocks.astype(np.int32),
-        "weights": [1.0] * (1 if blocks is None else int(blocks.max()) + 1),
+        "weights": [1.0] * features,
         "scaling": scaling,
     }
 

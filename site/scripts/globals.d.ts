@@ -76,11 +76,17 @@ interface Attributes extends Handlers {
   [name: string]: string | number | boolean | null | undefined | ((event: any) => unknown);
 }
 
-/** The values that the engine works on: one column after the other, the feature of each column, and what features count. */
+/**
+ * The values that the engine works on: one column after the other, each a number of steps of which `most` lead from the
+ * lowest to the highest of its feature; the feature of each column, and what features count.
+ */
 interface FeatureValues {
   rows: number;
   columns: number;
-  values: Float32Array;
+  steps: Uint16Array | Float32Array;
+  most: number;
+  low: number[];
+  high: number[];
   blocks: Int32Array;
   weights: number[];
   scaling: "balanced" | "plain";

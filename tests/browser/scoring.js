@@ -4,7 +4,9 @@ import { score } from "../../site/scripts/engine/scoring.js";
 
 /** Take all steps of the task; returns how far each said it was, and the scores. */
 window.walkScore = ({ values, rows, columns }, parameters) => {
-  const steps = score({ values: Float32Array.from(values), rows, columns }, parameters);
+  const blocks = new Int32Array(columns);
+  const table = { steps: Float32Array.from(values), most: 1, low: [0], high: [1], rows, columns, blocks };
+  const steps = score(table, parameters);
   const progress = [];
   let step = steps.next();
   while (!step.done) {

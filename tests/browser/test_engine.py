@@ -55,8 +55,8 @@ def test_a_table_is_made_once_for_the_first_task_that_needs_it(engine_page):
             let tables = 0;
             const started = await engine.startEngine(() => {
                 tables += 1;
-                const values = Float32Array.of(0, 1, 2, 3);
-                return { rows: 4, columns: 1, values, blocks: Int32Array.of(0), weights: [1], scaling: "plain" };
+                const held = { steps: Uint16Array.of(0, 1, 2, 3), most: 3, low: [0], high: [3] };
+                return { rows: 4, columns: 1, ...held, blocks: Int32Array.of(0), weights: [1], scaling: "plain" };
             });
             const xy = Float64Array.of(0, 0, 1, 1, 2, 2, 3, 3);
             await started.run("hit", { xy, groups: Int32Array.of(0, 0, 1, 1), k: 1 }).done;

@@ -67,7 +67,8 @@ for (const kind of /** @type {const} */ (["columns of the table", "numbers of th
     const next = numbers(9);
     const rows = COUNT + FURTHER;
     const values = Float32Array.from({ length: rows * WIDTH }, next);
-    const table = { rows, columns: WIDTH, values, blocks: new Int32Array(WIDTH), weights: [1], scaling: "balanced" };
+    const held = { steps: values, most: 1, low: [0], high: [1] };
+    const table = { rows, columns: WIDTH, ...held, blocks: new Int32Array(WIDTH), weights: [1], scaling: "balanced" };
     // Every eleventh shape is on the map.
     const all = Array.from({ length: rows }, (_, row) => row);
     const shapes = Int32Array.from(all.filter((row) => row % 11 === 0));

@@ -214,14 +214,15 @@ export class Bins {
     return Array.from({ length: this.rows }, (_, row) => this.share(column, row));
   }
 
-  /** All compared values, column after column, as the engine wants them. */
-  values() {
-    const values = new Float32Array(this.steps.length);
-    for (const { start, dimensions, bins, low, high } of this.features) {
-      const [from, to] = [start * this.rows, (start + dimensions * bins) * this.rows];
-      for (let place = from; place < to; place += 1) values[place] = low + ((high - low) * this.steps[place]) / STEPS;
-    }
-    return values;
+  /** A copy of all compared values, as the engine wants them. */
+  stepped() {
+    const { features } = this;
+    return {
+      steps: this.steps.slice(),
+      most: STEPS,
+      low: features.map(({ low }) => low),
+      high: features.map(({ high }) => high),
+    };
   }
 
   /**

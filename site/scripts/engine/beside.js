@@ -3,6 +3,7 @@
 
 import { factorsOf } from "./distances.js";
 import { Nearest } from "./nearest.js";
+import { reader } from "./table.js";
 
 /**
  * What a map compares: columns of the table, of which shapes are rows; or further numbers of shapes, each with what a
@@ -31,7 +32,7 @@ const MOST_ROOM = 2;
  * @returns {Steps<{ xy: Float32Array }>} the places of these
  */
 export function* placeBeside(table, { compared, shapes, xy, others }) {
-  const { width, read } = reader(table, compared);
+  const { width, read } = pointReader(table, compared);
   const points = { count: shapes.length, width, values: new Float32Array(shapes.length * width) };
   for (const [row, shape] of shapes.entries()) read(shape, points.values.subarray(row * width, (row + 1) * width));
   const nearest = new Nearest(points);
@@ -58,7 +59,7 @@ export function* placeBeside(table, { compared, shapes, xy, others }) {
  * @param {OfTable | OfNumbers} compared
  * @returns {{ width: number, read: (shape: number, point: Float32Array) => void }}
  */
-function reader(table, compared) {
+function pointReader(table, compared) {
   if ("numbers" in compared) {
     const { numbers } = compared;
     const roots = numbers.map(({ unit }) => Math.sqrt(unit));
@@ -72,11 +73,11 @@ function reader(table, compared) {
   }
   const { columns, by } = compared;
   const factors = factorsOf(table, columns, by);
+  const readers = Array.from(columns, (column) => reader(table, column));
   return {
     width: columns.length,
     read(shape, point) {
-      for (let place = 0; place < point.length; place += 1)
-        point[place] = table.values[columns[place] * table.rows + shape] * factors[place];
+      for (let place = 0; place < point.length; place += 1) point[place] = readers[place](shape) * factors[place];
     },
   };
 }

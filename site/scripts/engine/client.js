@@ -79,7 +79,7 @@ export class Engine {
   #giveTable() {
     const table = this.makeTable?.() ?? null;
     this.makeTable = null;
-    if (table !== null) this.worker.postMessage({ table }, [table.values.buffer]);
+    if (table !== null) this.worker.postMessage({ table }, [table.steps.buffer]);
   }
 
   /** @param {number} id */

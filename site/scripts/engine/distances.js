@@ -1,5 +1,7 @@
 // Rows as points whose Euclidean distances the layouts compare, and those distances.
 
+import { reader, valuesAt } from "./table.js";
+
 /**
  * Rows as points, one row after the other.
  * @typedef {{ count: number, width: number, values: Float32Array }} Points
@@ -28,11 +30,10 @@ export function scaledPoints(table, rows, columns, by) {
   const width = columns.length;
   const points = { count: rows.length, width, values: new Float32Array(rows.length * width) };
   const factors = factorsOf(table, columns, by);
+  const held = new Float32Array(rows.length);
   for (let place = 0; place < width; place++) {
-    const start = columns[place] * table.rows;
-    for (let row = 0; row < rows.length; row++) {
-      points.values[row * width + place] = table.values[start + rows[row]] * factors[place];
-    }
+    valuesAt(table, columns[place], rows, held);
+    for (let row = 0; row < rows.length; row++) points.values[row * width + place] = held[row] * factors[place];
   }
   return points;
 }
@@ -66,12 +67,13 @@ export function factorsOf(table, columns, by) {
  * @param {FeatureValues} table
  * @param {number} column
  */
-function variance({ rows, values }, column) {
-  const start = column * rows;
+function variance(table, column) {
+  const { rows } = table;
+  const read = reader(table, column);
   let mean = 0,
     total = 0;
-  for (let row = 0; row < rows; row++) mean += values[start + row] / rows;
-  for (let row = 0; row < rows; row++) total += (values[start + row] - mean) ** 2;
+  for (let row = 0; row < rows; row++) mean += read(row) / rows;
+  for (let row = 0; row < rows; row++) total += (read(row) - mean) ** 2;
   return total / rows;
 }
 

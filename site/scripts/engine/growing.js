@@ -3,6 +3,7 @@
 // leaves, until none raises it.
 
 import { scaledPoints } from "./distances.js";
+import { differ } from "./table.js";
 
 /**
  * The candidates, and what they are to keep apart: each class is a number, -1 for none; places: how many neighbours of
@@ -26,7 +27,7 @@ const AT_ONCE = 4;
  * @returns {Steps<{ columns: Int32Array }>} the bins found, in the order in which they joined
  */
 export function* grow(table, { rows, columns, groups, k, limit }) {
-  const varying = columns.filter((column) => differs(table, column, rows));
+  const varying = columns.filter((column) => differ(table, column, rows));
   const count = rows.length;
   const space = { columns: onGrid(table, rows, varying), groups, places: placesOf(groups, Math.min(k, count - 1)) };
   const squared = new Float64Array(count * count);
@@ -82,16 +83,6 @@ function placesOf(groups, k) {
 
 /** A column that parts no shapes. */
 const NOTHING = new Float64Array(0);
-
-/**
- * @param {FeatureValues} table
- * @param {number} column
- * @param {Int32Array} rows
- */
-function differs({ rows: count, values }, column, rows) {
-  const start = column * count;
-  return rows.some((row) => values[start + row] !== values[start + rows[0]]);
-}
 
 /**
  * Each of the columns for the rows, as maps of bins compare it, on the grid.

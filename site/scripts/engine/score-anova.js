@@ -1,5 +1,7 @@
 // The F statistic of a one-way analysis of variance; shapeviz_report/scorers/anova.py says it in full.
 
+import { valuesAt } from "./table.js";
+
 /**
  * Scores of `columns`, all of which vary over the contest's rows.
  * @param {FeatureValues} table
@@ -13,11 +15,11 @@ export function* scoreByAnova(table, contest, columns) {
   const weight = (positive.length * negative.length) / count;
   const between = new Float64Array(columns.length);
   const within = new Float64Array(columns.length);
+  const [own, others] = [new Float32Array(positive.length), new Float32Array(negative.length)];
   let widest = 0;
   for (let place = 0; place < columns.length; place += 1) {
-    const start = columns[place] * table.rows;
-    const first = spread(table.values, start, positive);
-    const second = spread(table.values, start, negative);
+    const first = spread(valuesAt(table, columns[place], positive, own));
+    const second = spread(valuesAt(table, columns[place], negative, others));
     between[place] = weight * (first.mean - second.mean) ** 2;
     within[place] = first.squares + second.squares;
     widest = Math.max(widest, between[place] + within[place]);
@@ -32,14 +34,12 @@ export function* scoreByAnova(table, contest, columns) {
 /**
  * Mean and sum of squared deviations from it.
  * @param {Float32Array} values
- * @param {number} start
- * @param {Int32Array} rows
  */
-function spread(values, start, rows) {
+function spread(values) {
   let mean = 0;
-  for (let i = 0; i < rows.length; i += 1) mean += values[start + rows[i]];
-  mean /= rows.length;
+  for (let i = 0; i < values.length; i += 1) mean += values[i];
+  mean /= values.length;
   let squares = 0;
-  for (let i = 0; i < rows.length; i += 1) squares += (values[start + rows[i]] - mean) ** 2;
+  for (let i = 0; i < values.length; i += 1) squares += (values[i] - mean) ** 2;
   return { mean, squares };
 }

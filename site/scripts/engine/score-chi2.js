@@ -1,5 +1,7 @@
 // The chi-squared statistic of a column's sums in the two groups; shapeviz_report/scorers/chi2.py says it in full.
 
+import { valuesAt } from "./table.js";
+
 /**
  * Scores of `columns`, all of which vary over the contest's rows.
  * @param {FeatureValues} table
@@ -12,18 +14,20 @@ export function* scoreByChi2(table, contest, columns) {
   const share = positive.length / (positive.length + negative.length);
   const factor = 1 / share + 1 / (1 - share);
   const scores = new Float64Array(columns.length);
+  const [own, others] = [new Float32Array(positive.length), new Float32Array(negative.length)];
   for (let place = 0; place < columns.length; place += 1) {
-    const start = columns[place] * table.rows;
+    valuesAt(table, columns[place], positive, own);
+    valuesAt(table, columns[place], negative, others);
     let low = 0;
     let first = 0;
     let second = 0;
-    for (let i = 0; i < positive.length; i += 1) {
-      const value = table.values[start + positive[i]];
+    for (let i = 0; i < own.length; i += 1) {
+      const value = own[i];
       first += value;
       if (value < low) low = value;
     }
-    for (let i = 0; i < negative.length; i += 1) {
-      const value = table.values[start + negative[i]];
+    for (let i = 0; i < others.length; i += 1) {
+      const value = others[i];
       second += value;
       if (value < low) low = value;
     }

@@ -1,5 +1,7 @@
 // The weights of iterative Relief; shapeviz_report/scorers/relief.py says in full what they are.
 
+import { valuesAt } from "./table.js";
+
 /**
  * The rows that are compared, one after the other: those of the first group first, `count` in all, then empty ones up to
  * the `stride`, a multiple of `WIDE`.
@@ -67,24 +69,24 @@ function norm(vector) {
  * @param {Int32Array} columns
  * @returns {Steps<Sample>}
  */
-function* spreadRows({ rows, values }, { positive, negative }, columns) {
+function* spreadRows(table, { positive, negative }, columns) {
   const width = columns.length;
   const all = [...positive, ...negative];
   const lows = new Float64Array(width);
   const ranges = new Float64Array(width);
   const sums = new Float64Array(all.length);
+  const own = new Float32Array(all.length);
   for (let k = 0; k < width; k += 1) {
-    const start = columns[k] * rows;
+    valuesAt(table, columns[k], all, own);
     let low = Infinity;
     let high = -Infinity;
-    for (const row of all) {
-      const value = values[start + row];
+    for (const value of own) {
       if (value < low) low = value;
       if (value > high) high = value;
     }
     lows[k] = low;
     ranges[k] = high - low;
-    for (let i = 0; i < all.length; i += 1) sums[i] += (values[start + all[i]] - low) / ranges[k];
+    for (let i = 0; i < all.length; i += 1) sums[i] += (own[i] - low) / ranges[k];
     if (k % 256 === 255) yield { progress: 0 };
   }
   const places = Int32Array.from(all.keys());
@@ -98,11 +100,12 @@ function* spreadRows({ rows, values }, { positive, negative }, columns) {
   const count = chosen[0].length + chosen[1].length;
   const stride = Math.ceil(count / WIDE) * WIDE;
   const scaled = new Float32Array(stride * width);
-  chosen.flat().forEach((place, i) => {
-    for (let k = 0; k < width; k += 1) {
-      scaled[i * width + k] = (values[columns[k] * rows + all[place]] - lows[k]) / ranges[k];
-    }
-  });
+  const held = new Float32Array(count);
+  const rows = chosen.flat().map((place) => all[place]);
+  for (let k = 0; k < width; k += 1) {
+    valuesAt(table, columns[k], rows, held);
+    for (let i = 0; i < count; i += 1) scaled[i * width + k] = (held[i] - lows[k]) / ranges[k];
+  }
   return { count, stride, positives: chosen[0].length, values: scaled };
 }
 

@@ -2,6 +2,7 @@
 // random numbers.
 
 import { Random } from "./random.js";
+import { valuesAt } from "./table.js";
 
 const TREES = 1000;
 
@@ -29,7 +30,7 @@ class Forest {
    * @param {Int32Array} columns
    * @param {number} seed
    */
-  constructor({ rows, values }, { positive, negative }, columns, seed) {
+  constructor(table, { positive, negative }, columns, seed) {
     const count = positive.length + negative.length;
     this.count = count;
     this.width = columns.length;
@@ -39,7 +40,7 @@ class Forest {
     const chosen = [...positive, ...negative];
     this.values = new Float32Array(count * this.width);
     columns.forEach((column, place) => {
-      for (let i = 0; i < count; i += 1) this.values[place * count + i] = values[column * rows + chosen[i]];
+      valuesAt(table, column, chosen, this.values.subarray(place * count, (place + 1) * count));
     });
     this.positive = Uint8Array.from({ length: count }, (_, i) => Number(i < positive.length));
     this.total = new Float64Array(this.width);

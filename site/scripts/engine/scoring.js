@@ -6,6 +6,7 @@ import { scoreByLogistic } from "./score-logistic.js";
 import { scoreByRelief } from "./score-relief.js";
 import { scoreByRfe } from "./score-rfe.js";
 import { scoreByTrees } from "./score-trees.js";
+import { differ } from "./table.js";
 
 /**
  * Scores each of the columns, which all vary over the contest's rows.
@@ -69,11 +70,6 @@ export function* score(table, { method, contests, columns, seed }) {
  * @param {Int32Array} columns
  */
 function varying(table, { positive, negative }, columns) {
-  return Int32Array.from(columns.keys()).filter((place) => {
-    const start = columns[place] * table.rows;
-    const value = table.values[start + positive[0]];
-    /** @param {number} row */
-    const differs = (row) => table.values[start + row] !== value;
-    return positive.some(differs) || negative.some(differs);
-  });
+  const rows = Int32Array.from([...positive, ...negative]);
+  return Int32Array.from(columns.keys()).filter((place) => differ(table, columns[place], rows));
 }

@@ -32,7 +32,7 @@ const SCORE_STEPS = 65535;
 
 /** At most as many engines score at once, beside the one that lays out; each holds the whole table, and all no more bytes. */
 const SCORING = Math.min(Math.max((navigator.hardwareConcurrency ?? 2) - 1, 1), 3);
-const HELD = 120e6;
+const HELD = 60e6;
 
 const MOST_CONTESTS = 500;
 
@@ -88,7 +88,7 @@ export class Answers {
     return startEngine(() => ({
       rows: bins.rows,
       columns: bins.count,
-      values: bins.values(),
+      ...bins.stepped(),
       blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
       weights: bins.features.map(({ weight }) => weight),
       scaling: data.scaling,
@@ -337,7 +337,7 @@ export class Answers {
           tell(number, 1);
         }
       };
-      const held = Math.max(Math.floor(HELD / (Float32Array.BYTES_PER_ELEMENT * this.bins.steps.length)), 1);
+      const held = Math.max(Math.floor(HELD / this.bins.steps.byteLength), 1);
       await Promise.all(Array.from({ length: Math.min(SCORING, held, asked.length) }, (_, place) => lane(1 + place)));
       const all = new Float64Array(this.bins.count).fill(NaN);
       for (const [place, column] of columns.entries()) {
