@@ -28,6 +28,9 @@ from shapeviz_report.types import BinSearch, FeatureSearch, Report, list_groups
 #: them.
 MOST_LISTED = 500
 
+#: Of these, as many stand open; what comes below is to be found too.
+MOST_OPEN = 50
+
 #: Shapes of a group of copies that the page names.
 MOST_NAMED = 20
 
@@ -49,6 +52,7 @@ class AboutPage:
                 "database": _database(report),
                 "failures": report.failures,
                 "most_listed": MOST_LISTED,
+                "most_open": MOST_OPEN,
                 "warnings": [
                     # What is said of the licence is for the owner; readers find it below "Use".
                     warning

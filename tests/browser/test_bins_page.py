@@ -307,6 +307,13 @@ def test_names_of_classes_have_room_beside_their_bars(bins, width):
     assert room >= 72  # "airplane" with its mark
 
 
+def test_bins_of_a_step_have_room_whatever_is_told_above_them(bins):
+    page = bins(viewport={"width": 1440, "height": 900})
+    page.evaluate("document.querySelector('.worth').textContent = 'many words '.repeat(200)")
+    assert page.locator(".step-words").evaluate("node => node.clientHeight") >= 240
+    assert page.locator("#step-bins .bin-chip").first.is_visible()
+
+
 @pytest.mark.parametrize("width", [390, 1280])
 def test_nothing_is_wider_than_the_window(bins, width):
     page = bins(viewport={"width": width, "height": 720})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +12,15 @@ from reports import make_report
 from waiting import drawn_again, eventually
 
 from shapeviz_report.pages import base, workbench
+from shapeviz_report.pages.base import class_codes
+from shapeviz_report.pages.sampling import sample_rows
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.similarity import rank_similar
 from shapeviz_report.writing import write_site
 
 CLASSES = ("ant", "bird", "cup")
 SHAPE = 57
+SAMPLED = 30
 
 
 @pytest.fixture(scope="module")
@@ -30,6 +34,7 @@ def sites(report, tmp_path_factory) -> dict[str, Path]:
     with pytest.MonkeyPatch.context() as patch:
         write_site(report, folder / "whole")
         patch.setattr(base, "MOST_IN_FULL", 50)
+        patch.setattr(workbench, "sample_rows", partial(sample_rows, most=SAMPLED))
         write_site(report, folder / "parts")
     return {name: folder / name for name in ("whole", "parts")}
 
@@ -129,6 +134,17 @@ def test_what_sets_outliers_apart_is_told(both):
         eventually(page, lambda page=page: page.locator(".outlier .reasons:empty").count() == 0)
         reasons[name] = page.locator(".outlier").first.locator(".reason bdi").all_inner_texts()
     assert reasons["parts"] == reasons["whole"]
+
+
+def test_how_much_of_a_bin_a_shape_has_is_told_of_each(both, report):
+    shape = next(row for row in range(120) if row not in sample_rows(class_codes(report), SAMPLED))
+    told = {}
+    for name, page in both(f"bins.html#bin=Sc[1]:4&id={report.shapes[shape].id}").items():
+        line = page.locator("#turn-name")
+        eventually(page, lambda line=line: "in the bin" in line.inner_text())
+        told[name] = figures(line.inner_text().partition("in the bin")[0])
+        assert report.shapes[shape].name in line.inner_text()
+    assert told["parts"] == pytest.approx(told["whole"], abs=0.5)
 
 
 def test_a_map_is_coloured_by_a_bin_of_all_shapes(both):

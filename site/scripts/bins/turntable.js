@@ -7,6 +7,7 @@ import { styleColor } from "../base/theme.js";
 import { pictured, shapeLine } from "../bins-kit/look.js";
 import { showingBin } from "../bins-kit/on-surface.js";
 import { Stage } from "../bins-kit/stage.js";
+import { loadAllBins } from "../database/level-bins.js";
 import { findShapes } from "../database/shape-finder.js";
 import { Plot } from "../map/plot.js";
 import { Paint } from "../viewer/paint.js";
@@ -100,17 +101,23 @@ export class Turntable {
     return { x: of(map.x), y: of(map.y), rows };
   }
 
-  #tellName() {
+  async #tellName() {
     const { database, bins, state, shape } = this;
     const bin = state.get("bin");
-    this.name.replaceChildren(
-      ...shapeLine(database, bins, bin, shape, bins.share(bin, shape)),
-      element(
-        "a",
-        { class: "which", href: pageAddress("shape.html", { id: database.ids[shape] }), title: "All about this shape" },
-        element("bdi", {}, database.labelled ? database.names[shape] : "its page"),
-      ),
+    const page = element(
+      "a",
+      { class: "which", href: pageAddress("shape.html", { id: database.ids[shape] }), title: "All about this shape" },
+      element("bdi", {}, database.labelled ? database.names[shape] : "its page"),
     );
+    /** @param {number} share */
+    const tell = (share) => this.name.replaceChildren(...shapeLine(database, bins, bin, shape, share), page);
+    const share = bins.share(bin, shape);
+    tell(share);
+    if (!Number.isNaN(share)) return;
+    // Of a shape that is not of the sample, its own values are read.
+    const all = await loadAllBins();
+    await all.know([shape]);
+    if (shape === this.shape && bin === state.get("bin")) tell(all.share(bin, shape));
   }
 
   async render() {

@@ -144,7 +144,7 @@ class MapPanel {
                       {
                         class: "chance",
                         title:
-                          "A map whose classes never mix: some of the classes are too small to fill all places around a shape",
+                          "A map whose classes never mix: some of the classes have too few shapes here to fill all places around one",
                       },
                       `at most ${figure(most)}`,
                     ),

@@ -8,7 +8,7 @@ import pytest
 from reports import make_report
 
 from shapeviz_report.pages import about
-from shapeviz_report.pages.about import MOST_LISTED, AboutPage
+from shapeviz_report.pages.about import MOST_LISTED, MOST_OPEN, AboutPage
 from shapeviz_report.types import Copy, Failure, Match
 from shapeviz_report.writing import write_site
 
@@ -41,6 +41,16 @@ def test_of_many_failed_files_the_first_are_listed_and_the_rest_is_counted(tmp_p
     assert f"These are the first {MOST_LISTED} of {MOST_LISTED + 20} files" in text
     summary = json.loads((tmp_path / "data" / "summary.json").read_text(encoding="utf-8"))
     assert len(summary["failures"]) == MOST_LISTED + 20
+
+
+@pytest.mark.parametrize("number", [MOST_OPEN, MOST_OPEN + 1])
+def test_a_long_list_is_folded_so_that_what_follows_is_found(tmp_path, number):
+    failures = [Failure(f"{each:04}.off", "read", "it is empty") for each in range(number)]
+    write_site(make_report(["ant"], 2, failures=failures), tmp_path)
+    text = (tmp_path / "about.html").read_text(encoding="utf-8")
+    section = text[text.index("<h2>Files that failed</h2>") : text.index("<h2>Method</h2>")]
+    assert ("<details" in section) == (number > MOST_OPEN)
+    assert section.count("it is empty") == number
 
 
 def test_of_many_copies_the_first_groups_are_listed_and_the_rest_is_counted(tmp_path, monkeypatch):
