@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
 
 from shapeviz_report.database.finder import Finder
 from shapeviz_report.files import read_regular
@@ -21,6 +22,9 @@ MOST_FILES = 1024
 
 MOST_LETTERS = 1000
 """Of a name."""
+
+MOST_PARTS = 3
+"""Of the end of a name: folders, and the file in them."""
 
 Read = Callable[[str, int], bytes | None]
 """Gives the content of a file by its name, if it is there and has no more than so many bytes."""
@@ -36,7 +40,7 @@ def collect_looks(suffix: str, data: bytes, read: Read) -> dict[str, bytes]:
     data : bytes
         Its content.
     read : callable
-        For names as they stand in the mesh, ``/`` between folders, none of them absolute.
+        For names as they stand in the mesh, and ends of these, ``/`` between folders, none of them absolute.
 
     Returns
     -------
@@ -50,7 +54,7 @@ def collect_looks(suffix: str, data: bytes, read: Read) -> dict[str, bytes]:
         _add(files, read, list_images(data))
     elif suffix == ".obj":
         _add(files, read, list_materials(data))
-        _add(files, read, (name for text in list(files.values()) for name in _pictures(text)))
+        _add(files, read, (name for file, text in list(files.items()) for name in _pictures(text, file)))
     return files
 
 
@@ -68,18 +72,30 @@ def read_beside(folder: Path, root: Path) -> Read:
     return read
 
 
-def _pictures(text: bytes) -> Iterator[str]:
-    return (material.picture for material in read_materials(text).values() if material.picture)
+def _pictures(text: bytes, file: str) -> Iterator[str]:
+    return (material.picture for material in read_materials(text, file).values() if material.picture)
 
 
 def _add(files: dict[str, bytes], read: Read, names: Iterable[str]) -> None:
     tried: set[str] = set()
     for name in names:
-        if name in tried or len(name) > MOST_LETTERS or PurePosixPath(name).is_absolute() or ":" in name:
+        if name in tried or len(name) > MOST_LETTERS:
             continue
         if len(tried) == MOST_FILES:
             break
         tried.add(name)
-        content = read(name, MOST_LOOKS - sum(map(len, files.values())))
+        left = MOST_LOOKS - sum(map(len, files.values()))
+        content = next((found for way in _ways(name) if (found := read(way, left)) is not None), None)
         if content is not None:
             files[name] = content
+
+
+def _ways(name: str) -> Iterator[str]:
+    """A name and its ends, as it stands and without percent signs: a file often lay elsewhere, or on another machine,
+    when it was named, and lies beside the mesh now."""
+    for written in dict.fromkeys((name, unquote(name))):
+        if not PurePosixPath(written).is_absolute() and ":" not in written:
+            yield written
+        parts = [part for part in written.rpartition(":")[2].split("/") if part not in ("", ".", "..")]
+        for count in range(min(len(parts), MOST_PARTS), 0, -1):
+            yield "/".join(parts[-count:])

@@ -75,6 +75,8 @@ def _gunzip(data: bytes) -> bytes:
 
 
 def _unzip(archive: ZipFile, format: str) -> dict[str, bytes]:
+    for info in archive.infolist():  # older programs of Windows part folders so
+        info.filename = info.filename.replace("\\", "/")
     entries = [info for info in archive.infolist() if not info.is_dir() and not _is_hidden(info.filename)]
     meshes = [info for info in entries if suffix_of(info.filename) == format]
     if len(meshes) != 1:

@@ -7,8 +7,10 @@ that one colour a vertex is all that pictures and models need to know.
 from __future__ import annotations
 
 import io
+import warnings
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -39,6 +41,26 @@ GREYS = 8
 """Steps of 255 by which the channels of a colour may differ that says nothing: the grey or white of a program."""
 
 
+Wrap = Literal["repeat", "mirror", "clamp"]
+"""What lies beyond a picture: the same again, its mirror image, or the pixels of its edge."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture as it lies on a surface.
+
+    Attributes
+    ----------
+    pixels : (h, w, 3) uint8 array
+        sRGB.
+    wraps : (Wrap, Wrap)
+        Beyond its sides, and beyond its top and bottom.
+    """
+
+    pixels: Bytes
+    wraps: tuple[Wrap, Wrap] = ("repeat", "repeat")
+
+
 @dataclass(frozen=True)
 class Paint:
     """What colours a surface, corner by corner.
@@ -48,10 +70,10 @@ class Paint:
     colors : (k, 3) uint8 array
         sRGB, of every corner; what a picture has there is multiplied by it, as light.
     places : (k, 2) float32 array or None
-        Where in its picture each corner is: from left to right and from top to bottom, 1 the whole; repeated beyond.
+        Where in its picture each corner is: from left to right and from top to bottom, 1 the whole.
     pictures : (k,) int16 array or None
         The picture of each corner; -1 for none.
-    images : tuple of (h, w, 3) uint8 arrays
+    images : tuple of Picture
     lost : tuple of str
         What was left out: materials and pictures that are named and were not found, or cannot be used, and why.
     """
@@ -59,7 +81,7 @@ class Paint:
     colors: Bytes
     places: npt.NDArray[np.float32] | None = None
     pictures: npt.NDArray[np.int16] | None = None
-    images: tuple[Bytes, ...] = ()
+    images: tuple[Picture, ...] = ()
     lost: tuple[str, ...] = ()
 
     def of(self, corners: Indices) -> Paint:
@@ -88,20 +110,33 @@ def as_bytes(values: npt.NDArray[np.generic], *, whole: bool) -> Bytes:
     return np.round(steps).astype(np.uint8)
 
 
-def read_picture(data: bytes) -> Bytes | None:
-    """A picture (h, w, 3), made smaller; None if it cannot be read or has more than ``MOST_PIXELS``."""
+def read_picture(data: bytes) -> Bytes:
+    """A picture (h, w, 3), made smaller. Raises ``ValueError``, with what it is instead, if it cannot be used."""
     try:
-        with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
+        with warnings.catch_warnings():
+            # of many pixels the library warns by itself
+            warnings.simplefilter("ignore")
+            image = Image.open(io.BytesIO(data), formats=_FORMATS)
+        with image:
             if image.width * image.height > MOST_PIXELS:
-                return None
+                raise Image.DecompressionBombError
             image.draft("RGB", (SIDE, SIDE))
-            whole = image.convert("RGB")
+            whole = _in_eight_bits(image).convert("RGB")
         whole.thumbnail((SIDE, SIDE), Image.Resampling.BOX)
         return np.asarray(whole)
     except MemoryError:
         raise
-    except Exception:  # a broken picture can make a decoder fail in any way
-        return None
+    except Image.DecompressionBombError as error:
+        raise ValueError(f"has more than {MOST_PIXELS:,} pixels") from error
+    except Exception as error:  # a broken picture can make a decoder fail in any way
+        raise ValueError("is no picture that can be read") from error
+
+
+def _in_eight_bits(image: Image.Image) -> Image.Image:
+    """A picture, that of sixteen bits a grey without its lower ones: the library would cut off the upper ones."""
+    if image.mode.startswith("I"):
+        return Image.fromarray((np.asarray(image) >> 8).astype(np.uint8))
+    return image
 
 
 MISSING = "is not there, lies outside the folder or is too large"
@@ -113,17 +148,24 @@ class Pictures:
 
     Attributes
     ----------
-    images : list of (h, w, 3) uint8 arrays
+    images : list of Picture
     lost : dict of str to None
         What is left out, and why, each once.
     """
 
     def __init__(self) -> None:
-        self.images: list[Bytes] = []
+        self.images: list[Picture] = []
         self.lost: dict[str, None] = {}
-        self._places: dict[Hashable, int] = {}
+        self._places: dict[tuple[Hashable, tuple[Wrap, Wrap]], int] = {}
+        self._pixels: dict[Hashable, Bytes | None] = {}
 
-    def place(self, key: Hashable, name: str, read: Callable[[], bytes | None]) -> int:
+    def place(
+        self,
+        key: Hashable,
+        name: str,
+        read: Callable[[], bytes | None],
+        wraps: tuple[Wrap, Wrap] = ("repeat", "repeat"),
+    ) -> int:
         """The place of a picture among ``images``; -1 if it cannot be used.
 
         Parameters
@@ -134,22 +176,36 @@ class Pictures:
             What it is called.
         read : callable
             Gives its content; None if it is not there.
+        wraps : (Wrap, Wrap)
+            As of :class:`Picture`.
         """
-        if key not in self._places:
-            self._places[key] = self._add(name, read)
-        return self._places[key]
+        if (key, wraps) not in self._places:
+            self._places[key, wraps] = self._add(key, name, read, wraps)
+        return self._places[key, wraps]
 
-    def _add(self, name: str, read: Callable[[], bytes | None]) -> int:
+    def _add(
+        self, key: Hashable, name: str, read: Callable[[], bytes | None], wraps: tuple[Wrap, Wrap]
+    ) -> int:
         if len(self.images) == MOST_PICTURES:
             self.lose(name, f"is one more picture than the {MOST_PICTURES} that are shown")
             return -1
-        content = read()
-        picture = None if content is None else read_picture(content)
-        if picture is None:
-            self.lose(name, MISSING if content is None else "is no picture that can be read")
+        if key not in self._pixels:
+            self._pixels[key] = self._read(name, read)
+        if (pixels := self._pixels[key]) is None:
             return -1
-        self.images.append(picture)
+        self.images.append(Picture(pixels, wraps))
         return len(self.images) - 1
+
+    def _read(self, name: str, read: Callable[[], bytes | None]) -> Bytes | None:
+        content = read()
+        if content is None:
+            self.lose(name, MISSING)
+            return None
+        try:
+            return read_picture(content)
+        except ValueError as error:
+            self.lose(name, str(error))
+            return None
 
     def miss_places(self, name: str) -> None:
         """A picture is left out, for the surface does not say where it lies on it."""
@@ -215,19 +271,33 @@ def _weigh(triangles: FloatArray, points: FloatArray) -> FloatArray:
     return np.clip(weights, 0, 1) / np.clip(weights, 0, 1).sum(axis=1, keepdims=True)
 
 
-def _look_up(image: Bytes, where: FloatArray) -> FloatArray:
+def _look_up(picture: Picture, where: FloatArray) -> FloatArray:
     """Light (n, 3) of a picture at places (n, 2), between its pixels."""
-    height, width = image.shape[:2]
-    x = (where[:, 0] % 1) * width - 0.5
-    y = (where[:, 1] % 1) * height - 0.5
-    left, top = np.floor(x).astype(np.int64), np.floor(y).astype(np.int64)
-    right_share, lower_share = (x - left)[:, None], (y - top)[:, None]
+    pixels = picture.pixels
+    left, right, right_share = _neighbours(where[:, 0], pixels.shape[1], picture.wraps[0])
+    top, bottom, lower_share = _neighbours(where[:, 1], pixels.shape[0], picture.wraps[1])
     upper, lower = (
-        _LINEAR[image[row % height, left % width]] * (1 - right_share)
-        + _LINEAR[image[row % height, (left + 1) % width]] * right_share
-        for row in (top, top + 1)
+        _LINEAR[pixels[row, left]] * (1 - right_share) + _LINEAR[pixels[row, right]] * right_share
+        for row in (top, bottom)
     )
     return np.asarray(upper * (1 - lower_share) + lower * lower_share)
+
+
+def _neighbours(places: FloatArray, count: int, wrap: Wrap) -> tuple[Indices, Indices, FloatArray]:
+    """The pixels (n,) before and behind places in a row of ``count``, and the share (n, 1) of the latter."""
+    match wrap:
+        case "repeat":
+            within = places % 1
+        case "mirror":
+            within = 1 - np.abs(places % 2 - 1)
+        case "clamp":
+            within = np.clip(places, 0, 1)
+    place = within * count - 0.5
+    first = np.floor(place).astype(np.int64)
+    before, behind = (
+        pixel % count if wrap == "repeat" else np.clip(pixel, 0, count - 1) for pixel in (first, first + 1)
+    )
+    return before, behind, (place - first)[:, None]
 
 
 def _to_srgb(light: FloatArray) -> FloatArray:

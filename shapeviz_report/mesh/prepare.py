@@ -100,7 +100,8 @@ def prepare(files: Mapping[str, bytes], edge_length: float) -> tuple[Mesh, Shape
 def read_paint(paint: Callable[[], Paint]) -> tuple[Paint | None, tuple[str, ...]]:
     """The colours of a surface, None if they cannot be read, and what is lost of them: no mesh fails for them."""
     try:
-        found = paint()
+        with np.errstate(all="ignore"):
+            found = paint()
     except MemoryError:
         raise
     except Exception:  # what is broken in them may make their reader fail in any way

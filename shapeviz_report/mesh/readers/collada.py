@@ -16,7 +16,7 @@ import numpy.typing as npt
 from lxml import etree
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.paint import Bytes, Paint, Pictures, as_bytes
+from shapeviz_report.mesh.paint import Bytes, Paint, Pictures, Wrap, as_bytes
 from shapeviz_report.mesh.readers.limits import check_faces
 from shapeviz_report.mesh.readers.polygons import (
     Indices,
@@ -46,6 +46,7 @@ _BLANKS = b" \t\r\n\0\x1a"
 _FACES = frozenset({"triangles", "polylist", "polygons", "tristrips", "trifans"})
 
 
+_WRAPS: dict[str, Wrap] = {"MIRROR": "mirror", "CLAMP": "clamp", "BORDER": "clamp", "NONE": "clamp"}
 _IMAGE = re.compile(rb"<(?:[\w.-]+:)?(?:init_from|ref)(?:\s[^<>]*)?>([^<>]+)<")
 
 
@@ -565,7 +566,13 @@ class _Reader:
         for one in () if binding is None else binding.iterfind("bind_vertex_input"):
             if one.get("semantic") == wanted:
                 number = one.get("input_set", "0")
-        picture = self.pictures.place(file, file, partial(self.files.get, file))
+        across, down = (
+            "repeat"
+            if sampler is None
+            else _WRAPS.get(sampler.findtext(f"sampler2D/wrap_{axis}", "").strip(), "repeat")
+            for axis in "st"
+        )
+        picture = self.pictures.place(file, file, partial(self.files.get, file), (across, down))
         return _Look(picture=picture, name=file, coordinates=number)
 
     def refer(self, tag: str, url: str | None) -> Element | None:

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.paint import Paint, Pictures, from_light
+from shapeviz_report.mesh.paint import Paint, Pictures, Wrap, from_light
 from shapeviz_report.mesh.readers.draco import decode_draco
 from shapeviz_report.mesh.readers.limits import check_faces, check_json, check_unpacked
 from shapeviz_report.mesh.readers.meshopt import decode_meshopt
@@ -54,6 +54,8 @@ _COMPONENTS: dict[int, np.dtype[Any]] = {
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES, _TRIANGLE_STRIP, _TRIANGLE_FAN = 4, 5, 6
 _POINTS_AND_LINES = range(4)
+
+_WRAPS: dict[Any, Wrap] = {33071: "clamp", 33648: "mirror"}
 
 _MOVES = {"translation": np.zeros(3), "rotation": np.array([0.0, 0, 0, 1]), "scale": np.ones(3)}
 """What may move a node, and the values that do not."""
@@ -534,8 +536,12 @@ class _Reader:
 
     def find_picture(self, texture: int) -> int:
         """The place of a texture's picture among those of the surface; -1 if it cannot be used."""
-        number = self.image_of(texture)
-        return self.pictures.place(number, self.picture_name(texture), partial(self.read_image, number))
+        number, sampler = self.image_of(texture), self.entry("textures", texture).get("sampler")
+        told = {} if sampler is None else self.entry("samplers", sampler)
+        across: Wrap = _WRAPS.get(told.get("wrapS"), "repeat")
+        down: Wrap = _WRAPS.get(told.get("wrapT"), "repeat")
+        name, read = self.picture_name(texture), partial(self.read_image, number)
+        return self.pictures.place(number, name, read, (across, down))
 
     def image_of(self, texture: int) -> int | None:
         """The number of a texture's image; None if it is only there in a way that is not read."""

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from posixpath import dirname, isabs, join
 
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.mesh.paint import as_bytes
-from shapeviz_report.mesh.readers.text import decode, strip_comments
+from shapeviz_report.mesh.paint import Wrap, as_bytes
+from shapeviz_report.mesh.readers.text import decode
 
 _LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
-_OPTIONS = re.compile(
-    r"(?:-(?:blendu|blendv|cc|clamp|texres|bm|boost|imfchan|type)\s+\S+\s+"
-    r"|-[ost](?:\s+[-+.\deE]+){1,3}\s+|-mm\s+\S+\s+\S+\s+)*"
+_OPTION = re.compile(
+    r"-(?:(blendu|blendv|cc|clamp|texres|bm|boost|imfchan|type)(\s+\S+)|(mm)(\s+\S+\s+\S+)"
+    r"|([ost])((?:\s+[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?){1,3}))\s+",
+    re.ASCII,
 )
+_COMMENT = re.compile(r"(?:^|\s)#(?:\s.*)?$")
+"""Behind a name, which may have the character in it: ``Material #25``."""
 
 
 @dataclass(frozen=True)
@@ -27,14 +31,21 @@ class Material:
     color : (3,) uint8 array
         ``Kd``; white without.
     picture : str
-        ``map_Kd``, ``/`` between folders; empty without.
+        ``map_Kd``, ``/`` between folders, from the folder of the mesh; empty without.
+    scale, offset : (float, float)
+        How the picture lies on the surface: it has at a place what it has at ``scale * place + offset``.
+    wrap : Wrap
+        What lies beyond it.
     """
 
-    color: npt.NDArray[np.uint8]
+    color: npt.NDArray[np.uint8] = field(default_factory=lambda: np.full(3, 255, np.uint8))
     picture: str = ""
+    scale: tuple[float, float] = (1.0, 1.0)
+    offset: tuple[float, float] = (0.0, 0.0)
+    wrap: Wrap = "repeat"
 
 
-WHITE = Material(np.full(3, 255, np.uint8))
+WHITE = Material()
 
 
 def list_materials(data: bytes) -> list[str]:
@@ -45,18 +56,19 @@ def list_materials(data: bytes) -> list[str]:
 def list_libraries(data: bytes) -> list[list[str]]:
     """What files each line of an OBJ may mean that names materials: all of it, and its words if there are several."""
     lines = _LIBRARY.findall(data) if b"mtllib" in data or b"MTLLIB" in data else ()
-    names = [_plain(line.decode("utf-8", "replace")) for line in lines]
+    names = [_file_name(line.decode("latin-1")) for line in lines]
     return [[whole, *(whole.split() if " " in whole else ())] for whole in names]
 
 
-def read_materials(data: bytes) -> dict[str, Material]:
-    """The materials of a file by name. What is not written as it should be is passed over."""
+def read_materials(data: bytes, file: str) -> dict[str, Material]:
+    """The materials of a file, which lies where its name says, by name. What is not written as it should be is passed
+    over."""
     materials: dict[str, Material] = {}
     name = None
-    for line in strip_comments(decode(data)).split("\n"):
+    for line in decode(data).split("\n"):
         keyword, rest = [*line.strip().split(maxsplit=1), "", ""][:2]
         if keyword.lower() == "newmtl":
-            name = rest
+            name = plain_name(rest)
             materials[name] = WHITE
         elif name is not None and keyword.lower() == "kd":
             try:
@@ -64,17 +76,46 @@ def read_materials(data: bytes) -> dict[str, Material]:
             except ValueError:
                 continue
             if color.shape == (3,):
-                materials[name] = Material(color, materials[name].picture)
+                materials[name] = replace(materials[name], color=color)
         elif name is not None and keyword.lower() == "map_kd":
-            materials[name] = Material(materials[name].color, _plain(_OPTIONS.sub("", rest, count=1)))
+            materials[name] = _with_picture(materials[name], rest, dirname(file))
     # a black that would hide its picture is what some programs write beside one
     return {
-        name: Material(WHITE.color, material.picture)
+        name: replace(material, color=WHITE.color)
         if material.picture and not material.color.any()
         else material
         for name, material in materials.items()
     }
 
 
-def _plain(name: str) -> str:
-    return name.strip().strip('"').replace("\\", "/")
+def plain_name(words: str) -> str:
+    """A name that stands behind a keyword, without a comment."""
+    return _COMMENT.sub("", words).strip()
+
+
+def _with_picture(material: Material, words: str, folder: str) -> Material:
+    """A material with the picture that a line names behind options: how it lies, and others that are passed over."""
+    scale, offset, wrap = [1.0, 1.0], [0.0, 0.0], WHITE.wrap
+    while option := _OPTION.match(words):
+        name, *values = " ".join(filter(None, option.groups())).split()
+        if name == "clamp" and values[0].lower() == "on":
+            wrap = "clamp"
+        elif name in ("s", "o"):
+            for axis, value in enumerate(values[:2]):
+                (scale if name == "s" else offset)[axis] = float(value)
+        words = words[option.end() :]
+    picture = _file_name(words)
+    if picture and not isabs(picture):
+        picture = join(folder, picture)
+    return replace(
+        material, picture=picture, scale=(scale[0], scale[1]), offset=(offset[0], offset[1]), wrap=wrap
+    )
+
+
+def _file_name(words: str) -> str:
+    """A name of a file, of bytes that were taken one by one: most programs write UTF-8."""
+    name = plain_name(words).strip('"').replace("\\", "/")
+    try:
+        return name.encode("latin-1").decode()
+    except UnicodeError:
+        return name

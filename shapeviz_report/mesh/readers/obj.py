@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.paint import MISSING, Paint, Pictures, as_bytes
-from shapeviz_report.mesh.readers.mtl import WHITE, Material, list_libraries, read_materials
+from shapeviz_report.mesh.readers.mtl import WHITE, Material, list_libraries, plain_name, read_materials
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh
 from shapeviz_report.mesh.readers.text import (
     Characters,
@@ -31,6 +31,9 @@ from shapeviz_report.mesh.readers.text import (
 
 Mask = npt.NDArray[np.bool_]
 
+_USE = re.compile(r"usemtl[^\n]*")
+_HASH = "\x01"
+"""What stands for ``#`` in names of materials while comments are taken off."""
 _CONTINUED = re.compile(r"\\[ \t]*\n")
 _TEXTURE_AND_NORMAL = re.compile(r"(?<=\d)/\S*")
 _POINTED = re.compile(r"[^\s/]+(?:/([-+]?\d+))?\S*")
@@ -74,7 +77,8 @@ def read_obj(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     MeshError, ValueError
         If a vertex or a face is not written as it should be, or there is geometry that is not read.
     """
-    text = _join_continued(strip_comments(decode(data))) + "\n"
+    text = _USE.sub(lambda use: use[0].replace("#", _HASH), decode(data))
+    text = _join_continued(strip_comments(text)) + "\n"
     characters = np.frombuffer(bytearray(text, "latin-1", "replace"), np.uint8)
     ends = np.flatnonzero(characters == ord("\n"))
     starts = np.concatenate([[0], ends[:-1] + 1])
@@ -147,8 +151,9 @@ def _paint_materials(
     their keyword, and the numbers of their corners."""
     materials: dict[str, Material] = {}
     for name in (name for names in libraries for name in names):
-        materials |= read_materials(files.get(name, b""))
-    uses = [(-1, ""), *lines.find("usemtl")]
+        materials |= read_materials(files.get(name, b""), name)
+    uses = [(line, plain_name(rest.replace(_HASH, "#"))) for line, rest in lines.find("usemtl")]
+    uses.insert(0, (-1, ""))
     of_face = np.searchsorted([line for line, _ in uses], faces) - 1
     used = [materials.get(name, WHITE) for _, name in uses]
     colors = np.array([material.color for material in used])[of_face]
@@ -156,13 +161,22 @@ def _paint_materials(
     for names in libraries:
         if files.keys().isdisjoint(names):
             found.lose(names[0], MISSING)
+    if materials:
+        for _, name in (uses[use] for use in np.unique(of_face) if uses[use][1] not in ("", *materials)):
+            found.lose(name, "is a material that its files of materials do not have")
     places_of = [
-        found.place(name, name, partial(files.get, name)) if (name := material.picture) else -1
+        found.place(name, name, partial(files.get, name), (material.wrap, material.wrap))
+        if (name := material.picture)
+        else -1
         for material in used
     ]
     if not found.images:
         return Paint(np.repeat(colors, sizes, axis=0), lost=tuple(found.lost))
     pictures = np.repeat(np.array(places_of, np.int16)[of_face], sizes)
+    scales, offsets = (
+        np.repeat(np.array(how)[of_face], sizes, axis=0)
+        for how in ([material.scale for material in used], [material.offset for material in used])
+    )
     written = list(lines.find("vt"))
     points = np.array([[float(word) for word in [*rest.split(), "0", "0"][:2]] for _, rest in written])
     before = np.searchsorted([line for line, _ in written], np.repeat(faces, sizes))
@@ -171,7 +185,7 @@ def _paint_materials(
     index = np.where(told < 0, before + told, told - 1)
     there = (index >= 0) & (index < len(points))
     places = np.zeros((len(index), 2), np.float32)
-    places[there] = points[index[there]] * [1, -1] + [0, 1]
+    places[there] = (points[index[there]] * scales[there] + offsets[there]) * [1, -1] + [0, 1]
     called = {place: material.picture for place, material in zip(places_of, used, strict=True)}
     for place in np.setdiff1d(pictures, [-1, *pictures[there]]).tolist():
         found.miss_places(called[place])

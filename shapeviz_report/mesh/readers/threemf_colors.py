@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from shapeviz_report.mesh.paint import Bytes, Pictures
+from shapeviz_report.mesh.paint import Bytes, Pictures, Wrap
 from shapeviz_report.mesh.readers.polygons import Indices
 from shapeviz_report.types import FloatArray
 
@@ -23,6 +23,7 @@ _BASE_MATERIALS, _BASE = f"{_CORE} basematerials", f"{_CORE} base"
 _COLORS, _ONE_COLOR = f"{_MATERIAL} colorgroup", f"{_MATERIAL} color"
 _PLACES, _PLACE = f"{_MATERIAL} texture2dgroup", f"{_MATERIAL} tex2coord"
 _PICTURE = f"{_MATERIAL} texture2d"
+_WRAPS: dict[str, Wrap] = {"mirror": "mirror", "clamp": "clamp", "none": "clamp"}
 
 
 @dataclass
@@ -48,10 +49,11 @@ class Group:
 
 
 class Groups:
-    """The groups of a part, in the order in which they are first named, and the paths of its pictures by id."""
+    """The groups of a part, in the order in which they are first named, and its pictures by id: their paths, and what
+    lies beyond them."""
 
     def __init__(self) -> None:
-        self.pictures: dict[str, str] = {}
+        self.pictures: dict[str, tuple[str, tuple[Wrap, Wrap]]] = {}
         self._groups: list[Group] = []
         self._numbers: dict[str, int] = {}
         self._last = Group()
@@ -76,7 +78,8 @@ class Groups:
             self._last.of_triangles = name == _BASE_MATERIALS
             self._last.picture = attributes.get("texid", "")
         elif name == _PICTURE:
-            self.pictures[attributes.get("id", "")] = attributes.get("path", "")
+            across, down = (_WRAPS.get(attributes.get(f"tilestyle{axis}", ""), "repeat") for axis in "uv")
+            self.pictures[attributes.get("id", "")] = attributes.get("path", ""), (across, down)
 
     def _add_color(self, text: str) -> None:
         match = _COLOR.fullmatch(text)
@@ -110,8 +113,8 @@ class Groups:
         places[there] = table[rows] * [1, -1] + [0, 1]
         of_group = np.full(len(self._groups) + 1, -1)
         for number in np.unique(groups[there.any(axis=1)]).tolist():
-            path = self.pictures.get(self._groups[number].picture, "")
-            of_group[number] = pictures.place(path, path or "a picture", partial(read, path))
+            path, wraps = self.pictures.get(self._groups[number].picture, ("", ("repeat", "repeat")))
+            of_group[number] = pictures.place(path, path or "a picture", partial(read, path), wraps)
         shown[there] = np.broadcast_to(of_group[groups][:, None], shown.shape)[there]
         return colors, places, shown
 

@@ -134,11 +134,26 @@ def test_3mf_pictures_of_the_package() -> None:
     assert paint.places[0].tolist() == [[0, 0], [1, 0.75], [0, 0]]
     assert (paint.pictures == 0).all()
     assert (paint.colors == 255).all()
-    np.testing.assert_array_equal(paint.images[0][0], [RED, BLUE])
+    np.testing.assert_array_equal(paint.images[0].pixels[0], [RED, BLUE])
     missing = "is not there, lies outside the folder or is too large"
     assert lost(threemf_of(resources, looks)) == (f"/3D/Textures/Wood%20Oak.png {missing}",)
     broken = threemf_of(resources, looks, pictures={"3D/Textures/Wood Oak.png": b"no picture"})
     assert lost(broken) == ("/3D/Textures/Wood%20Oak.png is no picture that can be read",)
+
+
+def test_3mf_pictures_end_as_they_are_told_to() -> None:
+    told = 'tilestyleu="mirror" tilestylev="clamp"'
+    resources = "".join(
+        f'<m:texture2d id="{4 + number}" path="x.png" {how}/><m:texture2dgroup id="{6 + number}" '
+        f'texid="{4 + number}"><m:tex2coord u="0" v="1"/></m:texture2dgroup>'
+        for number, how in enumerate((told, ""))
+    )
+    looks = ['pid="6" p1="0"', 'pid="7" p1="0"', "", ""]
+    _, paint = look(threemf_of(resources, looks, pictures={"x.png": png()}))
+    assert [image.wraps for image in paint.images] == [("mirror", "clamp"), ("repeat", "repeat")]
+    assert paint.images[0].pixels is paint.images[1].pixels
+    assert paint.pictures is not None
+    assert paint.pictures[:, 0].tolist() == [0, 1, -1, -1]
 
 
 @pytest.mark.parametrize("size", ["bytes", "pixels"])
@@ -365,6 +380,15 @@ def test_collada_pictures(tmp_path: Path, before, image, name) -> None:
         image.split(">")[1 + image.count("<ref>")].split("<")[0].replace("%20", " ").replace("&amp;", "&")
     )
     assert "is not there" in what
+
+
+def test_collada_pictures_end_as_they_are_told_to() -> None:
+    wraps = "<wrap_s>MIRROR</wrap_s><wrap_t> CLAMP </wrap_t></sampler2D>"
+    image = '<image id="pic"><init_from>file:///C:/pictures/wood.png</init_from></image>'
+    before = SAMPLER.replace("</sampler2D>", wraps)
+    files = collada(effect(TEXTURE, before), PLACE_INPUT, BOUND, image)
+    _, paint = look(files | {"/C:/pictures/wood.png": png()})
+    assert [image.wraps for image in paint.images] == [("mirror", "clamp")]
 
 
 def test_collada_pictures_without_a_place_on_the_surface() -> None:

@@ -96,6 +96,9 @@ def test_colours_in_an_archive_are_found() -> None:
     assert paint is not None
     assert (paint().colors == (255, 0, 0)).all()
     assert paint().lost == ()
+    by_windows = {name.replace("/", "\\"): content for name, content in files.items()}
+    _, paint = parse_painted({"a.obj.zip": zipped(by_windows)})
+    assert paint().lost == ()
     _, paint = parse_painted({"a.obj.zip": zipped({"a.obj": files["shape/a.obj"]})})
     assert paint is not None
     assert len(paint().lost) == 1

@@ -7,6 +7,7 @@ import json
 import re
 import struct
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ import trimesh
 from PIL import Image
 
 from shapeviz_report.mesh import collect_files, parse_mesh, parse_painted, prepare
-from shapeviz_report.mesh.paint import MOST_PIXELS, Paint, as_bytes, bake, from_light, read_picture
+from shapeviz_report.mesh.paint import MOST_PIXELS, Paint, Picture, as_bytes, bake, from_light, read_picture
 from shapeviz_report.types import Mesh
 
 BOX = trimesh.creation.box(extents=(1, 2, 3))
@@ -192,9 +193,8 @@ def test_pictures_that_are_not_there_or_elsewhere_are_noted(tmp_path, picture) -
     assert noted[LEFT_OUT] == 1
 
 
-def bomb() -> bytes:
+def bomb(side: int = int(MOST_PIXELS**0.5) + 1) -> bytes:
     """A PNG of a few bytes that announces more pixels than are unpacked."""
-    side = int(MOST_PIXELS**0.5) + 1
 
     def chunk(kind: bytes, data: bytes) -> bytes:
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -205,15 +205,29 @@ def bomb() -> bytes:
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"no picture", HALVES[:40], bomb(), b"%!PS-Adobe-3.0 EPSF-3.0\n"], ids=range(5)
+    "content",
+    [b"", b"no picture", HALVES[:40], b"%!PS-Adobe-3.0 EPSF-3.0\n", bomb(), bomb(9_500), bomb(30_000)],
+    ids=range(7),
 )
+@pytest.mark.filterwarnings("error")
 def test_pictures_that_cannot_be_read_are_none(content) -> None:
-    assert read_picture(content) is None
+    why = (
+        "has more than 67,108,864 pixels"
+        if content.startswith(b"\x89PNG") and content != HALVES[:40]
+        else "is no picture"
+    )
+    with pytest.raises(ValueError, match=why):
+        read_picture(content)
+
+
+def test_pictures_of_sixteen_bits() -> None:
+    file = io.BytesIO()
+    Image.fromarray(np.array([[0, 128 << 8, 180 * 257, 65535]], np.uint16)).save(file, "PNG")
+    assert read_picture(file.getvalue())[0].tolist() == [[grey] * 3 for grey in (0, 128, 180, 255)]
 
 
 def test_large_pictures_are_made_smaller() -> None:
     picture = read_picture(png(np.full((10, 3000, 3), 77)))
-    assert picture is not None
     assert picture.shape == (3, 1024, 3)
     assert (picture == 77).all()
 
@@ -280,6 +294,105 @@ def test_pictures_of_gltf(tmp_path) -> None:
     assert facts.repairs[LEFT_OUT] == 1
 
 
+@pytest.mark.parametrize(("wrap", "color"), [({}, RED), ({"wrapS": 33071}, GREEN), ({"wrapS": 33648}, GREEN)])
+def test_pictures_of_gltf_end_as_they_are_told_to(wrap, color) -> None:
+    texture = {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [1, 7]}}}
+    looks = {
+        "materials": [{"pbrMetallicRoughness": {"baseColorTexture": texture}}],
+        "textures": [{"source": 0, "sampler": 0}],
+        "samplers": [wrap],
+        "images": [{"uri": "halves.png"}],
+    }
+    files = gltf({"attributes": {"POSITION": 0, "TEXCOORD_0": 3}, "material": 0}, **looks)
+    np.testing.assert_allclose(colors_of(files | {"halves.png": HALVES}), color, atol=1)
+
+
+def test_a_picture_goes_on_beyond_its_sides() -> None:
+    """Red on the left of one pixel of green, along a strip with two copies on each side."""
+    corners = np.array([[[-2.0, 0, 0], [3, 0, 0], [3, 1, 0]], [[-2, 0, 0], [3, 1, 0], [-2, 1, 0]]])
+    pixels = np.array([[RED, GREEN]], np.uint8)
+    middles = np.array([-0.75, -0.25, 0.25, 0.75, 1.25, 1.75])
+    mesh = Mesh(np.column_stack([middles, np.full((6, 2), [0.5, 0])]), np.empty((0, 3), np.int32))
+    wanted = {"repeat": "RGRGRG", "mirror": "GRRGGR", "clamp": "RRRGGG"}
+    for wrap, letters in wanted.items():
+        paint = Paint(
+            np.full((2, 3, 3), 255, np.uint8), corners[..., :2].astype(np.float32), np.zeros((2, 3), np.int16),
+            (Picture(pixels, (wrap, "repeat")),),
+        )  # fmt: skip
+        # faces without a size, so that a colour is taken at their vertices alone
+        points = replace(mesh, faces=np.repeat(np.arange(6, dtype=np.int32)[:, None], 3, axis=1))
+        assert bake(paint, corners, points).tolist() == [
+            list({"R": RED, "G": GREEN}[letter]) for letter in letters
+        ]
+
+
+def colors_of_material(lines: str, place: str = "0.25 0.5", use: str = "m", **files: bytes) -> np.ndarray:
+    """The colour of a box of one material all over, at one place of its picture."""
+    faces = "".join(f"f {a + 1}/1 {b + 1}/1 {c + 1}/1\n" for a, b, c in BOX.faces)
+    text = "".join(f"v {x} {y} {z}\n" for x, y, z in BOX.vertices)
+    obj = f"mtllib box.mtl\n{text}vt {place}\nusemtl {use}\n{faces}"
+    return colors_of({"box.obj": obj.encode(), "box.mtl": lines.encode(), "halves.png": HALVES})
+
+
+@pytest.mark.parametrize(
+    ("options", "place", "color"),
+    [
+        ("", "1.125 0.5", RED),
+        ("-clamp on", "1.125 0.5", GREEN),
+        ("-blendu off -clamp off -mm 0 1", "1.125 0.5", RED),
+        ("-s 3 1 1 -bm 1.0", "0.25 0.5", GREEN),
+        ("-o 0.5", "0.25 0.5", GREEN),
+        ("-s 2 -o -.5 1e-1 0", "0.375 0.5", RED),
+        ("-t 7", "0.125 0.5", RED),
+    ],
+)
+def test_how_pictures_of_materials_lie(options, place, color) -> None:
+    lines = f"newmtl m\nmap_Kd {options} halves.png\n"
+    np.testing.assert_allclose(colors_of_material(lines, place), color, atol=1)
+
+
+def test_names_of_materials_with_a_hash() -> None:
+    lines = "# Kd 0 0 0\nnewmtl Material #1\nKd 1 0 0\nnewmtl Material #2 # the other\nKd 0 0 1 #blue\n"
+    assert colors_of_material(lines, use="Material #2").tolist() == [0, 0, 255]
+    assert colors_of_material(lines, use="Material #1 # this").tolist() == [255, 0, 0]
+
+
+def test_materials_that_no_file_has_are_told() -> None:
+    files = {"box.obj": b"mtllib box.mtl\n" + CUBE.encode(), "box.mtl": b"newmtl half\nKd 1 0 0\n"}
+    _, paint = parse_painted(files)
+    assert paint().lost == ("plain is a material that its files of materials do not have",)
+
+
+@pytest.mark.parametrize(
+    ("named", "there"),
+    [
+        ("wood.png", "looks/wood.png"),
+        ("pictures/wood.png", "looks/pictures/wood.png"),
+        ("wood.png", "wood.png"),
+        ("pictures/wood.png", "pictures/wood.png"),
+        (r"C:\Users\me\pictures\wood.png", "pictures/wood.png"),
+        ("/home/me/wood.png", "wood.png"),
+        ("../../elsewhere/wood.png", "wood.png"),
+        ("my%20wood.png", "my wood.png"),
+        ("wood#1.png", "wood#1.png"),
+        ("Türholz.png", "Türholz.png"),
+    ],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "utf-16"])
+def test_where_pictures_of_materials_are_looked_for(tmp_path, named, there, encoding) -> None:
+    path = write_obj(tmp_path)
+    path.write_text(path.read_text().replace("box.mtl", "looks/box.mtl"))
+    (tmp_path / "looks").mkdir()
+    (tmp_path / "looks" / "box.mtl").write_bytes(
+        f"newmtl half\nmap_Kd {named}\nnewmtl plain\n".encode(encoding)
+    )
+    (tmp_path / there).parent.mkdir(exist_ok=True)
+    (tmp_path / there).write_bytes(HALVES)
+    _, paint = parse_painted(collect_files(path, tmp_path))
+    assert paint().lost == ()
+    assert len(paint().images) == 1
+
+
 def test_files_of_colours_in_other_letters(tmp_path) -> None:
     path = write_obj(tmp_path, r"Pictures\Two colours.PNG")
     (tmp_path / "box.mtl").rename(tmp_path / "BOX.MTL")
@@ -309,7 +422,7 @@ def test_pictures_without_a_place_on_the_surface_are_told() -> None:
     assert paint().lost == (told,)
     files = {
         "box.obj": b"mtllib a.mtl\n" + CUBE.replace("/1", "").replace("/-3", "").encode(),
-        "a.mtl": b"newmtl half\nmap_Kd halves.png\n",
+        "a.mtl": b"newmtl half\nmap_Kd halves.png\nnewmtl plain\n",
         "halves.png": HALVES,
     }
     _, paint = parse_painted(files)
