@@ -16,6 +16,7 @@ from shapeviz_report.mesh.readers.collada import list_images
 from shapeviz_report.mesh.readers.gltf import GLTF, list_pictures
 from shapeviz_report.mesh.readers.limits import MOST_LOOKS
 from shapeviz_report.mesh.readers.mtl import list_materials, read_materials
+from shapeviz_report.mesh.readers.ply import list_textures
 
 MOST_FILES = 1024
 """Names that are looked for."""
@@ -52,6 +53,8 @@ def collect_looks(suffix: str, data: bytes, read: Read) -> dict[str, bytes]:
         _add(files, read, list_pictures(data))
     elif suffix == ".dae":
         _add(files, read, list_images(data))
+    elif suffix == ".ply":
+        _add(files, read, list_textures(data))
     elif suffix == ".obj":
         _add(files, read, list_materials(data))
         _add(files, read, (name for file, text in list(files.items()) for name in _pictures(text, file)))

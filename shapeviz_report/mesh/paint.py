@@ -104,10 +104,15 @@ class Paint:
         return bool((high == low).all() and int(high.max()) - int(high.min()) <= GREYS)
 
 
-def as_bytes(values: npt.NDArray[np.generic], *, whole: bool) -> Bytes:
-    """Colours (..., 3) in steps of 1/255, of numbers that are such steps (``whole``) or parts of 1."""
-    steps = np.clip(np.nan_to_num(values.astype(np.float64)), 0, 255 if whole else 1) * (1 if whole else 255)
-    return np.round(steps).astype(np.uint8)
+def as_bytes(values: npt.NDArray[np.generic], most: float | None = None) -> Bytes:
+    """Colours (..., 3) in steps of 1/255, of numbers of which one is full; by default what the largest of them tells:
+    1, 255 or 65535. Light a little above 1 is cut off."""
+    numbers: FloatArray = np.nan_to_num(values.astype(np.float64))
+    if most is None:
+        largest = numbers.max(initial=0)
+        most = next((full for full, bound in ((1, 2), (255, 256)) if largest < bound), 65535)
+    parts: FloatArray = np.clip(numbers / most, 0, 1)
+    return np.round(parts * 255).astype(np.uint8)
 
 
 def read_picture(data: bytes) -> Bytes:

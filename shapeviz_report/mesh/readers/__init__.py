@@ -15,7 +15,6 @@ from shapeviz_report.mesh.readers.threemf import read_3mf
 
 READERS: dict[str, Callable[[bytes], PolygonMesh]] = {
     ".off": read_off,
-    ".ply": read_ply,
     ".stl": read_stl,
     ".3mf": read_3mf,
 }
@@ -24,6 +23,7 @@ own."""
 
 READERS_OF_SEVERAL: dict[str, Callable[[bytes, Mapping[str, bytes]], PolygonMesh]] = {
     ".obj": read_obj,
+    ".ply": read_ply,
     ".dae": read_collada,
     ".gltf": read_gltf,
     ".glb": read_gltf,

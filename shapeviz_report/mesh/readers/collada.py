@@ -488,7 +488,7 @@ class _Reader:
         colors = np.broadcast_to(np.array(look.color, np.uint8), (*shape, 3))
         if (values := self.values_of(cut, "COLOR", "")) is not None and values.shape[1] >= 3:
             # some programs write colours of corners that say nothing
-            own = as_bytes(np.nan_to_num(values[:, :3]), whole=bool((values[:, :3] > 1).any()))
+            own = as_bytes(values[:, :3])
             if not Paint(own[cut.places]).is_plain:
                 colors = own[cut.places]
         places = np.zeros((*shape, 2), np.float32)
@@ -549,7 +549,7 @@ class _Reader:
             if known is not None:
                 text = known.findtext("float4") or known.findtext("float3")
             numbers = _numbers(text)[:3]
-            return _Look(tuple(as_bytes(numbers, whole=False).tolist())) if len(numbers) == 3 else _Look()
+            return _Look(tuple(as_bytes(numbers, most=1).tolist())) if len(numbers) == 3 else _Look()
         name = texture.get("texture")
         sampler = parameters.get(name)
         image = None if sampler is None else sampler.find("sampler2D/instance_image")

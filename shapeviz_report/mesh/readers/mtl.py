@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.mesh.paint import Wrap, as_bytes
-from shapeviz_report.mesh.readers.text import decode
+from shapeviz_report.mesh.readers.text import decode, in_utf8
 
 _LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]+)", re.MULTILINE | re.IGNORECASE)
 _OPTION = re.compile(
@@ -56,7 +56,7 @@ def list_materials(data: bytes) -> list[str]:
 def list_libraries(data: bytes) -> list[list[str]]:
     """What files each line of an OBJ may mean that names materials: all of it, and its words if there are several."""
     lines = _LIBRARY.findall(data) if b"mtllib" in data or b"MTLLIB" in data else ()
-    names = [_file_name(line.decode("latin-1")) for line in lines]
+    names = [file_name(line.decode("latin-1")) for line in lines]
     return [[whole, *(whole.split() if " " in whole else ())] for whole in names]
 
 
@@ -72,7 +72,7 @@ def read_materials(data: bytes, file: str) -> dict[str, Material]:
             materials[name] = WHITE
         elif name is not None and keyword.lower() == "kd":
             try:
-                color = as_bytes(np.array(rest.split()[:3], np.float64), whole=False)
+                color = as_bytes(np.array(rest.split()[:3], np.float64), most=1)
             except ValueError:
                 continue
             if color.shape == (3,):
@@ -104,7 +104,7 @@ def _with_picture(material: Material, words: str, folder: str) -> Material:
             for axis, value in enumerate(values[:2]):
                 (scale if name == "s" else offset)[axis] = float(value)
         words = words[option.end() :]
-    picture = _file_name(words)
+    picture = file_name(words)
     if picture and not isabs(picture):
         picture = join(folder, picture)
     return replace(
@@ -112,10 +112,6 @@ def _with_picture(material: Material, words: str, folder: str) -> Material:
     )
 
 
-def _file_name(words: str) -> str:
-    """A name of a file, of bytes that were taken one by one: most programs write UTF-8."""
-    name = plain_name(words).strip('"').replace("\\", "/")
-    try:
-        return name.encode("latin-1").decode()
-    except UnicodeError:
-        return name
+def file_name(words: str) -> str:
+    """A name of a file that stands behind a keyword, ``/`` between folders."""
+    return in_utf8(plain_name(words).strip('"').replace("\\", "/"))

@@ -135,8 +135,7 @@ class _Lines:
 
 def _paint_vertices(rows: str, corners: Indices) -> Paint:
     """Colours that stand behind the positions of vertices, as parts of 1; some programs write them up to 255."""
-    values = parse_columns(rows, 6)[:, 3:]
-    return Paint(as_bytes(values, whole=bool((values > 1).any()))[corners])
+    return Paint(as_bytes(parse_columns(rows, 6)[:, 3:])[corners])
 
 
 def _paint_materials(

@@ -134,8 +134,8 @@ def _read_lines(lines: list[str], vertex_count: int, face_count: int, prefix: st
 
 
 def _read_colors(texts: list[list[str]]) -> npt.NDArray[np.uint8]:
-    """Colours (n, 3) as whole numbers to 255 or parts of 1, which their points tell; white where there is none."""
-    filled = [text if len(text) == 3 else ["1.0"] * 3 for text in texts]
-    parts = np.array([any("." in word for word in text) for text in filled])
-    values = np.array(filled, np.float64)
-    return np.where(parts[:, None], as_bytes(values, whole=False), as_bytes(values, whole=True))
+    """Colours (n, 3), white where there is none."""
+    there = np.array([len(text) == 3 for text in texts])
+    colors = np.full((len(texts), 3), 255, np.uint8)
+    colors[there] = as_bytes(np.array([text for text in texts if len(text) == 3], np.float64))
+    return colors

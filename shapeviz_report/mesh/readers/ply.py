@@ -6,15 +6,17 @@ Trimesh reads binary PLY only where all polygons have the same number of corners
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.errors import MeshError
-from shapeviz_report.mesh.paint import Paint, as_bytes
+from shapeviz_report.mesh.paint import Paint, Pictures, as_bytes
 from shapeviz_report.mesh.readers.polygons import Indices, PolygonMesh, whole_numbers
-from shapeviz_report.mesh.readers.text import decode, parse_numbers, without_mark
+from shapeviz_report.mesh.readers.text import decode, in_utf8, parse_numbers, without_mark
 
 Values = npt.NDArray[np.generic]
 Column = tuple[Indices, Values]
@@ -31,6 +33,8 @@ _MOST_HEADER = 2**20
 """Bytes within which a header ends."""
 _CORNER_NAMES = ("vertex_indices", "vertex_index")
 _COLOR_NAMES = (("red", "green", "blue"), ("r", "g", "b"), ("diffuse_red", "diffuse_green", "diffuse_blue"))
+_PLACE_NAMES = (("texture_u", "texture_v"), ("s", "t"), ("u", "v"))
+_TEXTURE = re.compile(r"[ \t]*comment[ \t]+texturefile[ \t]+(.+)", re.IGNORECASE)
 _STRIP_NAMES = ("tristrips", "tristrip")
 
 
@@ -111,8 +115,14 @@ class BinaryBody:
         return [rows[name] for name in dtype.names or ()]
 
 
-def read_ply(data: bytes) -> PolygonMesh:
+def read_ply(data: bytes, files: Mapping[str, bytes]) -> PolygonMesh:
     """Read PLY, text or binary of either byte order.
+
+    Parameters
+    ----------
+    data : bytes
+    files : mapping of str to bytes
+        By the names that :func:`list_textures` gives: those of its pictures that were found.
 
     Raises
     ------
@@ -148,30 +158,90 @@ def read_ply(data: bytes) -> PolygonMesh:
     all_sizes = np.concatenate([np.empty(0, np.int64), *(sizes for sizes, _ in polygons)])
     kinds = {listed.name: listed.kind for element in elements for listed in element.properties}
 
-    def paint() -> Paint:
-        if of_vertices := _colors(contents["vertex"], kinds):
-            return Paint(of_vertices[0][all_corners])
-        (of_faces,) = _colors(contents["face"], kinds)
-        return Paint(np.repeat(of_faces, all_sizes, axis=0))
-
+    of_vertices = _color_names(contents["vertex"])
     # strips have no faces whose colours there could be
-    painted = _has_colors(contents["vertex"]) or (
-        len(polygons) == 1 and _has_colors(contents.get("face", {}))
-    )
+    of_faces = _color_names(contents["face"]) if len(polygons) == 1 and "face" in contents else ()
+
+    textures = _textures(header)
+
+    def paint() -> Paint:
+        found = Paint(np.full((len(all_corners), 3), 255, np.uint8))
+        if of_vertices:
+            found = Paint(_colors(contents["vertex"], of_vertices, kinds)[all_corners])
+        # some programs write white vertices beside the colours of faces
+        if of_faces and found.is_plain:
+            found = Paint(np.repeat(_colors(contents["face"], of_faces, kinds), all_sizes, axis=0))
+        face = contents.get("face", {}) if len(polygons) == 1 else {}
+        return _with_pictures(found, textures, files, contents["vertex"], face, all_corners, all_sizes)
+
+    painted = of_vertices or of_faces or textures
     return PolygonMesh(vertices, all_corners, all_sizes, paint=paint if painted else None)
 
 
-def _has_colors(columns: dict[str, Column]) -> bool:
-    return any(columns.keys() >= set(names) for names in _COLOR_NAMES)
+def list_textures(data: bytes) -> list[str]:
+    """The pictures that a PLY names; none of what has no header."""
+    try:
+        return _textures(_split_header(without_mark(data))[0])
+    except MeshError:
+        return []
 
 
-def _colors(columns: dict[str, Column], kinds: dict[str, str]) -> list[npt.NDArray[np.uint8]]:
-    """The colours of an element's rows, if it has some: those of the first names that are there."""
-    found = [names for names in _COLOR_NAMES if columns.keys() >= set(names)]
-    return [
-        as_bytes(np.column_stack([columns[name][1] for name in names]), whole=kinds[names[0]][0] != "f")
-        for names in found[:1]
-    ]
+def _textures(header: str) -> list[str]:
+    """The pictures that comments name, as MeshLab writes them: others count them from 0."""
+    found = (_TEXTURE.match(line) for line in header.split("\n"))
+    return [in_utf8(match[1].strip()).replace("\\", "/") for match in found if match]
+
+
+def _with_pictures(
+    paint: Paint,
+    names: Sequence[str],
+    files: Mapping[str, bytes],
+    vertex: dict[str, Column],
+    face: dict[str, Column],
+    corners: Indices,
+    sizes: Indices,
+) -> Paint:
+    """A paint with pictures in place of its colours where there are some, at the places of corners of faces or else of
+    vertices."""
+    pictures = Pictures()
+    numbers = [pictures.place(name, name, partial(files.get, name)) for name in names]
+    if not pictures.images:
+        return replace(paint, lost=tuple(pictures.lost))
+    faces = np.repeat(np.arange(len(sizes)), sizes)
+    places = np.full((len(corners), 2), np.nan)
+    of_vertices = next((pair for pair in _PLACE_NAMES if vertex.keys() >= set(pair)), None)
+    if "texcoord" in face:
+        lengths, values = face["texcoord"]
+        begins = np.cumsum(lengths) - lengths
+        there = (lengths == 2 * sizes)[faces]
+        first = (begins[faces] + 2 * (np.arange(len(corners)) - (np.cumsum(sizes) - sizes)[faces]))[there]
+        places[there] = values[first[:, None] + [0, 1]]
+    elif of_vertices is not None:
+        places = np.column_stack([vertex[name][1] for name in of_vertices]).astype(np.float64)[corners]
+    which = face["texnumber"][1].astype(np.int64)[faces] if "texnumber" in face else np.zeros_like(corners)
+    used = np.isfinite(places).all(axis=1) & (which >= 0) & (which < len(names))
+    shown = np.where(used, np.array(numbers, np.int16)[np.where(used, which, 0)], np.int16(-1))
+    for number, name in enumerate(names):
+        if numbers[number] >= 0 and numbers[number] not in shown:
+            pictures.miss_places(name)
+    return Paint(
+        np.where((shown >= 0)[:, None], np.uint8(255), paint.colors),
+        (np.where(used[:, None], places, 0) * [1, -1] + [0, 1]).astype(np.float32),
+        shown,
+        tuple(pictures.images),
+        tuple(pictures.lost),
+    )
+
+
+def _color_names(columns: dict[str, Column]) -> tuple[str, ...]:
+    """What the colours of an element are called: the first names that are there, if any."""
+    return next((names for names in _COLOR_NAMES if columns.keys() >= set(names)), ())
+
+
+def _colors(columns: dict[str, Column], names: Sequence[str], kinds: dict[str, str]) -> npt.NDArray[np.uint8]:
+    """The colours (n, 3) of an element's rows."""
+    bytes_only = kinds[names[0]] == "u1"
+    return as_bytes(np.column_stack([columns[name][1] for name in names]), most=255 if bytes_only else None)
 
 
 def _check_rest(body: TextBody | BinaryBody, row: float | None) -> None:

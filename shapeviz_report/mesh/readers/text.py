@@ -56,6 +56,14 @@ def decode(data: bytes) -> str:
     return text.replace("\0", " ").replace("\x1a", " ")
 
 
+def in_utf8(name: str) -> str:
+    """A name of which :func:`decode` took the bytes one by one, though most programs write UTF-8."""
+    try:
+        return name.encode("latin-1").decode()
+    except UnicodeError:
+        return name
+
+
 def without_mark(data: bytes) -> bytes:
     """A file that may be binary behind a header of text, without a byte order mark; as bytes again if it is UTF-16 or
     UTF-32, which only text can be."""

@@ -169,7 +169,104 @@ def test_colours_of_vertices_beside_a_material_that_says_nothing(material) -> No
 
 @pytest.mark.filterwarnings("error")
 def test_colours_beyond_all_bounds() -> None:
-    assert as_bytes(np.array([1e308, -1e308, np.nan]), whole=False).tolist() == [255, 0, 0]
+    assert as_bytes(np.array([1e308, -1e308, np.nan]), most=1).tolist() == [255, 0, 0]
+    assert as_bytes(np.array([np.inf, -1e308, np.nan])).tolist() == [255, 0, 0]
+    assert as_bytes(np.empty((0, 3))).shape == (0, 3)
+
+
+@pytest.mark.parametrize("full", [1, 255, 65535])
+@pytest.mark.parametrize("form", ["off", "coff", "obj", "ply"])
+def test_what_a_full_colour_is_the_largest_number_tells(form, full) -> None:
+    """Also where some rows have whole numbers only."""
+    rows = [" ".join(f"{x:g}" for x in vertex) for vertex in BOX.vertices]
+    colors = ["0 0 0", f"{full} 0 0", f"0 {full / 5:g} {full}", *[f"0 {full} 0"] * 9]
+    faces = [f"3 {a} {b} {c}" for a, b, c in BOX.faces]
+    colored = [f"{row} {color}" for row, color in zip(rows, colors)]
+    head = "ply\nformat ascii 1.0\nelement vertex 8\n" + "".join(f"property float {axis}\n" for axis in "xyz")
+    head += "".join(f"property float {name}\n" for name in ("red", "green", "blue"))
+    texts = {
+        "off": ["OFF\n8 12 0", *rows, *(f"{face} {color}" for face, color in zip(faces, colors))],
+        "coff": ["COFF\n8 12 0", *colored, *faces],
+        "obj": [*(f"v {row}" for row in colored), *(f"f {a + 1} {b + 1} {c + 1}" for a, b, c in BOX.faces)],
+        "ply": [
+            head + "element face 12\nproperty list uchar int vertex_indices\nend_header",
+            *colored,
+            *faces,
+        ],
+    }
+    mesh, paint = parse_painted({f"a.{form.removeprefix('c')}": "\n".join(texts[form]).encode()})
+    wanted = np.array([(0, 0, 0), (255, 0, 0), (0, 51, 255), *[(0, 255, 0)] * 9])
+    wanted = np.repeat(wanted[:, None], 3, axis=1) if form == "off" else wanted[mesh.faces]
+    np.testing.assert_array_equal(paint().colors, wanted)
+
+
+def ply_of_faces(
+    of_vertex: str, of_face: str, head: str = "", more: dict[str, str] | None = None
+) -> dict[str, bytes]:
+    """A box as PLY, with what its header says of vertices and faces besides, and these on every row."""
+    kinds = {
+        **dict.fromkeys(["red", "green", "blue"], "uchar"),
+        "texnumber": "int",
+        "texcoord": "list uchar float",
+    }
+
+    def told(words: str) -> str:
+        return "".join(f"property {kinds.get(word, 'float')} {word}\n" for word in words.split())
+
+    more = more or {}
+    lines = [
+        f"ply\nformat ascii 1.0\n{head}element vertex 8\n{told('x y z')}{told(of_vertex)}"
+        f"element face 12\nproperty list uchar int vertex_indices\n{told(of_face)}end_header",
+        *(
+            " ".join([*map(str, vertex), *(more[word] for word in of_vertex.split())])
+            for vertex in BOX.vertices
+        ),
+        *(" ".join(["3", *map(str, face), *(more[word] for word in of_face.split())]) for face in BOX.faces),
+    ]
+    return {"a.ply": "\n".join(lines).encode()}
+
+
+def test_white_vertices_of_ply_say_nothing_over_colours_of_faces() -> None:
+    white = dict.fromkeys(["red", "green", "blue"], "255")
+    files = ply_of_faces("red green blue", "red green blue", more=white)
+    files["a.ply"] = re.sub(rb"^(3 .*) 255 255 255$", rb"\1 10 200 30", files["a.ply"], flags=re.MULTILINE)
+    np.testing.assert_array_equal(colors_of(files), (10, 200, 30))
+
+
+@pytest.mark.parametrize(
+    ("of_vertex", "of_face", "color"),
+    [
+        ("s t", "", GREEN),
+        ("texture_u texture_v", "red green blue", GREEN),
+        ("u v red green blue", "", GREEN),
+        ("s t", "texcoord", RED),
+        ("", "texcoord texnumber", (0, 0, 255)),
+    ],
+)
+def test_pictures_of_ply(tmp_path, of_vertex, of_face, color) -> None:
+    more = {"texcoord": "6 0.2 1 0.3 1 0.2 0.5", "texnumber": "1", "red": "9", "green": "99", "blue": "7"}
+    more |= dict.fromkeys(["s", "u", "texture_u"], "0.75") | dict.fromkeys(["t", "v", "texture_v"], "0.5")
+    head = "comment TextureFile Türen/two colours.png\ncomment TextureFile blue.png\n"
+    (tmp_path / "a.ply").write_bytes(ply_of_faces(of_vertex, of_face, head, more)["a.ply"])
+    (tmp_path / "Türen").mkdir()
+    (tmp_path / "Türen" / "two colours.png").write_bytes(HALVES)
+    (tmp_path / "blue.png").write_bytes(png(np.full((2, 2, 3), (0, 0, 255))))
+    files = collect_files(tmp_path / "a.ply", tmp_path)
+    np.testing.assert_allclose(colors_of(files), color, atol=1)
+    unused = "Türen/two colours.png" if "texnumber" in of_face else "blue.png"
+    assert parse_painted(files)[1]().lost == (
+        f"{unused} has no place on the surface, which lacks texture coordinates",
+    )
+    assert len(parse_painted({"a.ply": files["a.ply"]})[1]().lost) == 2
+
+
+@pytest.mark.parametrize("texcoord", ["0", "2 1 1", "6 nan nan 0 0 0 0"])
+def test_places_in_pictures_of_ply_that_are_none(texcoord) -> None:
+    more = {"texcoord": texcoord, "texnumber": "-1", "red": "9", "green": "99", "blue": "7"}
+    for of_face in ("red green blue texcoord", "red green blue texcoord texnumber"):
+        files = ply_of_faces("", of_face, "comment TextureFile halves.png\n", more) | {"halves.png": HALVES}
+        mesh, _ = prepare(files, 0.03)
+        assert mesh.colors is not None
 
 
 def lights(*colors) -> list[np.ndarray]:
