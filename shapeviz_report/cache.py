@@ -74,6 +74,10 @@ class Cache:
         """Where the entry of a stage with a key is or would be."""
         return self.root / stage / key[:2] / key[2:]
 
+    def holds(self, stage: str, key: str) -> bool:
+        """Whether there is an entry, be it whole or not."""
+        return (stage, key) in self._held or os.path.isfile(self.path(stage, key))
+
     def load(self, stage: str, key: str) -> bytes | None:
         """The content of an entry, exactly as it was stored; None if there is none.
 

@@ -34,7 +34,7 @@ from shapeviz_report.building.questions import (
     search_subsets,
 )
 from shapeviz_report.building.reading import load_all_coordinates, load_all_external, read_published
-from shapeviz_report.building.runner import Runner, name_files
+from shapeviz_report.building.runner import Made, Runner, name_files
 from shapeviz_report.building.workers import find_renderer, open_executor
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
@@ -277,8 +277,8 @@ def build_report(
     def recalled(
         stage: stages.Stage[Any], read: Callable[[bytes], bytes], keys: Iterable[str]
     ) -> Sequence[bytes]:
-        plans = (partial(plan, s.id) for s in shapes)
-        return Recalled(run, stage, read, list(zip(keys, plans, strict=True)))
+        made = [Made(s.id, key, partial(plan, s.id)) for s, key in zip(shapes, keys, strict=True)]
+        return Recalled(run, stage, read, made)
 
     models_shown, exported_files = None, None
     if config.meshes:
@@ -336,7 +336,7 @@ class Recalled(Sequence[bytes]):
         run: Runner,
         stage: stages.Stage[Any],
         read: Callable[[bytes], bytes],
-        made: Sequence[tuple[str, Callable[[], Plan]]],
+        made: Sequence[Made],
     ) -> None:
         self._run = run
         self._stage = stage
@@ -353,5 +353,4 @@ class Recalled(Sequence[bytes]):
     def __getitem__(self, place: int | slice) -> bytes | Sequence[bytes]:
         if isinstance(place, slice):
             return Recalled(self._run, self._stage, self._read, self._made[place])
-        key, plan = self._made[place]
-        return self._read(self._run.recall(self._stage, key, plan))
+        return self._read(self._run.recall(self._stage, self._made, place))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import count
@@ -17,6 +18,8 @@ from shapeviz_report.config import Config
 from shapeviz_report.errors import DatabaseError, MeshError
 from shapeviz_report.executor import Executor
 from shapeviz_report.types import Database, Failure, ShapeEntry
+
+logger = logging.getLogger(__name__)
 
 Name = TypeVar("Name", bound=Hashable)
 R = TypeVar("R")
@@ -41,6 +44,24 @@ class Task:
     def of(cls, key: str, *arguments: Any) -> Task:
         """One whose arguments are at hand."""
         return cls(key, lambda: arguments)
+
+
+@dataclass(frozen=True)
+class Made:
+    """A result that was made.
+
+    Attributes
+    ----------
+    shape : str
+    key : str
+        Of the result, in the cache.
+    plan : callable
+        Gives the chain that leads to it.
+    """
+
+    shape: str
+    key: str
+    plan: Callable[[], Plan]
 
 
 class Runner:
@@ -316,35 +337,62 @@ class Runner:
             else:
                 drop(name, outcome.reason, outcome.cpu_seconds)
 
-    def recall(self, stage: Stage[Any], key: str, plan: Callable[[], Plan]) -> bytes:
-        """A result that was there a moment ago, computed anew if the cache has lost it.
+    def recall(self, stage: Stage[Any], made: Sequence[Made], place: int) -> bytes:
+        """A result that was there a moment ago. What the cache has lost of it and of those that follow is made again.
 
         Parameters
         ----------
         stage : Stage
-        key : str
-        plan : callable
-            The chain that leads to it.
+        made : sequence of Made
+            Results of the stage, in the order in which they are asked for.
+        place : int
 
         Raises
         ------
         MeshError
             It cannot be had again: the mesh has changed or gone, or fails this time.
         """
-        content = self._cache.load(stage.folder, key)
+        content = self._cache.load(stage.folder, made[place].key)
         if content is None:
-            chain, files = plan()
-            if chain.key(stage) != key:
-                raise MeshError("its file was changed while it was used; build again")
-            task = self._task(chain, files, [stage], {})
-            # The executor may be in the middle of a stage, so this rare task has a worker of its own.
-            with open_workers(self._config, 1) as executor:
-                (outcome,) = executor.run(work_through, [task] if task else [])
-            if outcome.reason is not None or outcome.value.refused:
-                raise MeshError(outcome.reason or outcome.value.refused[1])
-            content = outcome.value.results[stage.folder]
-            self._cache.store(stage.folder, key, content)
+            content = self._make_again(stage, made[place:])
         return content
+
+    def _make_again(self, stage: Stage[Any], made: Sequence[Made]) -> bytes:
+        """The first of some results, of which the cache has lost this one and perhaps others; all of them are made."""
+        logger.warning("Note: results have gone from the cache %s; they are made again.", self._cache.root)
+        sent: list[Made] = []
+        first = b""
+
+        def refuse(one: Made, reason: str) -> MeshError:
+            return MeshError(f"{self._files[one.shape]} cannot be used again: {reason}")
+
+        def open_tasks() -> Iterator[tuple[Any, ...]]:
+            for one in made:
+                if sent and self._cache.holds(stage.folder, one.key):
+                    continue
+                try:
+                    chain, files = one.plan()
+                except MeshError as error:
+                    raise refuse(one, str(error)) from error
+                if chain.key(stage) != one.key:
+                    raise refuse(one, "it was changed while it was used; build again")
+                task = self._task(chain, files, [stage], {})
+                assert task is not None
+                sent.append(one)
+                yield task
+
+        # The executor may have been closed, or be in the middle of a stage.
+        with open_workers(self._config, self._config.worker_count) as executor:
+            for outcome in executor.run(work_through, open_tasks()):
+                one = sent[outcome.index]
+                reason = outcome.reason or (outcome.value.refused or ("", ""))[1]
+                if reason:
+                    raise refuse(one, reason)
+                content = outcome.value.results[stage.folder]
+                self._cache.store(stage.folder, one.key, content)
+                if outcome.index == 0:
+                    first = content
+        return first
 
 
 def _refuses(stage: Stage[Any], content: bytes | None) -> bool:

@@ -23,10 +23,15 @@ from small_database import OPTIONS, WITH_SEARCH, make_shape, read_site, write_da
 
 import shapeviz_report
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.errors import ConfigError, DatabaseError, SiteError
+from shapeviz_report.building import runner, workers
+from shapeviz_report.building.pipeline import build_report
+from shapeviz_report.building.progress import QuietProgress
+from shapeviz_report.config import Config
+from shapeviz_report.errors import ConfigError, DatabaseError, ShapevizError, SiteError
 from shapeviz_report.features import BINS
 from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.projections import PROJECTIONS
+from shapeviz_report.pruning import list_entries, remove
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
 from shapeviz_report.search.bins import affordable_deals, find_minimal_bins, make_bin_space
 
@@ -114,6 +119,52 @@ def test_only_a_changed_mesh_is_computed_again(database, own_cache, built, tmp_p
         new = entries(own_cache, stage)
         assert {p: new[p] for p in old} == old, "an entry was written again"
         assert len(new) == len(old) + 1
+
+
+class Writing(QuietProgress):
+    """Calls a function before the site is written."""
+
+    def __init__(self, act) -> None:
+        self.act = act
+
+    def stage(self, doing, total):
+        if doing == "Writing the site":
+            self.act()
+        return super().stage(doing, total)
+
+
+def test_what_a_pruned_cache_has_lost_is_made_again_by_all_processes(
+    built, database, own_cache, tmp_path, monkeypatch, caplog
+) -> None:
+    opened = []
+
+    def open_workers(config, jobs):
+        opened.append(jobs)
+        return workers.open_workers(config, jobs)
+
+    def prune() -> None:
+        assert remove(list_entries(own_cache))[0] > 100
+        monkeypatch.setattr(runner, "open_workers", open_workers)
+
+    config = Config(cache=own_cache, **WITH_SEARCH | {"jobs": 2})
+    build_report(database, tmp_path / "site", config, Writing(prune))
+    assert read_site(built[0]) == read_site(tmp_path / "site")
+    assert opened == [2], "neither a worker a shape, nor one worker for all"
+    assert len(entries(own_cache, "described")) == 15
+    assert caplog.messages == [f"Note: results have gone from the cache {own_cache}; they are made again."]
+
+
+def test_a_mesh_that_goes_with_its_results_is_named(database, own_cache, tmp_path) -> None:
+    copy = Path(shutil.copytree(database, tmp_path / "Some solids"))
+
+    def prune() -> None:
+        shutil.rmtree(own_cache)
+        (copy / "ring" / "2.off").unlink()
+
+    config = Config(cache=own_cache, **OPTIONS)
+    with pytest.raises(ShapevizError, match=r"^ring/2\.off cannot be used again: "):
+        build_report(copy, tmp_path / "site", config, Writing(prune))
+    assert not (tmp_path / "site").exists()
 
 
 def test_killed_at_any_moment_a_second_run_continues(database, unsearched, tmp_path) -> None:
