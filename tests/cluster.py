@@ -47,11 +47,11 @@ class Cluster:
             time.sleep(0.05)
         self.address = json.loads(self._file.read_text())["address"]
 
-    def add_worker(self) -> None:
-        """Start a worker of one thread, in an empty folder, with an empty cache."""
+    def add_worker(self, modules: Path | None = None) -> None:
+        """Start a worker of one thread, in an empty folder, with an empty cache; modules of a folder come first."""
         name = f"worker-{len(self.workers)}"
         options = ["--nthreads", "1", "--no-nanny", "--no-dashboard", "--name", name]
-        self.workers.append(self._start(name, "worker", self.address, *options))
+        self.workers.append(self._start(name, "worker", self.address, *options, modules=modules))
 
     def stop(self) -> None:
         """End everything."""
@@ -59,14 +59,16 @@ class Cluster:
             process.kill()
             process.wait()
 
-    def _start(self, name: str, *command: str) -> subprocess.Popen:
+    def _start(self, name: str, *command: str, modules: Path | None = None) -> subprocess.Popen:
         home = self._folder / name
         home.mkdir()
         environment = os.environ | {
             "HOME": str(home),
             "XDG_CACHE_HOME": str(home / "cache"),
             # For `lack_something`; and our own package, whatever puts it on the path here.
-            "PYTHONPATH": os.pathsep.join([str(Path(__file__).parent), *sys.path]),
+            "PYTHONPATH": os.pathsep.join(
+                [*([str(modules)] if modules else []), str(Path(__file__).parent), *sys.path]
+            ),
         }
         with (self._folder / f"{name}.log").open("wb") as log:
             return subprocess.Popen(
@@ -77,6 +79,16 @@ class Cluster:
                 stderr=log,
                 stdin=subprocess.DEVNULL,
             )
+
+
+def same_everywhere() -> dict[str, str]:
+    """Versions that agree."""
+    return {"all": "1"}
+
+
+def other_everywhere() -> dict[str, str]:
+    """Versions that differ from process to process."""
+    return {"process": str(os.getpid()), "all": "1"}
 
 
 def lack_something() -> None:

@@ -9,8 +9,10 @@ from __future__ import annotations
 import gzip
 import io
 import json
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
+from importlib.metadata import version
 from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -38,6 +40,7 @@ from shapeviz_report.mesh import clean, content_hash, parse_mesh, parse_painted,
 from shapeviz_report.mesh.clean import bounding_diagonal
 from shapeviz_report.models import pack_model, simplify
 from shapeviz_report.neighbours import RELATED, find_related
+from shapeviz_report.plugins import find_plugins
 from shapeviz_report.projections import project
 from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.render import (
@@ -67,7 +70,13 @@ from shapeviz_report.types import (
     ShapeFacts,
     UpAxis,
 )
-from shapeviz_report.versions import function_version
+from shapeviz_report.versions import (
+    find_closure,
+    function_version,
+    library_versions,
+    plugin_versions,
+    source_version,
+)
 
 R = TypeVar("R")
 
@@ -523,9 +532,16 @@ PAINT = Stage(
 )  # fmt: skip
 
 
-def fingerprint() -> str:
-    """A name for all code that can decide a result, equal on machines that give the same ones."""
-    return make_key(*(kept.version for kept in globals().values() if isinstance(kept, Stage)))
+def fingerprint() -> dict[str, str]:
+    """The versions of all that can decide a result, by name, equal on machines that give the same ones."""
+    closure = find_closure(__name__)
+    return {
+        "shapeviz-report": f"{version('shapeviz-report')}, code {source_version(__name__)[:8]}",
+        **{plugin.package: plugin.version for plugin in find_plugins()},
+        "code of plug-ins": make_key(*plugin_versions(closure.modules))[:8],
+        "Python": f"{sys.version_info.major}.{sys.version_info.minor}",
+        **dict(text.split(" ") for text in library_versions(closure.libraries)),
+    }
 
 
 def _pack(mesh: Mesh, note: dict[str, object]) -> bytes:

@@ -7,14 +7,17 @@ the cluster's worker.
 
 from __future__ import annotations
 
+import asyncio
+import logging
 import os
 import queue
 import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import CancelledError
-from contextlib import suppress
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import CancelledError, Future
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice
 from threading import Lock
@@ -25,11 +28,25 @@ from shapeviz_report.executor.base import Outcome
 from shapeviz_report.executor.local import LocalExecutor
 from shapeviz_report.executor.memory import memory_share
 
+logger = logging.getLogger(__name__)
+
 ANSWER_TIME = 15.0
 """Seconds that a scheduler has to answer at the beginning, and the workers at the end."""
 
+PARTING_TIME = 2.0
+"""The same at an end that somebody waits for, or that a failure brings."""
+
+STARTING_TIME = 300.0
+"""Seconds in which a worker can say what it is, though it may have to compile first."""
+
+SILENCE = 30.0
+"""Seconds without an answer of the scheduler after which the build says so. It waits on."""
+
 PATIENCE = 60.0
 """Seconds to wait for a worker when a cluster has none."""
+
+MOST_NAMED = 4
+"""Differences of a worker that are named."""
 
 TASKS_A_THREAD = 2
 """Tasks that a thread of the cluster has at hand: one to do while the next is on its way."""
@@ -39,6 +56,9 @@ LOOK_AGAIN = 5.0
 
 LATE = 4.0
 """A task is late after so many times what the slowest one took, when no other one waits."""
+
+LOSSES = 3
+"""Times that all workers which may have a task may end with it, as Dask has it of single ones."""
 
 _GONE = (
     "The Dask scheduler has gone. What was computed is kept: start it and its workers again, then the same command "
@@ -58,10 +78,10 @@ class DaskExecutor:
     memory_limit : int or None
         Bytes of memory that one task may take; None for a core's share of what its machine has.
     fingerprint : callable
-        Without arguments; returns a text that is the same here and on every worker that may take part.
+        Without arguments; returns versions by name, the same ones here and on every worker that may take part.
     check : callable
         Without arguments; raises a :class:`ShapevizError` on a worker that lacks something. Both are called
-        before a worker's first task.
+        before a worker's first task. One that may not take part is told of once, and gets none.
 
     Raises
     ------
@@ -78,7 +98,7 @@ class DaskExecutor:
         address: str,
         time_limit: float,
         memory_limit: int | None,
-        fingerprint: Callable[[], str],
+        fingerprint: Callable[[], Mapping[str, str]],
         check: Callable[[], Any],
     ) -> None:
         try:
@@ -90,6 +110,10 @@ class DaskExecutor:
             ) from error
         self.limits = (time_limit, memory_limit)
         self._expected = (fingerprint, fingerprint(), check)
+        self._address = address
+        self._asked: dict[str, Future[dict[str, Any]]] = {}
+        self._accepted: set[str] = set()
+        self._refused: dict[str, str] = {}
         try:
             # A client keeps its last messages for developers, a thousand of up to a megabyte: ours hold mesh files.
             with dask.config.set({"distributed.admin.low-level-log-length": 0}):
@@ -104,14 +128,21 @@ class DaskExecutor:
     def __enter__(self) -> DaskExecutor:
         return self
 
-    def __exit__(self, *_: object) -> None:
-        # What the scheduler's end leaves undone ends with the workers.
+    def __exit__(
+        self,
+        kind: type[BaseException] | None = None,
+        error: BaseException | None = None,
+        trace: object = None,
+    ) -> None:
+        # What the scheduler's end leaves undone ends with the workers; a frozen one, or a frozen worker, never answers.
+        patience = ANSWER_TIME if kind is None else PARTING_TIME
+        for answer in self._asked.values():
+            answer.cancel()
         with suppress(OSError, TimeoutError):
             if self._client.status == "running":
-                # a frozen worker never answers
-                self._client.run(_release, on_error="ignore", callback_timeout=ANSWER_TIME)
+                self._client.run(_release, on_error="ignore", callback_timeout=patience)
         with suppress(OSError, TimeoutError):
-            self._client.close()
+            self._client.close(timeout=patience)
 
     def run(
         self, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]], patience: float = 1.0
@@ -133,21 +164,33 @@ class DaskExecutor:
         running: dict[Any, _Sent] = {}
         longest: float | None = None
 
-        def send(index: int, task: tuple[Any, ...], workers: list[str] | None = None) -> None:
+        def send(index: int, task: tuple[Any, ...], workers: Iterable[str], lost: int = 0) -> _Sent:
+            sent = _Sent(index, task, time.monotonic(), tuple(workers), lost)
             with warnings.catch_warnings():
                 # Dask would have what is large scattered beforehand, where it is lost with a worker.
                 warnings.filterwarnings("ignore", message="Sending large graph")
                 future = self._client.submit(
-                    _run_there, self._expected, limits, function, task, pure=False, workers=workers
+                    _run_there, limits, function, task, pure=False, workers=sent.workers
                 )
-            running[future] = _Sent(index, task, time.monotonic(), second=workers is not None)
+            running[future] = sent
             future.add_done_callback(done.put)
+            return sent
 
         try:
             while True:
-                room = TASKS_A_THREAD * self._threads() - len(running)
+                threads = self._threads()
+                for future, sent in list(running.items()):
+                    # Dask would wait for one of just these to come back.
+                    if threads.keys().isdisjoint(sent.workers):
+                        del running[future]
+                        future.cancel()
+                        if sent.lost == LOSSES:
+                            yield _fatal(sent.index, LOSSES + 1)
+                        else:
+                            send(sent.index, sent.task, threads, sent.lost + 1)
+                room = TASKS_A_THREAD * sum(threads.values()) - len(running)
                 for index, task in islice(waiting, max(0, room)):
-                    send(index, task)
+                    send(index, task, threads)
                     room -= 1
                 if not running:
                     return
@@ -170,21 +213,11 @@ class DaskExecutor:
                 try:
                     outcome = future.result()
                 except KilledWorker as error:
-                    reason = (
-                        f"{error.allowed_failures + 1} workers of the cluster ended while they worked on it"
-                    )
-                    yield Outcome(index, None, reason, 0.0)
+                    yield _fatal(index, error.allowed_failures + 1)
                     continue
                 except CancelledError as error:
                     raise ClusterError(_GONE) from error
-                except ModuleNotFoundError as error:
-                    if (error.name or "").partition(".")[0] != __package__.partition(".")[0]:
-                        raise
-                    raise ClusterError(
-                        "A worker of the Dask cluster cannot import shapeviz_report. Install the same version of "
-                        "shapeviz-report[dask] where the workers run."
-                    ) from error
-                yield Outcome(index, outcome.value, outcome.reason, outcome.cpu_seconds)
+                yield replace(outcome, index=index)
         except CommClosedError as error:
             raise ClusterError(_GONE) from error
         finally:
@@ -192,30 +225,120 @@ class DaskExecutor:
                 for future in running:
                     future.cancel()
 
-    def _threads(self) -> int:
-        """Threads that the cluster has now; waits for the first one."""
+    def _threads(self) -> dict[str, int]:
+        """The workers that may be used now, with their threads; waits for the first one."""
         end = time.monotonic() + PATIENCE
-        while time.monotonic() < end:
+        while True:
+            found: dict[str, int] = self._ask("ncores")
+            pending = self._vet(found)
+            threads = {worker: count for worker, count in found.items() if worker in self._accepted}
+            if sum(threads.values()):
+                return threads
+            if pending:
+                end = time.monotonic() + PATIENCE
+            else:
+                late = time.monotonic() >= end
+                refusals = [why for worker, why in self._refused.items() if worker in found]
+                if refusals and (late or not self._accepted):
+                    raise ClusterError(refusals[0])
+                if late:
+                    raise ClusterError(
+                        f"The Dask cluster has had no worker for {PATIENCE:g} seconds. What was computed is kept: "
+                        "start workers ('dask worker ADDRESS'), then the same command continues."
+                    )
+            time.sleep(0.1 if pending else 0.5)
+
+    def _vet(self, workers: Iterable[str]) -> bool:
+        """Ask those workers that are new what they are, and hear what others answered; whether one has yet to answer.
+
+        They are asked before they get a task: one without our package would end at that, and Dask counts such an end
+        against the task.
+        """
+        function, _, check = self._expected
+        pending = False
+        for worker in workers:
+            if worker in self._accepted or worker in self._refused:
+                continue
+            if worker not in self._asked:
+                question = self._client.run(
+                    _tell,
+                    function,
+                    check,
+                    self.limits[1],
+                    workers=[worker],
+                    on_error="return",
+                    asynchronous=True,
+                )
+                loop = self._client.loop.asyncio_loop
+                self._asked[worker] = asyncio.run_coroutine_threadsafe(question, loop)
+            if self._asked[worker].done():
+                self._judge(worker, self._asked.pop(worker))
+            else:
+                pending = True
+        return pending
+
+    def _judge(self, worker: str, answer: Future[dict[str, Any]]) -> None:
+        """Accept or refuse a worker; one that went meanwhile is asked again when it is back."""
+        try:
+            told = answer.result()[worker]
+        except (OSError, LookupError):
+            return
+        if isinstance(told, OSError):
+            return
+        if isinstance(told, Exception):
+            why = (
+                f"has not this version of shapeviz-report ({told}). Install shapeviz-report[dask] there as it is here, "
+                "with the same constraints file, and start it again."
+            )
+        elif told.reason is not None:
+            why = f"cannot take part: {told.reason}"
+        elif told.value != self._expected[1]:
+            why = (
+                "has other versions of shapeviz-report, of its plug-ins or of its libraries than this machine, so its "
+                f"results would differ: {_differences(told.value, self._expected[1])}. Install the same ones on both, "
+                "with the same constraints file, and start it again."
+            )
+        else:
+            self._accepted.add(worker)
+            return
+        self._refused[worker] = f"The worker {worker} {why}"
+        logger.warning("%s Meanwhile it is not used.", self._refused[worker])
+
+    def _ask(self, question: str) -> Any:
+        """What the scheduler answers. Waits for it; where that is long, the user is told, once."""
+        silent = 0
+        while True:
             try:
-                threads = sum(self._client.nthreads().values())
+                answer = self._client.sync(
+                    getattr(self._client.scheduler, question), workers=None, callback_timeout=SILENCE
+                )
+            except TimeoutError:
+                silent += 1
             except OSError as error:
                 raise ClusterError(_GONE) from error
-            if threads:
-                return threads
-            time.sleep(0.5)
-        raise ClusterError(
-            f"The Dask cluster has had no worker for {PATIENCE:g} seconds. What was computed is kept: start workers "
-            "('dask worker ADDRESS'), then the same command continues."
-        )
+            else:
+                if silent:
+                    logger.warning("The Dask scheduler at %s answers again.", self._address)
+                return answer
+            if silent == 1:
+                logger.warning(
+                    "The Dask scheduler at %s has not answered for %g seconds. The build waits for it: see whether its "
+                    "process is stopped and whether this machine still reaches it. Ctrl-C ends the build; what was "
+                    "computed is kept.",
+                    self._address,
+                    SILENCE,
+                )
 
     def _late(self, running: dict[Any, _Sent], after: float) -> list[tuple[_Sent, list[str]]]:
         """Tasks that were sent once and longer ago than so many seconds, and the workers that do not have them."""
         now = time.monotonic()
-        twice = {sent.index for sent in running.values() if sent.second}
-        late = {f.key: s for f, s in running.items() if now - s.begun > after and s.index not in twice}
+        times = Counter(sent.index for sent in running.values())
+        late = {f.key: s for f, s in running.items() if now - s.begun > after and times[s.index] == 1}
         if not late:
             return []
-        workers = self._client.processing()
+        workers = {
+            worker: keys for worker, keys in self._ask("processing").items() if worker in self._accepted
+        }
         found = []
         for key, sent in late.items():
             others = [worker for worker, keys in workers.items() if key not in keys]
@@ -238,40 +361,68 @@ def _connect(client_class: Any, address: str) -> Any:
 
 @dataclass(frozen=True)
 class _Sent:
-    """A task on its way, when it left, and whether another worker has it already."""
+    """A task on its way, when it left, the workers it may go to, and how often all such have ended with it."""
 
     index: int
     task: tuple[Any, ...]
     begun: float
-    second: bool
+    workers: tuple[str, ...]
+    lost: int
+
+
+def _fatal(index: int, workers: int) -> Outcome:
+    """That of a task which brings workers down."""
+    return Outcome(index, None, f"{workers} workers of the cluster ended while they worked on it", 0.0)
 
 
 # One for each thread of this worker that has run a task, kept for the next one.
 _idle: list[LocalExecutor] = []
 _lock = Lock()
-_checked: set[str] = set()
+_releases = 0
 
 
 def _run_there(
-    expected: tuple[Callable[[], str], str, Callable[[], Any]],
-    limits: tuple[float, int | None],
-    function: Callable[..., Any],
-    task: tuple[Any, ...],
+    limits: tuple[float, int | None], function: Callable[..., Any], task: tuple[Any, ...]
 ) -> Outcome:
     """Run one task in a process of its own on the machine of a cluster's worker."""
-    time_limit, memory_limit = limits
+    with _kept_executor(*limits) as executor:
+        (outcome,) = executor.run(function, [task])
+        return outcome
+
+
+async def _tell(
+    fingerprint: Callable[[], Mapping[str, str]],
+    check: Callable[[], Any],
+    memory_limit: int | None,
+) -> Outcome:
+    """The versions that a worker has, or why it cannot take part."""
+
+    def find() -> Outcome:
+        with _kept_executor(STARTING_TIME, memory_limit) as executor:
+            (versions,) = executor.run(fingerprint, [()])
+            (checked,) = executor.run(check, [()])
+            return replace(versions, reason=versions.reason or checked.reason)
+
+    return await asyncio.to_thread(find)
+
+
+@contextmanager
+def _kept_executor(time_limit: float, memory_limit: int | None) -> Iterator[LocalExecutor]:
+    """A process for a task, which waits for the next one unless its build has ended meanwhile."""
     if memory_limit is None:
         memory_limit = _share()
     with _lock:
         executor = _idle.pop() if _idle else LocalExecutor(1, time_limit, memory_limit)
+        releases = _releases
     executor.time_limit, executor.memory_limit = time_limit, memory_limit
     try:
-        _check(executor, *expected)
-        (outcome,) = executor.run(function, [task])
-        return outcome
+        yield executor
     finally:
         with _lock:
-            _idle.append(executor)
+            if releases == _releases:
+                _idle.append(executor)
+            else:
+                executor.__exit__()
 
 
 @cache
@@ -280,29 +431,21 @@ def _share() -> int:
     return memory_share(os.cpu_count() or 1)
 
 
-def _check(
-    executor: LocalExecutor, fingerprint: Callable[[], str], wanted: str, check: Callable[[], Any]
-) -> None:
-    """Refuse to work where the results would be others. Raises :class:`ClusterError`."""
-    from distributed import get_worker
-
-    if wanted in _checked:
-        return
-    address = get_worker().address
-    (outcome,) = executor.run(fingerprint, [()])
-    if outcome.value != wanted:
-        raise ClusterError(
-            f"The worker {address} has other versions of shapeviz-report, of its plug-ins or of its libraries than "
-            "this machine, so its results would differ. Install the same ones on both, with the same constraints file."
-        )
-    (outcome,) = executor.run(check, [()])
-    if outcome.reason is not None:
-        raise ClusterError(f"The worker {address} cannot take part: {outcome.reason}")
-    _checked.add(wanted)
+def _differences(there: Mapping[str, str], here: Mapping[str, str]) -> str:
+    """What differs, in words."""
+    found = [
+        f"{name} {there.get(name, 'is missing')} (here {here.get(name, 'it is missing')})"
+        for name in [*here, *sorted(there.keys() - here.keys())]
+        if there.get(name) != here.get(name)
+    ]
+    more = len(found) - MOST_NAMED
+    return ", ".join(found[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _release() -> None:
-    """End the processes that wait for a next task."""
+    """End the processes that wait for a next task, and those at work when they are done."""
+    global _releases
     with _lock:
+        _releases += 1
         while _idle:
             _idle.pop().__exit__()

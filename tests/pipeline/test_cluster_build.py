@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
+import time
 from contextlib import contextmanager
 
 import pytest
@@ -73,6 +75,25 @@ def test_a_scheduler_that_goes_ends_the_build_with_a_sentence_and_nothing_else(d
         "shapeviz-report: The Dask scheduler has gone. What was computed is kept: start it and its workers again, "
         "then the same command continues.\n"
     ]
+
+
+def test_a_frozen_scheduler_holds_no_build_that_is_stopped(database, tmp_path) -> None:
+    with running_cluster(tmp_path, workers=1) as cluster:
+        options = ["-o", tmp_path / "site", "--scheduler", cluster.address, "--cache", tmp_path / "cache"]
+        build = subprocess.Popen(
+            [sys.executable, "-m", "shapeviz_report", "build", database, *options],
+            stderr=subprocess.PIPE,
+            text=True,
+        )
+        while not any((tmp_path / "cache").glob("facts/*/*")):
+            assert build.poll() is None
+            time.sleep(0.05)
+        cluster.scheduler.send_signal(signal.SIGSTOP)
+        build.send_signal(signal.SIGINT)
+        said = build.communicate(timeout=20)[1]
+    assert build.returncode == 130
+    assert said.endswith("\nStopped. What was computed is kept: the same command continues from here.\n")
+    assert "Traceback" not in said
 
 
 def test_a_cluster_and_a_number_of_processes_exclude_each_other(database, tmp_path) -> None:

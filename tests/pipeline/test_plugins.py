@@ -120,7 +120,8 @@ print(found.values["Hub"].max().round(6), found.features.values[0, found.feature
 def test_results_belong_to_a_version_of_the_plugin(run, packages) -> None:
     code = (
         "from shapeviz_report.building.stages import *\n"
-        "print(*(stage.version for stage in (PREPARE, RENDER, MEASURE, DESCRIBE_WHOLE, SCORE, PROJECT)), fingerprint())"
+        "print(*(stage.version for stage in (PREPARE, RENDER, MEASURE, DESCRIBE_WHOLE, SCORE, PROJECT)))\n"
+        "print(make_key(fingerprint()))"
     )
 
     def versions() -> list[str]:
