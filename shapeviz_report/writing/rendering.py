@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 from collections.abc import Iterator, Sequence
 from importlib.metadata import version
 
@@ -124,6 +125,7 @@ def _source(report: Report) -> str:
 
 
 def encode(text: str) -> bytes:
-    """A page as a file."""
+    """A page, a script or a style sheet as a file. Its first bytes say that it is UTF-8, and count more than
+    what a host says of it."""
     # A file name that is no text may stand in one.
-    return text.encode("utf-8", "backslashreplace")
+    return codecs.BOM_UTF8 + text.encode("utf-8", "backslashreplace")

@@ -113,9 +113,9 @@ def _files(report: Report) -> Iterator[tuple[str, bytes]]:
                 yield f"chunks/{name}-{number}.js", script
             chunks[name] = f"chunks/{name}-*.js?{digest.hexdigest()[:8]}"
     assets = {
-        **{name: text.encode() for name, text in join_scripts().items()},
+        **{name: encode(text) for name, text in join_scripts().items()},
         **collect_assets(report),
-        "style.css": join_styles(report).encode(),
+        "style.css": encode(join_styles(report)),
         **{f"chunk-{name}.js": chunk_script(name, *packed) for name, packed in pack_chunks(contents).items()},
         "chunk-paintings.js": _held_paintings(report),
     }

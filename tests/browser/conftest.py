@@ -277,8 +277,9 @@ def serve() -> Iterator[Callable[[Path, str], str]]:
 
             def guess_type(self, path):
                 kind = super().guess_type(path)
-                # As most hosts call scripts, whatever letters these are in.
-                return f"{kind}; charset=utf-8" if kind.endswith("javascript") else kind
+                # As some hosts call all text, whatever letters it is in.
+                is_text = kind.startswith("text/") or kind.endswith("javascript")
+                return f"{kind}; charset=iso-8859-1" if is_text else kind
 
             def log_message(self, *_):
                 pass

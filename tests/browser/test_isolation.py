@@ -4,6 +4,8 @@ import re
 
 import pytest
 
+from shapeviz_report.pages import PAGES
+
 
 def use(page):
     """Everything that loads something: Vega's maps, the details, a theme, another projection, the pictures."""
@@ -35,6 +37,18 @@ def test_from_a_host_below_a_path_only_that_path_is_asked(open_page, site, serve
     assert outside == []
     page.click("nav a >> text=About")
     page.wait_for_selector("text=SHA-256", state="attached")
+
+
+@pytest.mark.parametrize("file", [page.file for page in PAGES])
+def test_a_host_that_names_other_letters_is_not_believed(open_page, site, serve, file):
+    page = open_page("plain", address=f"{serve(site('plain'), 'shapes')}/{file}")
+    assert page.evaluate("document.characterSet") == "UTF-8"
+    # What the three first letters of a dash, a quotation mark and a narrow space would be.
+    assert not re.search("â|Ã|Â", page.inner_text("body"))
+    marks = page.evaluate(
+        "getComputedStyle(document.querySelector('.save-figure summary, body'), '::before').content"
+    )
+    assert "â" not in marks
 
 
 @pytest.mark.parametrize("file", ["index.html", "about.html"])
