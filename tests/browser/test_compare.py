@@ -192,6 +192,24 @@ class TestTwoGroups:
         assert "Gc" in within
         assert "PFH" not in within
 
+    def test_what_goes_with_a_small_group_of_many_shapes_is_told_of_all(self, compare, reports):
+        """Of the others a sample speaks, but not as if they were as few as it has."""
+        page = compare("large", a="class:class 0", b="rest")
+        assert (
+            "Compared by samples: the other shapes by 500 of 1\u202f750 shapes."
+            in page.locator("#answer").inner_text()
+        )
+        report = reports("large")
+        values = compared_values(report.features, PRESETS["default"])
+        own = rows_of(report, "class 0")
+        others = np.setdiff1d(np.arange(len(values)), own)
+        spread = ((values - values.mean(axis=0)) ** 2).sum(axis=0)
+        between = np.nan_to_num(shares_between(values, own, others)) * spread
+        columns = report.features.slice_of("Sc")
+        told = page.locator("#feature-rows li", has_text="Sc").locator(".figure").inner_text()
+        expected = 100 * between[columns].sum() / spread[columns].sum()
+        assert float(told.partition("\u00a0")[0]) == pytest.approx(expected, rel=0.1)
+
     @pytest.mark.parametrize("pair", ["ab", "ce"])
     def test_sentences_are_those_of_people(self, compare, pair):
         page = compare(a=f"class:kind {pair[0]}", b=f"class:kind {pair[1]}")

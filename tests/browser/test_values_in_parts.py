@@ -128,6 +128,13 @@ def test_classes_are_compared_without_reading_their_columns(both):
     assert "sample" not in page.locator("#answer").inner_text()
 
 
+def test_all_shapes_but_a_few_are_compared_by_all_of_them(both, report):
+    few = "&".join(f"a-select={report.shapes[row].id}" for row in (3, SHAPE))
+    page = both(f"compare.html#a=shapes&{few}&b=rest")["parts"]
+    page.wait_for_selector("#result:not([hidden])", state="attached")
+    assert "sample" not in page.locator("#answer").inner_text()
+
+
 def test_what_sets_outliers_apart_is_told(both):
     reasons = {}
     for name, page in both("compare.html#view=outliers").items():

@@ -205,3 +205,16 @@ test("a sample by parts takes every shape as often as any other, and few parts",
   const few = numbers(10, 60);
   assert.equal(sampledByParts(few, places, aPart, 60), few);
 });
+
+test("in a sample that speaks for many classes each of them is there in proportion", () => {
+  // The parts follow class by class: 50 classes of 100 shapes, 25 a part.
+  const places = Int32Array.from(numbers(0, 5000));
+  const sample = sampledByParts(numbers(0, 5000), places, 25, 200, 100);
+  const classes = new Map();
+  for (const shape of sample) {
+    const own = Math.floor(shape / 100);
+    classes.set(own, (classes.get(own) ?? 0) + 1);
+  }
+  assert.equal(classes.size, 50);
+  assert.ok([...classes.values()].every((count) => count >= 3 && count <= 6));
+});

@@ -4,7 +4,9 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { changeWords, difference } from "../../site/scripts/base/figures.js";
 import { count, grouped, measured, percent, percents } from "../../site/scripts/base/words.js";
-import { Contrast, ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
+import { waysToDeal } from "../../site/scripts/compare/answer.js";
+import { asSure, Contrast, ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
+import { pairs } from "../../site/scripts/compare/words.js";
 import { RowValues } from "../../site/scripts/database/group-values.js";
 
 test("shares that differ read differently, with no more digits than that takes", () => {
@@ -59,11 +61,45 @@ test("a share of pairs of places that hardly differs is told after what one sees
   const sample = { a: [0, 1], b: [2, 3], rest: [] };
   const [a, b, rest] = [sample.a, sample.b, sample.rest].map((rows) => new RowValues(bins, rows));
   const apart = { effect: Float64Array.of(1, 0.9, 0.99), limit: 0.1, away: new Float64Array(4) };
-  const contrast = new Contrast(bins, { a, b, rest }, sample, /** @type {any} */ ({ apart, against: null }));
+  const contrast = new Contrast(
+    bins,
+    { a, b, rest },
+    sample,
+    /** @type {any} */ ({ apart, against: null, sizes: { a: 2, b: 2, rest: 0 } }),
+  );
   assert.deepEqual(contrast.told.at(-1), 0);
   assert.ok(Math.abs(contrast.gap(0) - 0.001) < 1e-12);
   // Any other value has no scale on which one could say that it is nothing.
   assert.equal(contrast.gap(2), 1);
+});
+
+test("only what holds of all pairs is said of all", () => {
+  assert.deepEqual([1, 399 / 400, 0.995, 0.99, 0.5].map(pairs), [
+    "in all pairs",
+    "in nearly all pairs",
+    "in nearly all pairs",
+    "in 99 of 100 pairs",
+    "in 50 of 100 pairs",
+  ]);
+});
+
+test("the ways to deal shapes out are those into different pairs of groups", () => {
+  assert.deepEqual(
+    [
+      [1, 12],
+      [12, 2],
+      [3, 3],
+      [4, 4],
+    ].map(([first, second]) => waysToDeal(first, second)),
+    [13, 91, 10, 35],
+  );
+  assert.ok(waysToDeal(5000, 90_000) > 100);
+});
+
+test("samples are as sure as groups of the same relation of which their chance is that of all shapes", () => {
+  assert.deepEqual(asSure([30, 170], [30, 170]), [30, 170]);
+  // By 500 of 1000 and 500 of 9000 the difference varies as that of 278 and 2500: 1/500 + 1/500 is 1/278 + 1/2500.
+  assert.deepEqual(asSure([1000, 9000], [500, 500]), [278, 2500]);
 });
 
 test("a difference is that of the figures as they are shown", () => {

@@ -1,7 +1,7 @@
 // The answer to "what makes these two groups alike or different?", before all figures: a few sentences.
 
 import { element } from "../base/dom.js";
-import { count, percent, percents } from "../base/words.js";
+import { count, numberWord, percent, percents } from "../base/words.js";
 import { worth } from "./contrasts.js";
 import { binCount, called, inBoth, moreOf, statement } from "./words.js";
 
@@ -170,14 +170,14 @@ function gap({ means }) {
  * @param {Chunk.Sides} words
  * @returns {SideOfEdge | null}
  */
-function bestSide({ bins, values: { a, b } }, { start, below, above }) {
+function bestSide({ bins, sizes, values: { a, b } }, { start, below, above }) {
   /** @type {SideOfEdge | null} */
   let best = null;
   for (const edge of below.keys()) {
     const [own, others] = [a.upTo(start + edge), b.upTo(start + edge)];
     const means = { a: own.mean, b: others.mean };
-    const squares = a.count * own.variance + b.count * others.variance;
-    const spread = Math.sqrt(squares / Math.max(a.count + b.count - 2, 1));
+    const squares = sizes.a * own.variance + sizes.b * others.variance;
+    const spread = Math.sqrt(squares / Math.max(sizes.a + sizes.b - 2, 1));
     // The side says more of which there is more, else the smaller one.
     const upper = below[edge].fewer || (!above[edge].fewer && means.a + means.b > 1);
     const side = {
@@ -225,7 +225,22 @@ function inCommon(contrast, a, b, data) {
 /** @param {Contrast} contrast */
 function tooFew({ values }) {
   const fewest = Math.min(values.a.count, values.b.count);
+  const deals = waysToDeal(values.a.count, values.b.count);
+  if (deals <= 100)
+    return ` No difference could show by so few shapes: there are only ${numberWord(deals)} ways to deal them out, and one of them is into these groups.`;
   return fewest < 5 ? ` With ${count(fewest, "shape")} in a group, only very large differences could show.` : "";
+}
+
+/**
+ * Into how many pairs of groups of two sizes shapes can be dealt.
+ * @param {number} first
+ * @param {number} second
+ */
+export function waysToDeal(first, second) {
+  let ways = 1;
+  for (let place = 1; place <= Math.min(first, second); place += 1)
+    ways = (ways * (Math.max(first, second) + place)) / place;
+  return first === second ? ways / 2 : ways;
 }
 
 /**

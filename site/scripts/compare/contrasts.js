@@ -3,6 +3,7 @@
 import { RowValues, shareAbove, shareAhead } from "../database/group-values.js";
 import { LevelBins } from "../database/level-bins.js";
 import { readCounts } from "../database/level-counts.js";
+import { MOST_PARTS } from "../database/sample.js";
 import { startEngine } from "../engine/client.js";
 import { apartBy, pooled } from "../engine/contrast.js";
 import { counts, wholeValues } from "./whole-values.js";
@@ -22,8 +23,14 @@ import { counts, wholeValues } from "./whole-values.js";
 /** Of a larger group a sample speaks: enough to know a share to two parts in a hundred. */
 const MOST_COMPARED = 500;
 
-/** Where values are counted, so many shapes of a group say what chance does, and which is the most central of them. */
+/** Where all are known, so many shapes of a group say what chance does, and which is the most central of them. */
 const MOST_BESIDE = 200;
+
+/** @type {(keyof OfGroups<any>)[]} */
+const SIDES = ["a", "b", "rest"];
+
+/** @type {OfGroups<GroupValues | null>} */
+const UNKNOWN = { a: null, b: null, rest: null };
 
 const SHUFFLES = 499;
 const SEED = 0;
@@ -68,13 +75,19 @@ export class Contrasts {
       const taken = new Set([...a, ...b]);
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
       this.#engine ??= startEngine();
-      const [engine, counted] = await Promise.all([
+      const [engine, whole] = await Promise.all([
         this.#engine,
-        bins instanceof LevelBins ? this.#counted(bins, { a, b, rest: outside }) : null,
+        bins instanceof LevelBins ? this.#whole(bins, { a, b, rest: outside }) : UNKNOWN,
       ]);
-      /** @param {number[]} shapes */
-      const some = (shapes) => bins.some(shapes, this.database.groups, counted ? MOST_BESIDE : MOST_COMPARED);
-      const sample = { a: some(a), b: some(b), rest: some(outside) };
+      /**
+       * @param {number[]} shapes
+       * @param {GroupValues | null} known
+       */
+      const some = (shapes, known) =>
+        known === null
+          ? bins.some(shapes, this.database.groups, MOST_COMPARED, MOST_PARTS)
+          : bins.some(shapes, this.database.groups, MOST_BESIDE);
+      const sample = { a: some(a, whole.a), b: some(b, whole.b), rest: some(outside, whole.rest) };
       const rows = [...sample.a, ...sample.b, ...sample.rest];
       await bins.know(rows);
       const given = {
@@ -83,14 +96,17 @@ export class Contrasts {
         blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
         weights: this.data.weights,
       };
-      const { contests, read } = counted ? byCounts(counted, sample, given) : byRows(sample);
+      const values = {
+        a: whole.a ?? new RowValues(bins, sample.a),
+        b: whole.b ?? new RowValues(bins, sample.b),
+        rest: whole.rest ?? new RowValues(bins, sample.rest),
+      };
+      const allAtHand = whole === UNKNOWN && sample.a.length === a.length && sample.b.length === b.length;
+      const { contests, read } = allAtHand
+        ? byRows(sample)
+        : byMoments(values, { a: a.length, b: b.length, rest: outside.length }, sample, given);
       job = engine.run("contrast", { ...given, contests, seed: SEED }, report);
       if (cancelled) job.cancel();
-      const values = counted ?? {
-        a: new RowValues(bins, sample.a),
-        b: new RowValues(bins, sample.b),
-        rest: new RowValues(bins, sample.rest),
-      };
       return new Contrast(bins, values, sample, read(await job.done));
     })();
     return {
@@ -103,17 +119,22 @@ export class Contrasts {
   }
 
   /**
-   * The values of both groups and of all other shapes, if all shapes of both are counted or in few parts; else null.
+   * What is known of all shapes of each group: where they are counted, lie in few parts, or are all that such groups leave.
    * @param {LevelBins} bins
    * @param {OfGroups<number[]>} groups
-   * @returns {Promise<OfGroups<GroupValues> | null>}
+   * @returns {Promise<OfGroups<GroupValues | null>>}
    */
-  async #counted(bins, { a, b, rest }) {
-    const [own, others] = await Promise.all([a, b].map((shapes) => wholeValues(bins, shapes, this.database)));
-    if (own === null || others === null) return null;
-    const outside =
-      (await wholeValues(bins, rest, this.database)) ??
-      (await readCounts(bins, this.database.classes.length)).without(counts(own, bins)).without(counts(others, bins));
+  async #whole(bins, { a, b, rest }) {
+    const groups = await Promise.all([a, b, rest].map((shapes) => wholeValues(bins, shapes, this.database)));
+    const known = groups.filter((values) => values !== null);
+    if (known.length === groups.length - 1) {
+      const all = await readCounts(bins, this.database.classes.length);
+      groups[groups.indexOf(null)] = known
+        .filter((values) => values.count > 0)
+        .map((values) => counts(values, bins))
+        .reduce((left, values) => left.without(values), all);
+    }
+    const [own, others, outside] = groups;
     return { a: own, b: others, rest: outside };
   }
 }
@@ -125,8 +146,8 @@ export class Contrasts {
  * @property {(answers: Found[]) => Differences} read
  *
  * How both groups differ from each other; together from all other shapes, and each from those, with effects as of
- * Contrast; null where there are no others.
- * @typedef {{ apart: Found, against: { both: Found, a: Float64Array, b: Float64Array } | null }} Differences
+ * Contrast; null where there are no others. `sizes` are those that the effects are of.
+ * @typedef {{ apart: Found, against: { both: Found, a: Float64Array, b: Float64Array } | null, sizes: OfGroups<number> }} Differences
  */
 
 /**
@@ -148,33 +169,50 @@ function byRows(sample) {
     read: ([apart, both, own, others]) => ({
       apart,
       against: both ? { both, a: own.effect, b: others.effect } : null,
+      sizes: { a: a.length, b: b.length, rest: rest.length },
     }),
   };
 }
 
 /**
- * Of what is known of all shapes; by the rows only what chance does, and who is in the middle.
+ * Of means and spreads, which are those of all shapes or of a sample, in the relation of the sizes of the groups; by the
+ * rows only what chance does, and who is in the middle.
  * @param {OfGroups<GroupValues>} values
+ * @param {OfGroups<number>} sizes
  * @param {OfGroups<number[]>} sample
  * @param {{ blocks: Int32Array, weights: number[] }} given
  * @returns {Asked}
  */
-function byCounts(values, sample, given) {
+function byMoments(values, sizes, sample, given) {
   const { a, b, rest } = placesOf(sample);
-  const [own, others, outside] = [values.a, values.b, values.rest].map((group) => group.moments());
+  const [own, others, outside] = SIDES.map((side) => ({ ...values[side].moments(), count: sizes[side] }));
+  const [known, knownOthers, knownOutside] = SIDES.map((side) => values[side].count);
   const [dealt, against] = inProportion([a, b], [own.count, others.count]);
   /** @type {Contest[]} */
   const contests = [
-    { first: dealt, second: against, shuffles: SHUFFLES, whole: apartBy(own, others, given) },
+    {
+      first: dealt,
+      second: against,
+      shuffles: SHUFFLES,
+      whole: {
+        ...apartBy(own, others, given),
+        sizes: asSure([own.count, others.count], [known, knownOthers]),
+      },
+    },
     { first: a, second: b, shuffles: 0 },
   ];
   if (outside.count > 1) {
     const [first, second, third] = inProportion([a, b, rest], [own.count, others.count, outside.count]);
+    const both = pooled(own, others);
+    const knownBoth = both.count ** 2 / (own.count ** 2 / known + others.count ** 2 / knownOthers);
     contests.push({
       first: [...first, ...second],
       second: third,
       shuffles: SHUFFLES,
-      whole: apartBy(pooled(own, others), outside, given),
+      whole: {
+        ...apartBy(both, outside, given),
+        sizes: asSure([both.count, outside.count], [knownBoth, knownOutside]),
+      },
     });
   }
   return {
@@ -184,8 +222,22 @@ function byCounts(values, sample, given) {
       against: both
         ? { both, a: apartBy(own, outside, given).effect, b: apartBy(others, outside, given).effect }
         : null,
+      sizes,
     }),
   };
+}
+
+/**
+ * The sizes of two groups in the same relation, of which all shapes would say as much as is known by some: the difference
+ * of two means varies by chance as the sum of 1 / n.
+ * @param {[number, number]} sizes
+ * @param {[number, number]} known
+ * @returns {[number, number]}
+ */
+export function asSure([first, second], [known, others]) {
+  const count = first + second;
+  const sure = count / (first * second * (1 / known + 1 / others));
+  return [Math.max(Math.round(first * sure), 1), Math.max(Math.round(second * sure), 1)];
 }
 
 /**
@@ -240,11 +292,12 @@ export class Contrast {
    * @param {OfGroups<number[]>} sample the shapes of each group that are at hand
    * @param {Differences} found
    */
-  constructor(bins, values, sample, { apart, against }) {
+  constructor(bins, values, sample, { apart, against, sizes }) {
     this.bins = bins;
     this.values = values;
+    this.sizes = sizes;
     this.apart = apart;
-    this.difference = differences(apart.effect, values.a, values.b);
+    this.difference = differences(apart.effect, sizes.a, sizes.b);
     this.ranked = [...this.difference.keys()].filter((column) => apart.effect[column] !== 0);
     this.ranked.sort((one, other) => Math.abs(apart.effect[other]) - Math.abs(apart.effect[one]) || one - other);
     this.beyond = this.ranked.filter((column) => this.isBeyond(column));
@@ -284,8 +337,8 @@ export class Contrast {
    * @param {NonNullable<Differences["against"]>} against
    */
   #findShared({ both, a, b }) {
-    const { bins, difference, values } = this;
-    const [own, others] = [differences(a, values.a, values.rest), differences(b, values.b, values.rest)];
+    const { bins, difference, sizes } = this;
+    const [own, others] = [differences(a, sizes.a, sizes.rest), differences(b, sizes.b, sizes.rest)];
     /** @param {number} column */
     const clear = (column) => Math.min(Math.abs(own[column]), Math.abs(others[column])) - Math.abs(difference[column]);
     return [...difference.keys()]
@@ -388,11 +441,11 @@ function standardised(effect, first, second) {
 /**
  * Effects as differences of means, in standard deviations within the groups.
  * @param {Float64Array} effects
- * @param {GroupValues} first
- * @param {GroupValues} second
+ * @param {number} first how many shapes
+ * @param {number} second
  */
 function differences(effects, first, second) {
-  return Array.from(effects, (effect) => standardised(effect, first.count, second.count));
+  return Array.from(effects, (effect) => standardised(effect, first, second));
 }
 
 /**

@@ -186,7 +186,7 @@ export class GroupsView {
       );
     }
     document.getElementById("common").textContent =
-      common > 0
+      common > 0 && !(a && b && isSame(a.spec, b.spec))
         ? `${count(common, "shape")} would be in both groups; the smaller one keeps ${common === 1 ? "it" : "them"}.`
         : this.chooser.moved;
   }
@@ -257,7 +257,10 @@ export class GroupsView {
     const kin = neighbours === null ? null : kinship(a, b, neighbours);
     const sampled = [a, b]
       .filter(({ side, shapes }) => contrast.values[side].count < shapes.length)
-      .map((group) => [called(group), ` by a sample of ${grouped(contrast.values[group.side].count)}`]);
+      .map((group) => [
+        called(group),
+        ` by ${grouped(contrast.values[group.side].count)} of ${count(group.shapes.length, "shape")}`,
+      ]);
     document.getElementById("answer").replaceChildren(
       ...answer(contrast, a, b, data, kin),
       ...(sampled.length > 0
@@ -265,6 +268,7 @@ export class GroupsView {
             element(
               "p",
               { class: "quiet" },
+              "Compared by samples: ",
               sampled.flatMap((words, place) => [place > 0 ? ", " : "", words].flat()),
               ".",
             ),

@@ -143,12 +143,9 @@ export function meaning(column, bins) {
  * @param {number} share
  */
 export function pairs(share) {
+  if (share >= 1) return "in all pairs";
   const hundredths = Math.round(100 * share);
-  return hundredths === 100
-    ? "in all pairs"
-    : hundredths > 99
-      ? "in nearly all pairs"
-      : `in ${hundredths} of 100 pairs`;
+  return hundredths === 100 ? "in nearly all pairs" : `in ${hundredths} of 100 pairs`;
 }
 
 /**

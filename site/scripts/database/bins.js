@@ -200,8 +200,9 @@ export class Bins {
    * @param {number[]} shapes rising
    * @param {ArrayLike<number>} groups
    * @param {number} most
+   * @param {number} [_parts] from how many parts at least, where values come in parts
    */
-  some(shapes, groups, most) {
+  some(shapes, groups, most, _parts) {
     return [...sampled(shapes, groups, most)];
   }
 

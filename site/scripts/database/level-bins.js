@@ -47,13 +47,14 @@ export class LevelBins extends Bins {
   }
 
   /**
-   * About so many of some shapes, from few parts of the rows.
+   * About so many of some shapes, from few parts of the rows, or from more.
    * @param {number[]} shapes rising
    * @param {ArrayLike<number>} _groups
    * @param {number} most
+   * @param {number} [parts]
    */
-  some(shapes, _groups, most) {
-    return sampledByParts(shapes, this.places, this.levels.rowsAPart, most);
+  some(shapes, _groups, most, parts) {
+    return sampledByParts(shapes, this.places, this.levels.rowsAPart, most, parts);
   }
 
   /** @param {Iterable<number>} shapes */

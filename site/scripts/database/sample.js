@@ -27,28 +27,34 @@ export function sampled(rows, groups, most = MOST_SHAPES) {
 }
 
 /** Of values that come in parts, so many parts are read for a sample at most; each is 50 kB. */
-const MOST_PARTS = 100;
+export const MOST_PARTS = 100;
 
 /**
- * About `most` of some shapes whose values come in parts, rising: all that lie in some of the parts, which are taken at
- * equal steps from all that hold any. Every shape is as likely as any other to be taken, and as the parts follow class by
- * class, each class is taken in proportion. Which shapes of a class share a part has nothing to do with their values, so
- * a sample by parts says as much as one shape by shape of its size. All where few parts hold them all.
+ * About `most` of some shapes whose values come in parts, rising: those that lie in some of the parts, which are taken at
+ * equal steps from all that hold any, or every so many-th of them. Every shape is as likely as any other to be taken.
+ * Which shapes of a class share a part has nothing to do with their values, but the parts follow class by class: a sample
+ * that is to speak for shapes of many classes is taken from many parts, so that each class is there in proportion. All
+ * where few parts hold them all.
  * @param {number[]} shapes rising
  * @param {ArrayLike<number>} places of all shapes in the order of the parts
  * @param {number} aPart
  * @param {number} most
+ * @param {number} [least] parts that are read, where there are as many
  */
-export function sampledByParts(shapes, places, aPart, most) {
+export function sampledByParts(shapes, places, aPart, most, least = 1) {
   /** @type {Map<number, number[]>} */
   const held = new Map();
   for (const shape of shapes) entry(held, Math.floor(places[shape] / aPart), () => []).push(shape);
   const parts = [...held.keys()].sort((a, b) => a - b);
-  const wanted = Math.min(Math.ceil((parts.length * most) / Math.max(shapes.length, most)), MOST_PARTS);
-  if (parts.length <= wanted) return shapes;
-  return Array.from({ length: wanted }, (_, number) => parts[Math.floor(((number + 0.5) * parts.length) / wanted)])
-    .flatMap((number) => /** @type {number[]} */ (held.get(number)))
-    .sort((a, b) => a - b);
+  const needed = Math.ceil((parts.length * most) / Math.max(shapes.length, most));
+  const wanted = Math.min(Math.max(needed, least), MOST_PARTS, parts.length);
+  if (wanted === parts.length && shapes.length <= most) return shapes;
+  const found = Array.from(
+    { length: wanted },
+    (_, number) => parts[Math.floor(((number + 0.5) * parts.length) / wanted)],
+  ).flatMap((number) => /** @type {number[]} */ (held.get(number)));
+  const step = Math.max(Math.floor(found.length / most), 1);
+  return found.filter((_, place) => place % step === 0).sort((a, b) => a - b);
 }
 
 /**
