@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { findWords, lineOf, plain, searchable } from "../../site/scripts/database/search.js";
+import { findWords, holding, lineOf, plain, searchable } from "../../site/scripts/database/search.js";
 
 /** The slow way. */
 function expected(texts, query) {
@@ -63,4 +63,12 @@ test("many texts are searched as few are", () => {
   const texts = Array.from({ length: 5000 }, (_, number) => `shape ${number} of ${number % 7} kinds`);
   for (const query of ["shape", "99", "4999", "of 3", "7 kinds 12"])
     assert.deepEqual(findWords(searchable(texts), query), expected(texts, query), query);
+});
+
+test("a list finds among its texts what a search finds in them", () => {
+  for (const query of ["munze", "MÜNZE gold", "  gold ", "old l", "nowhere", ""])
+    assert.deepEqual(
+      [...TEXTS.keys()].filter((index) => holding(query)(TEXTS[index])),
+      findWords(searchable(TEXTS), query),
+    );
 });

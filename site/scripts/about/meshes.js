@@ -1,21 +1,19 @@
 // The search among the meshes.
 
 import { grouped } from "../base/words.js";
+import { holding } from "../database/search.js";
 
 export function watchMeshes() {
   const meshes = document.getElementById("meshes");
   const field = document.getElementById("find-mesh");
   const status = meshes.querySelector("[role=status]");
-  const rows = [...meshes.querySelectorAll("tbody tr")].map((row) => ({
-    row,
-    text: row.textContent.toLocaleLowerCase(),
-  }));
+  const rows = [...meshes.querySelectorAll("tbody tr")];
   /** @type {Found} */ (field.closest("p")).hidden = false;
   field.addEventListener("input", () => {
-    const words = field.value.toLocaleLowerCase().split(/\s+/);
+    const holds = holding(field.value);
     let found = 0;
-    for (const { row, text } of rows) {
-      row.hidden = !words.every((/** @type {string} */ word) => text.includes(word));
+    for (const row of rows) {
+      row.hidden = !holds(row.textContent);
       if (!row.hidden) found += 1;
     }
     status.textContent = field.value.trim() === "" ? "" : `${grouped(found)} of ${grouped(rows.length)}`;

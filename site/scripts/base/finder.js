@@ -1,6 +1,7 @@
 // A field that finds as one types, with a list to choose from below it: bins by name, shapes by name.
 
 import { element } from "./dom.js";
+import { grouped } from "./words.js";
 
 /** @import { Children } from "./dom.js" */
 
@@ -98,7 +99,7 @@ export class Finder {
       ),
     );
     const none = this.#prepared ? this.none() : "searching …";
-    const rest = this.found.length === 0 ? none : this.more > 0 ? `and ${this.more} more` : null;
+    const rest = this.found.length === 0 ? none : this.more > 0 ? `and ${grouped(this.more)} more` : null;
     this.list.replaceChildren(
       ...lines,
       ...(rest ? [element("li", { class: "quiet", role: "presentation" }, rest)] : []),

@@ -99,6 +99,19 @@ function lineAt(starts, place, first) {
 }
 
 /**
+ * Whether a text holds all words of a query, of few texts that a list has: what a search finds in one, it finds in the other.
+ * @param {string} query
+ * @returns {(text: string) => boolean}
+ */
+export function holding(query) {
+  const words = plain(query).split(/\s+/);
+  return (text) => {
+    const own = plain(text);
+    return words.every((word) => own.includes(word));
+  };
+}
+
+/**
  * Small letters without accents: who types "munze" means "Münze".
  * @param {string} text
  */

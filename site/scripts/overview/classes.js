@@ -7,6 +7,7 @@ import { toldAs } from "../base/snapshot.js";
 import { count, figure, grouped, wholePercent } from "../base/words.js";
 import { classMark, makeupOf } from "../colors/legend.js";
 import { isBelowOne, nothingTold, ofAtMost, rangeOf, shareOfRange } from "../database/hit-range.js";
+import { holding } from "../database/search.js";
 import { drawShepard, tellFaith } from "./faith.js";
 import { tellSeparation } from "./separation.js";
 
@@ -28,10 +29,10 @@ export class ClassList {
     this.node = document.getElementById("bars");
     this.all = document.getElementById("show-all");
     toldAs(this.list.closest("[data-figure]"), () => {
-      const { title, neighbours } = database.methods[state.get("method")];
+      const { title, neighbours, sample } = database.methods[state.get("method")];
       const kind = database.data.standIn ? "cluster" : "class";
       return {
-        words: `Neighbourhood hit (NH_c) of each ${kind} on the ${title} map of ${count(database.count, "shape")}: of a shape’s ${count(neighbours, "nearest neighbour")}, the share that is of its ${kind}, on average.`,
+        words: `Neighbourhood hit (NH_c) of each ${kind} on the ${title} map of ${count(sample?.length ?? database.count, "shape")}: of a shape’s ${count(neighbours, "nearest neighbour")}, the share that is of its ${kind}, on average.`,
       };
     });
     this.asked = document.getElementById("how-good");
@@ -87,11 +88,8 @@ export class ClassList {
 
   /** Those of them whose names have all the words that are looked for. */
   get listed() {
-    const words = (this.finder?.value ?? "").toLocaleLowerCase().split(/\s+/);
-    return this.order.filter((group) => {
-      const name = this.database.className(group).toLocaleLowerCase();
-      return words.every((/** @type {string} */ word) => name.includes(word));
-    });
+    const holds = holding(this.finder?.value ?? "");
+    return this.order.filter((group) => holds(this.database.className(group)));
   }
 
   render() {

@@ -3,6 +3,7 @@
 import { element, focused, swatch } from "../base/dom.js";
 import { count, grouped } from "../base/words.js";
 import { groupOf, NONE, numberText, valueName } from "../database/fields.js";
+import { holding } from "../database/search.js";
 import { Tree } from "./tree.js";
 
 /** @import { Filter } from "../addresses/shapes.js" */
@@ -161,20 +162,18 @@ class Choice {
     const { field, sieve } = this;
     this.filter = filter;
     const counts = sieve.counts(field);
-    const typed = this.find ? this.find.value.trim().toLocaleLowerCase() : "";
-    const found =
-      typed === ""
-        ? this.values
-        : this.values.filter((value) => valueName(field, value).toLocaleLowerCase().includes(typed));
+    const typed = this.find ? this.find.value.trim() : "";
+    const holds = holding(typed);
+    const found = typed === "" ? this.values : this.values.filter((value) => holds(valueName(field, value)));
     const usual = typed !== "" || field.active ? MOST : FEW;
-    const few = this.#all && typed === "" ? Infinity : usual;
+    const few = this.#all ? Infinity : usual;
     const shown = found.filter((value, place) => place < few || filter?.has(value));
     const kept = this.list.contains(focused()) ? focused().value : null;
     this.list.replaceChildren(
       ...shown.map((value) => this.#item(value, counts.at(value) ?? 0, filter?.has(value) ?? false)),
     );
     if (kept !== null) this.list.querySelector(`input[value="${kept}"]`)?.focus();
-    this.more.hidden = found.length <= usual || typed !== "";
+    this.more.hidden = found.length <= usual;
     this.more.textContent = this.#all ? "Fewer" : `All ${grouped(found.length)}`;
   }
 

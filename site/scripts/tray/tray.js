@@ -215,7 +215,7 @@ export class Tray {
       more.before(...next.map((index) => this.#item(index)));
       shown += next.length;
       more.hidden = shown >= chosen.length;
-      more.textContent = `${chosen.length - shown} more`;
+      more.textContent = `${grouped(chosen.length - shown)} more`;
     };
     more.addEventListener("click", extend);
     strip.append(more);
