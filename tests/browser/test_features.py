@@ -561,6 +561,53 @@ class TestOverview:
         ]
         assert page.locator(".placing").count() == 0
 
+    def test_who_chooses_another_map_meanwhile_keeps_that(self, open_page):
+        page = open_page("sampled")
+        page.evaluate(
+            """() => {
+                for (const value of ["best", "all"])
+                    document.querySelector(`#features input[value=${value}]`).click();
+            }"""
+        )
+        page.wait_for_timeout(600)
+        assert page.locator("#features input:checked").get_attribute("value") == "all"
+        assert "features=" not in address(page)
+
+    def test_who_goes_on_meanwhile_is_not_taken_back(self, open_page):
+        page = open_page("sampled")
+        page.evaluate("location.hash = 'color=class&features=Gc+Sc'")
+        page.evaluate("location.hash = 'color=hit'")
+        eventually(page, lambda: page.locator(".placing").count() == 0)
+        page.wait_for_timeout(600)
+        assert address(page).endswith("#color=hit")
+        assert page.locator("figure[data-slot=large][data-view=hit]").count() == 1
+
+    def test_who_goes_back_while_a_page_opens_is_followed(self, open_page):
+        page = open_page("sampled", "index.html#color=class&features=Gc+Sc")
+        page.evaluate("location.hash = 'color=hit&features=Gc+Sc'")
+        eventually(page, lambda: page.locator("figure[data-slot=large][data-view=hit]").count() == 1)
+        page.add_init_script(
+            """new MutationObserver((_, own) => {
+                if (!document.querySelector(".placing")) return;
+                own.disconnect();
+                history.back();
+            }).observe(document, { childList: true, subtree: true });"""
+        )
+        page.reload()
+        eventually(page, lambda: page.locator("figure[data-slot=large][data-view=class]").count() == 1)
+        assert "color=class" in address(page)
+
+    def test_shapes_in_the_wrong_place_are_those_of_the_sample(self, open_page):
+        page = open_page("sampled", "index.html#features=Gc+Sc&color=map:kept")
+        page.locator("#how-good summary").first.click()
+        eventually(page, lambda: "In the wrong place" in page.locator("#quality").inner_text())
+        assert re.search(r"(none|\d+) of 24 on this map\.", page.locator("#quality").inner_text())
+
+    def test_it_is_said_that_others_than_the_sample_have_no_fit(self, open_page):
+        page = open_page("sampled", "index.html#features=Gc+Sc&color=hit")
+        reading = page.locator("figure[data-slot=large] .reading .shown")
+        assert "only of the 24 shapes that were laid out" in reading.inner_text()
+
     def test_where_a_sample_was_searched_any_subset_has_all_shapes(self, open_page, site):
         page = open_page("sampled", "index.html#features=Gc+Sc")
         assert page.locator("#features input:checked").get_attribute("value") == "chosen"

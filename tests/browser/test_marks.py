@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from PIL import Image
+from reports import make_report
+
+from shapeviz_report.writing import write_site
 
 LARGE = "figure[data-slot=large] .surface"
 
@@ -59,3 +63,20 @@ def test_marks_look_the_same_with_and_without_webgl(browser, site, view, options
     assert (differences > 24).mean() < 0.0005
     assert differences.mean() < 0.3
     assert with_webgl.std() > 5
+
+
+@pytest.mark.parametrize("script", [None, WITHOUT_WEBGL], ids=["webgl2", "2d"])
+def test_what_nothing_is_known_of_covers_nothing(browser, tmp_path, script):
+    """Each shape without a label, whose fit is not known, lies where one with a label does."""
+    report = make_report(["ant", "bee", None], 520, methods=("tsne",))
+    projection, quality = report.projections["tsne"]
+    xy = projection.xy.copy()
+    xy[1040:] = xy[:520]
+    xy[520:1040] = xy[:520] + 1e-3
+    write_site(
+        replace(report, projections={"tsne": (replace(projection, xy=xy), quality)}), tmp_path / "site"
+    )
+    picture, _ = drawn(browser, f"{(tmp_path / 'site').as_uri()}/index.html#color=hit", script)
+    marks = picture.min(axis=2) < 200
+    coloured = np.ptp(picture, axis=2) > 60
+    assert (marks & coloured).sum() > 0.5 * marks.sum()

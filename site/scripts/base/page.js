@@ -32,6 +32,12 @@ export async function openPage({
   values = {},
 } = {}) {
   const missing = new Missing();
+  // Who goes elsewhere while the page opens is followed once it is drawn.
+  let gone = false;
+  let follow = () => {
+    gone = true;
+  };
+  window.addEventListener("popstate", () => follow());
   const read = async () => {
     const miss = missing.begin();
     const found = await settle(address.read(readHash(), miss), miss);
@@ -115,17 +121,21 @@ export async function openPage({
      * @param {{ arrive?: (found: Record<string, any>) => void, redraw?: () => void }} [how]
      */
     ready({ arrive = (found) => state.set(found), redraw = () => {} } = {}) {
-      window.addEventListener("popstate", async () => {
+      follow = async () => {
         arriveHere();
         state.set({ whereabouts: whereabouts() });
-        passing = address.passing(readHash());
+        const query = readHash();
+        passing = address.passing(query);
         const found = await read();
+        // What it names may have taken a while to come, in which the reader went on.
+        if (readHash().toString() !== query.toString()) return;
         arriving = true;
         arrive(found);
         arriving = false;
         // The way here is no reason for a step onwards.
         acted.taken();
-      });
+      };
+      if (gone) follow();
       watchUndo();
       window.addEventListener("pagehide", () => {
         if (owed !== null) write(false);

@@ -12,8 +12,11 @@ import { CHOSEN, crowded, FAINT, HIDDEN, NORMAL } from "./scene.js";
 /** @import { MapView } from "./map.js" */
 /** @import { Layer, Paint } from "./points.js" */
 
+/** The level of a shape that nothing is known of, where very many of them would cover the others. */
+const BARE = CHOSEN + 1;
+
 /** From faint to chosen, so that nothing lies on what the reader looks for. */
-const LEVELS = [FAINT, NORMAL, CHOSEN];
+const LEVELS = [FAINT, BARE, NORMAL, CHOSEN];
 
 /** The size of a dot among pictures, of that of others; and of one that is chosen. */
 const AMONG_PICTURES = Math.sqrt(0.6);
@@ -67,7 +70,10 @@ export class Dots {
   #layers() {
     const { view } = this;
     const radius = view.markRadius * (view.name === "thumbnail" ? AMONG_PICTURES : 1);
-    const levels = view.scene.emphasis.map((level, index) => (view.pictured[index] ? HIDDEN : level));
+    const bare = crowded(view.database) ? this.#looks().bare : [];
+    const levels = view.scene.emphasis.map((level, index) =>
+      view.pictured[index] ? HIDDEN : level === NORMAL && bare[index] ? BARE : level,
+    );
     const layers = LEVELS.filter((level) => levels.includes(level)).map((level) => ({
       level,
       radius: radius * (level === CHOSEN ? STANDING_OUT : 1),
@@ -84,7 +90,7 @@ export class Dots {
   #drawPoints(points, levels, layers) {
     const { view } = this;
     const lay = { ...view.lay(), width: view.width, height: view.height };
-    points.draw(view.scene, levels, layers, this.#paint(), view.database.marks.outline, lay);
+    points.draw(view.scene, levels, layers, this.#looks().paint, view.database.marks.outline, lay);
   }
 
   /**
@@ -112,25 +118,19 @@ export class Dots {
     marks.show();
   }
 
-  /** @type {{ key: string, coloring: Coloring | null, paint: Paint } | null} */
+  /** @type {{ key: string, coloring: Coloring | null, paint: Paint, bare: Uint8Array } | null} */
   #known = null;
 
-  /**
-   * How the marks look, as WebGL takes it.
-   * @returns {Paint}
-   */
-  #paint() {
+  /** How the marks look, as WebGL takes it, and of which shapes nothing is known. */
+  #looks() {
     const { name, scene, database, theme, chosenColoring } = this.view;
     const key = [name, scene.target, database.revision, theme].join(" ");
     if (this.#known?.key !== key || this.#known.coloring !== chosenColoring)
-      this.#known = { key, coloring: chosenColoring, paint: this.#mix(this.view.coloring) };
-    return this.#known.paint;
+      this.#known = { key, coloring: chosenColoring, ...this.#mix(this.view.coloring) };
+    return this.#known;
   }
 
-  /**
-   * @param {Coloring} coloring
-   * @returns {Paint}
-   */
+  /** @param {Coloring} coloring */
   #mix({ kindOf, look }) {
     const { count } = this.view.database;
     /** @type {Map<string, number>} */
@@ -149,12 +149,13 @@ export class Dots {
     };
     /** @type {Map<number | null, number>} */
     const kinds = new Map();
-    const paint = new Uint32Array(count);
+    const [paint, bare] = [new Uint32Array(count), new Uint8Array(count)];
     for (let index = 0; index < count; index += 1) {
       const kind = kindOf(index);
       paint[index] = entry(kinds, kind, () => mixed(look(kind)));
+      bare[index] = Number(kind === null);
     }
-    return { paint: new Uint8Array(paint.buffer), symbols: [...symbols.keys()] };
+    return { paint: { paint: new Uint8Array(paint.buffer), symbols: [...symbols.keys()] }, bare };
   }
 
   /** The chart shows the same again. */

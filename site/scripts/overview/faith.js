@@ -60,20 +60,22 @@ export function tellFaith(database, method, state) {
  * @param {Database} database
  * @param {Method} method
  */
-function lost(database, { faith, neighbours, base }) {
+function lost(database, { faith, neighbours, base, sample }) {
   const few = Math.floor(FEW * neighbours + 1e-9);
   if (!faith?.kept || few < 1) return [];
+  const rated = faith.kept.filter((share) => share !== null).length;
   /** @param {Pick<Faith, "kept"> | null | undefined} of */
   const lostOn = (of) => (of?.kept ?? []).filter((share) => share !== null && share <= FEW + 1e-9).length;
   const here = lostOn(faith);
-  const others = database.projections.filter((other, index) => index !== base && other.faith);
+  // What a sample keeps of its neighbours is not to be set beside what all shapes keep of theirs.
+  const others = sample ? [] : database.projections.filter((other, index) => index !== base && other.faith);
   const there = others.map((other) => `${numberOrNone(lostOn(other.faith))} on the ${other.title} map`);
   return [
     element(
       "p",
       {},
       `In the wrong place are shapes that keep at most ${numberWord(few)} of them: `,
-      element("b", {}, `${numberOrNone(here)} of ${grouped(database.count)}`),
+      element("b", {}, `${numberOrNone(here)} of ${grouped(rated)}`),
       ` on this map${there.map((words, place) => (place === there.length - 1 ? " and " : ", ") + words).join("")}.`,
     ),
   ];

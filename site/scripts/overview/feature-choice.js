@@ -2,6 +2,7 @@
 // features; or one chosen on the Features page.
 
 import { chunk } from "../base/chunks.js";
+import { entry } from "../base/entry.js";
 import { mapOf, tell } from "../database/database.js";
 import { Subsets } from "../database/subsets.js";
 import { withOthers } from "./placed-map.js";
@@ -16,6 +17,9 @@ const CHOSEN = "chosen";
 export class FeatureChoice {
   /** @type {string[] | null} */
   #chosen = null;
+  /** What was asked for last; null once the map is another, whoever changed it. */
+  /** @type {string | null} */
+  #asked = null;
 
   /**
    * @param {Database} database
@@ -29,18 +33,23 @@ export class FeatureChoice {
     this.node = document.getElementById("features");
     this.node.addEventListener("change", (event) => this.#choose(event.target.value));
     state.listen((changed) => {
-      if (changed.has("method")) this.show();
+      if (changed.has("method")) {
+        this.#asked = null;
+        this.show();
+      }
     });
     this.show();
   }
 
   /** @param {string} value */
   async #choose(value) {
+    this.#asked = value;
     if (value === ALL) this.state.set({ method: this.base });
     else {
       const names = (value === BEST ? this.searched.best : this.#chosen) ?? [];
       const method = await subsetMethod(this.database, names);
-      if (method !== null) this.state.set({ method });
+      // Its map may have taken seconds, in which the reader chose another.
+      if (method !== null && this.#asked === value) this.state.set({ method });
     }
   }
 
@@ -71,12 +80,23 @@ export async function addressedMap(database, { features, ...values }) {
   return method === null ? values : { ...values, method };
 }
 
+/** @type {Map<string, Promise<number | null>>} by the names of their features */
+const known = new Map();
+
 /**
  * The index of a subset's map in the database, where it is added when first asked for; null if it was not evaluated.
  * @param {Database} database
  * @param {string[]} names
  */
-async function subsetMethod(database, names) {
+function subsetMethod(database, names) {
+  return entry(known, names.join("\n"), () => addSubset(database, names));
+}
+
+/**
+ * @param {Database} database
+ * @param {string[]} names
+ */
+async function addSubset(database, names) {
   const { method, features, bins, best, laidOut } = /** @type {Chunk.SubsetChoice} */ (database.data.subsets);
   const base = database.methods.findIndex(({ key }) => key === method);
   if (bins === null && names.length === features.length) return base;

@@ -34,7 +34,16 @@ function reading(view, database, state) {
   const meaning = `Of a shape’s ${method.neighbours} nearest neighbours, this share is of its ${database.data.standIn ? "cluster" : "class"}`;
   const scale = element("span", { class: "ramp", role: "img", "aria-label": "from red to yellow" });
   scale.style.background = `linear-gradient(to right, ${database.marks.hit.join(", ")})`;
-  return [element("span", { class: "meaning" }, `${meaning}: `), element("span", { class: "ends" }, "0 ", scale, " 1")];
+  return [
+    element("span", { class: "meaning" }, `${meaning}: `),
+    element("span", { class: "ends" }, "0 ", scale, " 1"),
+    method.sample &&
+      element(
+        "span",
+        { class: "meaning" },
+        ` (only of the ${count(method.sample.length, "shape")} that were laid out; the others are grey)`,
+      ),
+  ];
 }
 
 /**
