@@ -108,6 +108,8 @@ def _load(what: str, path: Path, ids: Sequence[str], columns: Sequence[str]) -> 
         ValueError, TypeError, KeyError, OverflowError, MemoryError, EOFError, RuntimeError, NotImplementedError,
         csv.Error, struct.error, zipfile.BadZipFile, zlib.error,
     ) as error:  # fmt: skip
+        if "pickle" in str(error):  # numpy would have it trusted
+            error = ValueError("it holds Python objects, not numbers alone; save an array of numbers")
         raise ConfigError(f"{what} cannot be read: {error}") from error
     if not isinstance(values, np.ndarray) or values.ndim not in (1, 2) or values.dtype.kind not in "fiub":
         raise ConfigError(f"{what} must hold one array of numbers with one row a shape")
@@ -120,8 +122,16 @@ def _load(what: str, path: Path, ids: Sequence[str], columns: Sequence[str]) -> 
     else:
         values = values[_places(what, rows, len(values), ids)]
     values = values.reshape(len(values), -1).astype(np.float64)
-    if values.shape[1] == 0 or not np.isfinite(values).all():
-        raise ConfigError(f"{what} must hold finite numbers only")
+    if values.shape[1] == 0:
+        raise ConfigError(f"{what} has no columns of numbers")
+    wrong = np.argwhere(~np.isfinite(values))
+    if len(wrong):
+        shape, column = wrong[0].tolist()
+        count = len(np.unique(wrong[:, 0]))
+        raise ConfigError(
+            f"{what} must hold finite numbers only, and has {values[shape, column]} as number {column + 1} of the "
+            f"shape {ids[shape]!r}" + (f", and such of {count - 1} more" if count > 1 else "")
+        )
     return values
 
 
@@ -154,7 +164,7 @@ def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
         try:
             ids = arrays["shape_ids"]
         except ValueError as error:
-            raise ValueError(f"its ids are no text, as numpy.array(ids, str) makes it ({error})") from error
+            raise ValueError("its ids are no text, as numpy.array(ids, str) makes it") from error
         return [str(shape) for shape in ids.ravel().tolist()], arrays["values"]
 
 

@@ -139,8 +139,10 @@ def command_parser() -> argparse.ArgumentParser:
         description="Find the shapes of a built site that are most similar to a mesh, which need not be among them, "
         "and say which features make them alike.",
     )
-    query.add_argument("site", metavar="SITE", type=Path, help="folder of a site that this version has built")
-    query.add_argument("mesh", metavar="MESH", type=Path, help="a mesh file")
+    query.add_argument(
+        "site", metavar="SITE", type=given_path, help="folder of a site that this version has built"
+    )
+    query.add_argument("mesh", metavar="MESH", type=given_path, help="a mesh file")
     compared = query.add_mutually_exclusive_group()
     compared.add_argument(
         "--features",
@@ -151,7 +153,7 @@ def command_parser() -> argparse.ArgumentParser:
     compared.add_argument(
         "--bins",
         metavar="FILE",
-        type=Path,
+        type=given_path,
         help="compare the bins that FILE names instead: one name a line, or what the Workbench saves",
     )
     query.add_argument(
@@ -175,7 +177,7 @@ def command_parser() -> argparse.ArgumentParser:
         "-o",
         "--output",
         metavar="FILE",
-        type=Path,
+        type=given_path,
         required=True,
         help="FILE.parquet (needs pyarrow), FILE.csv, or FILE.npz for numpy; an earlier one is replaced",
     )
@@ -225,20 +227,27 @@ def command_parser() -> argparse.ArgumentParser:
 
 
 def _at_least_zero(text: str) -> float:
-    number = float(text)
+    try:
+        number = float(text)
+    except ValueError:
+        number = -1
     if not 0 <= number < float("inf"):
-        raise ValueError
+        raise argparse.ArgumentTypeError(f"{text!r} is no number from 0 on")
     return number
 
 
-_at_least_zero.__name__ = "number"  # as argparse says what is wrong
+def given_path(text: str) -> Path:
+    """A path that is not empty, as a variable without a value makes it: the current folder was not asked for."""
+    if not text:
+        raise argparse.ArgumentTypeError("it is empty; give a path ('.' for the current folder)")
+    return Path(text)
 
 
 def _add_database(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "database",
         metavar="DATABASE",
-        type=Path,
+        type=given_path,
         help="a folder of meshes, a CSV, JSON or Parquet table, or a .cla file",
     )
 
@@ -248,7 +257,7 @@ def _add_destination(parser: argparse.ArgumentParser) -> None:
         "-o",
         "--output",
         metavar="OUT",
-        type=Path,
+        type=given_path,
         required=True,
         help="folder of the site, or its file with --single-file; an earlier site there is replaced when the new one "
         "is complete",
@@ -283,7 +292,7 @@ def _add_options(parser: argparse.ArgumentParser, names: Sequence[str]) -> None:
     section.add_argument(
         "--config",
         metavar="FILE",
-        type=Path,
+        type=given_path,
         help="options from a TOML file of your own, which may hold any of them",
     )
 

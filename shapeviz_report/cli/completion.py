@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import dataclasses
 from collections.abc import Sequence
-from pathlib import Path
 
 import shtab
 
+from shapeviz_report.cli.arguments import given_path
 from shapeviz_report.config import Config
 from shapeviz_report.database.registry import ALL_LAYOUTS
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
@@ -27,7 +27,7 @@ def completion_script(parser: argparse.ArgumentParser, shell: str) -> str:
             action.choices = values[action.dest]
         elif action.metavar in ("FOLDER", "SITE"):
             action.complete = shtab.DIRECTORY  # type: ignore[attr-defined]
-        elif action.type is Path or action.metavar == "FILE":
+        elif action.type is given_path or action.metavar == "FILE":
             action.complete = shtab.FILE  # type: ignore[attr-defined]
     return shtab.complete(parser, shell=shell)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from shapeviz_report.database.base import Layout, display_names
 from shapeviz_report.database.class_folders import ClassFolders
 from shapeviz_report.database.flat import FlatFolder
-from shapeviz_report.database.formats import MESH_FORMATS
+from shapeviz_report.database.formats import MESH_FORMATS, is_read
 from shapeviz_report.database.modelnet import ModelNet
 from shapeviz_report.database.princeton import Princeton
 from shapeviz_report.database.table import TABLE_SUFFIXES, Listing, Table, passed_over
@@ -112,6 +112,9 @@ def _all_layouts() -> tuple[Layout, ...]:
 
 def _nothing_found(path: Path) -> Iterator[str]:
     """The lines of a message."""
+    if not path.is_dir() and is_read(path.name):
+        yield f"{path} is a mesh, not a database; give the folder that it lies in."
+        return
     if not path.is_dir():
         yield f"{path} is neither a folder, nor a table ({', '.join(TABLE_SUFFIXES)}), nor a .cla file."
         return

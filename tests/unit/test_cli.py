@@ -20,6 +20,22 @@ from shapeviz_report.database import read_database
 
 
 @pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["check", ""], "argument DATABASE: it is empty; give a path"),
+        (["build", "shapes", "-o", ""], "argument -o/--output: it is empty"),
+        (["cache", "--unused", "-5"], "argument --unused: '-5' is no number from 0 on"),
+        (["cache", "--keep", "all"], "argument --keep: 'all' is no number from 0 on"),
+        (["cache", "--keep", "nan"], "argument --keep: 'nan' is no number from 0 on"),
+    ],
+)
+def test_arguments_that_mean_nothing(capsys: pytest.CaptureFixture[str], arguments, said) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(arguments)
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
     ("files", "said"),
     [
         (["cup/1.off"], ["1 shape, read as", "1 class\n"]),

@@ -75,8 +75,11 @@ def test_parquet_by_ids_with_numbers_or_lists(tmp_path) -> None:
         ({"name": IDS, "width": [1, 2, 3]}, r"needs one column 'id' \(the index of a data frame"),
         ({"id": IDS, "width": ["1", "2", "3"]}, "its column 'width' holds neither numbers nor lists"),
         ({"id": IDS, "width": [[1], [2], [3, 4]]}, "its column 'width' holds neither"),
-        ({"id": IDS, "width": [1, None, 3]}, "finite numbers only"),
-        ({"id": IDS, "class": IDS}, "finite numbers only"),
+        (
+            {"id": IDS, "width": [1, None, 3]},
+            "finite numbers only, and has nan as number 1 of the shape 'ant/2'$",
+        ),
+        ({"id": IDS, "class": IDS}, "has no columns of numbers"),
         ({"id": [*IDS, "cup/1"], "width": [1, 2, 3, 4]}, "two rows for the shape 'cup/1'"),
         ({"id": IDS[1:], "width": [1, 2]}, "no row for 1 of the 3 shapes.*such as 'ant/1'"),
         ({"id": [[1], [2], [3]], "width": [1, 2, 3]}, "its column 'id' holds no text"),
@@ -92,11 +95,14 @@ def test_parquet_that_does_not_fit(tmp_path, columns, reason) -> None:
     ("content", "reason"),
     [
         (np.zeros((4, 2)), "4 rows, but the database has 3"),
-        (np.array([1.0, np.nan, 2]), "finite"),
+        (
+            np.array([[1.0, 1], [1, -np.inf], [np.nan, 1]]),
+            "has -inf as number 2 of .*'ant/2', and such of 1 more$",
+        ),
         (np.array(["a", "b", "c"]), "numbers"),
-        (np.array([{}, [], 0], dtype=object), "cannot be read"),
+        (np.array([{}, [], 0], dtype=object), "cannot be read: it holds Python objects, not numbers alone"),
         (np.zeros((3, 2, 2)), "one array"),
-        (np.zeros((3, 0)), "finite"),
+        (np.zeros((3, 0)), "has no columns of numbers"),
     ],
 )
 def test_arrays_that_do_not_fit(tmp_path, content, reason) -> None:
@@ -137,7 +143,7 @@ def test_archives_that_do_not_fit(tmp_path, arrays, reason) -> None:
         ("id,width\nant/1,1\nant/2,2,3\n", "row 3 has 3 cells, and the head 2"),
         ("id,width\nant/1,1\nant/2,2\n", "no row for 1 of the 3 shapes"),
         ("id,width\nant/1,nan\nant/2,2\ncup/1,1\n", "finite numbers only"),
-        ("id,class\nant/1,ant\nant/2,ant\ncup/1,cup\n", "finite numbers only"),
+        ("id,class\nant/1,ant\nant/2,ant\ncup/1,cup\n", "has no columns of numbers"),
         ('id,width\nant/1,"1', "cannot be read"),
     ],
 )

@@ -143,6 +143,8 @@ def test_path_that_does_not_exist(tmp_path):
 
 def test_file_instead_of_a_folder(tmp_path):
     with pytest.raises(DatabaseError, match="neither a folder"):
+        read_database(make(tmp_path, "a.txt") / "a.txt")
+    with pytest.raises(DatabaseError, match="is a mesh, not a database; give the folder that it lies in"):
         read_database(make(tmp_path, "a.off") / "a.off")
     for layout in ("class-folders", "modelnet", "flat", "princeton", "table"):
         with pytest.raises(DatabaseError):
