@@ -15,7 +15,9 @@ from shapeviz_report.errors import MeshError
 from shapeviz_report.mesh.looks import collect_looks
 from shapeviz_report.mesh.readers.gltf import GLTF, list_buffers
 from shapeviz_report.mesh.readers.limits import MOST_UNPACKED, check_unpacked
+from shapeviz_report.mesh.readers.sniff import what_it_seems
 
+_GZIP_HEAD = b"\x1f\x8b"
 _GZIP = 16 + zlib.MAX_WBITS
 """How zlib is told of the head and the end of a file of gzip."""
 
@@ -51,7 +53,7 @@ def unpack(name: str, data: bytes) -> dict[str, bytes]:
         with ZipFile(BytesIO(data)) as archive:
             return _unzip(archive, format)
     except BadZipFile as error:
-        raise MeshError(f"it is no ZIP archive, or damaged: {error}") from error
+        raise MeshError(f"it is no ZIP archive, {_instead(data, b'PK')}") from error
 
 
 def _gunzip(data: bytes) -> bytes:
@@ -65,13 +67,19 @@ def _gunzip(data: bytes) -> bytes:
         except zlib.error as error:
             if parts and not data.strip(b"\0"):
                 break  # some programs fill up the last block
-            raise MeshError("it is not compressed with gzip, or damaged") from error
+            raise MeshError(f"it is not compressed with gzip, {_instead(data, _GZIP_HEAD)}") from error
         left -= len(parts[-1])
         check_unpacked(MOST_UNPACKED - left)
         if not member.eof:
             raise MeshError("it is cut off: its compressed content has no end")
         data = member.unused_data
     return parts[0] if len(parts) == 1 else b"".join(parts)
+
+
+def _instead(data: bytes, head: bytes) -> str:
+    """What a file is that cannot be unpacked, though it may begin as packed ones do."""
+    seems = None if data.startswith(head) else what_it_seems(data)
+    return "or damaged" if seems is None else f"but seems to be {seems}"
 
 
 def _unzip(archive: ZipFile, format: str) -> dict[str, bytes]:

@@ -62,6 +62,5 @@ def check_unpacked(size: int) -> None:
     """Refuse a file that unpacks to too many bytes. Raises ``MeshError``."""
     if size > MOST_UNPACKED:
         raise MeshError(
-            f"it unpacks to {size / 2**20:,.0f} MiB, more than {MOST_UNPACKED / 2**20:,.0f} MiB; simplify it before it "
-            "is exported"
+            f"it unpacks to more than {MOST_UNPACKED / 2**20:,.0f} MiB; simplify it before it is exported"
         )

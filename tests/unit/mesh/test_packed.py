@@ -112,17 +112,22 @@ def test_colours_in_an_archive_are_bounded(monkeypatch) -> None:
     assert "too large" in paint().lost[0]
 
 
+POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 3\n"
+
+
 @pytest.mark.parametrize(
     ("name", "content", "reason"),
     [
         ("a.obj.gz", b"", "the file is empty"),
         ("a.obj.gz", gzipped(b""), "the file in it is empty"),
-        ("a.obj.gz", OBJ, "not compressed with gzip, or damaged"),
+        ("a.obj.gz", OBJ, "not compressed with gzip, but seems to be OBJ"),
+        ("a.obj.gz", bytes(100), "not compressed with gzip, or damaged"),
         ("a.obj.gz", gzipped(OBJ)[:-12], "cut off: its compressed content has no end"),
         ("a.obj.gz", gzipped(OBJ)[:40] + b"xxxx" + gzipped(OBJ)[44:], "gzip, or damaged|cut off"),
         ("a.obj.gz", gzipped(gzipped(OBJ)), "not OBJ, but seems to be compressed with gzip; unpack it"),
         ("a.obj.gz", gzipped(BOX.export(file_type="ply")), "it is not OBJ, but seems to be PLY"),
-        ("a.obj.zip", OBJ, "no ZIP archive, or damaged"),
+        ("a.obj.zip", POINTER, "no ZIP archive, but seems to be a Git LFS pointer, .*; fetch it"),
+        ("a.obj.zip", b"<!DOCTYPE html><title>404", "no ZIP archive, but seems to be a web page"),
         ("a.obj.zip", zipped({"a.obj": OBJ})[:-30], "no ZIP archive, or damaged"),
         ("a.obj.zip", zipped({}), r"it holds no \.obj file$"),
         ("a.obj.zip", zipped({"a.stl": b"", "b.txt": b""}), r"it holds no \.obj file, but a\.stl, b\.txt$"),
@@ -142,7 +147,7 @@ def test_what_unpacks_to_too_much_is_refused_before_it_has(monkeypatch) -> None:
     monkeypatch.setattr(packed, "MOST_UNPACKED", 10_000_000)
     bomb = gzipped(bytes(50_000_000), 1)
     for name, content in (("a.off.gz", bomb), ("a.off.zip", zipped({"a.off": bytes(20_000_000)}))):
-        with pytest.raises(MeshError, match=r"it unpacks to .* MiB, more than 10 MiB"):
+        with pytest.raises(MeshError, match="it unpacks to more than 10 MiB"):
             parse_mesh({name: content})
     lying = zipped({"a.off": bytes(20_000_000)}).replace(
         (20_000_000).to_bytes(4, "little"), (100).to_bytes(4, "little")
