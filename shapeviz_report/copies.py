@@ -74,8 +74,13 @@ ROUGH_POINTS = 100
 ROUGH_DISTANCE = 2 * NEARLY_DISTANCE
 """Surfaces that are farther apart after a rough fit are different."""
 
-SAME_LENGTH = 0.05
-"""Principal axes whose lengths differ by less, as a fraction of the size, may stand for each other."""
+HOPELESS_DISTANCE = 1.5 * NEARLY_DISTANCE
+"""A fit that gains little and is farther off is not completed; its distance is within an eighth of what all points
+say."""
+
+SAME_LENGTH = 0.02
+"""Principal axes whose lengths differ by less may stand for each other. Where they differ by more, those of copies are
+at most ten degrees apart, by which a fit finds the way."""
 
 STARTS = 8
 """First positions from which surfaces are fitted; without axes of one length there are four."""
@@ -87,8 +92,8 @@ ROUGH_STEPS = 6
 """Those of a rough fit."""
 
 STALLED = 0.8
-"""A rough fit is given up where a step leaves more than so much of a distance that is too large. From a start near the
-right position a step leaves less than half."""
+"""A fit is given up where a step leaves more than so much of a distance that is too large. From a start near the right
+position a step leaves less than half."""
 
 CLOSE_FITS = 2
 """Rough fits that are completed: those of a symmetric shape lie on each other, and each is as good as the next."""
@@ -181,22 +186,14 @@ def join_copies(
     return tuple(sorted(found, key=lambda copy: (place[copy.first], place[copy.second])))
 
 
-def compare(first: Mesh, second: Mesh, scale: float = 1.0) -> Match | None:
+def compare(one: Surface, other: Surface) -> Match | None:
     """Whether two surfaces are the same, or nearly.
-
-    Parameters
-    ----------
-    first, second : Mesh
-        Cleaned, hence in units of the diagonals of their bounding boxes.
-    scale : float
-        The diagonal of the second over that of the first, as the files have them.
 
     Returns
     -------
     Match or None
         None where no motion, reflection and even scaling lays one surface nearly on the other.
     """
-    one, other = _Surface(first), _Surface(second)
     best = _fit(one, other, mirrored=False)
     mirrored = False
     if best is None or best.distance > ROUNDING:
@@ -206,7 +203,7 @@ def compare(first: Mesh, second: Mesh, scale: float = 1.0) -> Match | None:
             best, mirrored = image, True
     if best is None:
         return None
-    times = scale * other.frame.radius / one.frame.radius * best.scale
+    times = other.unit / one.unit * best.scale
     if _same_triangles(one, other, best):
         return Match(IDENTICAL_GEOMETRY, scale=times, mirrored=mirrored)
     kind = SAME_SURFACE if best.same else NEARLY_SAME_SURFACE
@@ -253,12 +250,28 @@ def _find_frame(mesh: Mesh) -> _Frame:
     return _Frame(centre, radius, vectors.T[::-1], lengths, total)
 
 
-class _Surface:
-    """A surface in units of its own radius, centred, ready to be measured against."""
+class Surface:
+    """A surface in units of its own radius, centred, ready to be measured against.
 
-    def __init__(self, mesh: Mesh) -> None:
+    Parameters
+    ----------
+    mesh : Mesh
+        Cleaned, hence in units of the diagonal of its bounding box.
+    diagonal : float
+        This diagonal, as the file has it.
+
+    Attributes
+    ----------
+    size : float
+        The diagonal, in units of the radius.
+    unit : float
+        The radius, as the file has it.
+    """
+
+    def __init__(self, mesh: Mesh, diagonal: float = 1.0) -> None:
         self.frame = _find_frame(mesh)
         self.size = 1 / self.frame.radius
+        self.unit = diagonal * self.frame.radius
         vertices = (mesh.vertices - self.frame.centre) / self.frame.radius
         self.triangles = vertices[mesh.faces]
         normals = np.cross(
@@ -309,7 +322,7 @@ class _Fit:
         return (points - self.shift) @ self.turn / self.scale
 
 
-def _fit(one: _Surface, other: _Surface, *, mirrored: bool) -> _Fit | None:
+def _fit(one: Surface, other: Surface, *, mirrored: bool) -> _Fit | None:
     """The first fit in which the surfaces are the same, the most promising tried first; else the best in which they
     nearly are; None if there is none."""
     starts = np.array(_first_turns(one.frame, other.frame, mirrored=mirrored))
@@ -325,7 +338,11 @@ def _fit(one: _Surface, other: _Surface, *, mirrored: bool) -> _Fit | None:
             break
     close: list[_Fit] = []
     for fit in sorted(rough, key=lambda fit: fit.distance)[:CLOSE_FITS]:
-        fit = _measure(one, other, _settle(one, other, fit, POINTS // 3, STEPS), POINTS)
+        start = replace(fit, distance=np.inf)
+        fit = _settle(one, other, start, POINTS // 3, STEPS, enough=HOPELESS_DISTANCE)
+        if fit.distance > HOPELESS_DISTANCE:
+            continue
+        fit = _measure(one, other, fit, POINTS)
         if fit.same:
             return fit
         close += [fit] if fit.close else []
@@ -365,9 +382,7 @@ def _even_rotations() -> Rotation:
     return Rotation.random(24, random_state=0)
 
 
-def _settle(
-    one: _Surface, other: _Surface, fit: _Fit, count: int, steps: int, enough: float = np.inf
-) -> _Fit:
+def _settle(one: Surface, other: Surface, fit: _Fit, count: int, steps: int, enough: float) -> _Fit:
     """Move the first surface onto the second: Gauss-Newton steps on the distances along normals, from ``count`` points
     of each to the other (Chen and Medioni, 1992).
 
@@ -400,7 +415,7 @@ def _settle(
     return fit
 
 
-def _measure(one: _Surface, other: _Surface, fit: _Fit, count: int) -> _Fit:
+def _measure(one: Surface, other: Surface, fit: _Fit, count: int) -> _Fit:
     """The fit with the distances of the surfaces in it, at ``count`` points and as many corners of each."""
     there = np.concatenate([one.points[:count], _spread(one.triangles, count)])
     back = np.concatenate([other.points[:count], _spread(other.triangles, count)])
@@ -417,7 +432,7 @@ def _spread(triangles: FloatArray, count: int) -> FloatArray:
     return corners[:: max(1, len(corners) // count)][:count]
 
 
-def _same_triangles(one: _Surface, other: _Surface, fit: _Fit) -> bool:
+def _same_triangles(one: Surface, other: Surface, fit: _Fit) -> bool:
     """Whether each triangle of one surface is one of the other's, in any order and numbering."""
     if len(one.triangles) != len(other.triangles):
         return False

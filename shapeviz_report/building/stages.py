@@ -22,6 +22,7 @@ from threadpoolctl import threadpool_limits
 from shapeviz_report.cache import make_key
 from shapeviz_report.clusters import Partition, part
 from shapeviz_report.copies import Outline, compare, outline
+from shapeviz_report.copies import Surface as LaidOut
 from shapeviz_report.database.formats import split_name
 from shapeviz_report.descriptors import Surface
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
@@ -119,12 +120,28 @@ def read_examined(examined: bytes) -> Examined:
 
 def compare_shapes(first: Mapping[str, bytes], second: Mapping[str, bytes]) -> bytes:
     """Whether two mesh files are the same shape, for :func:`read_match`."""
-    originals = [parse_mesh(files) for files in (first, second)]
-    one, other = (clean(mesh)[0] for mesh in originals)
-    scale = bounding_diagonal(originals[1]) / bounding_diagonal(originals[0])
     with threadpool_limits(limits=1):
-        match = compare(one, other, scale)
+        match = compare(_lay_out(first), _lay_out(second))
     return json.dumps(None if match is None else asdict(match)).encode()
+
+
+MOST_LAID_OUT = 500_000
+"""Faces of all surfaces that a worker keeps at hand: some 125 MB."""
+
+_laid_out: dict[str, LaidOut] = {}
+
+
+def _lay_out(files: Mapping[str, bytes]) -> LaidOut:
+    """A mesh file ready to be compared: of shapes that are compared one after the other, many are the same."""
+    name = identify(files)
+    surface = _laid_out.pop(name, None)
+    if surface is None:
+        mesh = parse_mesh(files)
+        surface = LaidOut(clean(mesh)[0], bounding_diagonal(mesh))
+    _laid_out[name] = surface
+    while len(_laid_out) > 2 and sum(len(kept.triangles) for kept in _laid_out.values()) > MOST_LAID_OUT:
+        del _laid_out[next(iter(_laid_out))]
+    return surface
 
 
 def read_match(content: bytes) -> Match | None:

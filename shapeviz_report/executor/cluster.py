@@ -114,6 +114,7 @@ class DaskExecutor:
         self._asked: dict[str, Future[dict[str, Any]]] = {}
         self._accepted: set[str] = set()
         self._refused: dict[str, str] = {}
+        self._told: set[str] = set()
         try:
             # A client keeps its last messages for developers, a thousand of up to a megabyte: ours hold mesh files.
             with dask.config.set({"distributed.admin.low-level-log-length": 0}):
@@ -233,6 +234,9 @@ class DaskExecutor:
             pending = self._vet(found)
             threads = {worker: count for worker, count in found.items() if worker in self._accepted}
             if sum(threads.values()):
+                for worker in self._refused.keys() - self._told:
+                    self._told.add(worker)
+                    logger.warning("%s Meanwhile it is not used.", self._refused[worker])
                 return threads
             if pending:
                 end = time.monotonic() + PATIENCE
@@ -302,7 +306,6 @@ class DaskExecutor:
             self._accepted.add(worker)
             return
         self._refused[worker] = f"The worker {worker} {why}"
-        logger.warning("%s Meanwhile it is not used.", self._refused[worker])
 
     def _ask(self, question: str) -> Any:
         """What the scheduler answers. Waits for it; where that is long, the user is told, once."""

@@ -8,9 +8,18 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from shapeviz_report import demo
-from shapeviz_report.copies import NEARLY_DISTANCE, Outline, compare, join_copies, outline, pair_outlines
+from shapeviz_report import copies, demo
+from shapeviz_report.copies import (
+    NEARLY_DISTANCE,
+    Outline,
+    Surface,
+    compare,
+    join_copies,
+    outline,
+    pair_outlines,
+)
 from shapeviz_report.mesh import clean, parse_mesh
+from shapeviz_report.mesh.closest import find_closest
 from shapeviz_report.search.certainty import deal_folds
 from shapeviz_report.types import (
     Copy,
@@ -53,7 +62,7 @@ def changed(mesh: Mesh, how: str) -> Mesh:
 
 
 def match(first: Mesh, second: Mesh) -> Match | None:
-    return compare(clean(first)[0], clean(second)[0])
+    return compare(*(Surface(clean(mesh)[0]) for mesh in (first, second)))
 
 
 @pytest.mark.slow
@@ -120,7 +129,7 @@ def test_parts_that_lie_close_are_measured_exactly() -> None:
 def test_boxes_of_other_proportions_are_no_copies() -> None:
     boxes = [trimesh.creation.box(size) for size in ((2, 3, 4), (2, 3, 4.2))]
     meshes = [clean(Mesh(np.array(b.vertices, float), np.array(b.faces, np.int32)))[0] for b in boxes]
-    assert compare(*meshes) is None
+    assert compare(*map(Surface, meshes)) is None
     outlines = {str(number): Outline(str(number), outline(mesh)) for number, mesh in enumerate(meshes)}
     assert pair_outlines(outlines) == ([], [])
 
@@ -131,7 +140,24 @@ def test_shapes_of_a_class_are_no_copies_of_each_other() -> None:
     meshes = {f"{name}/{index}": clean(demo_mesh(name, index))[0] for name, index in names}
     certain, possible = pair_outlines({i: Outline(i, outline(mesh)) for i, mesh in meshes.items()})
     assert certain == []
-    assert [pair for pair in possible if compare(*(meshes[i] for i in pair)) is not None] == []
+    assert [pair for pair in possible if compare(*(Surface(meshes[i]) for i in pair)) is not None] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "first", "second"), [("cup", 0, 22), ("table", 13, 25)])
+def test_look_alikes_that_are_no_copies_are_told_apart_by_few_points(
+    monkeypatch, name, first, second
+) -> None:
+    asked = []
+
+    def find(points, *surface):
+        asked.append(len(points))
+        return find_closest(points, *surface)
+
+    monkeypatch.setattr(copies, "find_closest", find)
+    assert match(demo_mesh(name, first), demo_mesh(name, second)) is None
+    # a completed fit takes 18,000, and four were
+    assert sum(asked) < 40_000
 
 
 def test_outlines_propose_copies_and_identical_files_need_no_comparison() -> None:

@@ -130,7 +130,7 @@ def test_a_late_worker_that_differs_is_told_of_once_and_not_used(tmp_path, caplo
         assert {outcome.reason for outcome in found} == {None}
 
 
-def test_workers_that_all_differ_end_the_build(tmp_path) -> None:
+def test_workers_that_all_differ_end_the_build(tmp_path, caplog) -> None:
     modules = other_package(tmp_path / "modules")
     with running_cluster(tmp_path, workers=0) as cluster:
         for _ in range(2):
@@ -140,6 +140,7 @@ def test_workers_that_all_differ_end_the_build(tmp_path) -> None:
             pytest.raises(ClusterError, match=r"worker tcp://.* has other versions of shapeviz-report"),
         ):
             list(executor.run(divmod, [(1, 2)] * 8))
+    assert caplog.messages == []
 
 
 def test_a_worker_that_can_draw_takes_part(address) -> None:
