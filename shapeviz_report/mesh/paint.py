@@ -35,6 +35,9 @@ MOST_PICTURES = 256
 INWARDS = 0.25
 """How far inside a face its colour is taken, of the way from a corner to the middle."""
 
+LIFT = 1e-4
+"""How far the two sides of a surface are held apart, of a shape's diagonal."""
+
 _FORMATS = ("PNG", "JPEG", "WEBP", "BMP", "TGA")
 
 GREYS = 8
@@ -225,7 +228,8 @@ def bake(paint: Paint, corners: FloatArray, mesh: Mesh) -> Bytes:
     """The colours at the vertices of a mesh that lies close to a painted surface.
 
     A vertex has the mean light of its faces, each taken a little inside: on an edge between two colours the closest
-    point alone would be of either by chance.
+    point alone would be of either by chance. Where the surface has two sides in one place, a face has the colour of the
+    one that looks where it does.
 
     Parameters
     ----------
@@ -241,17 +245,17 @@ def bake(paint: Paint, corners: FloatArray, mesh: Mesh) -> Bytes:
     """
     places = mesh.vertices[mesh.faces]
     inside = places + INWARDS * (places.mean(axis=1, keepdims=True) - places)
-    light = _light(paint, corners, inside.reshape(-1, 3))
+    light = _light(paint, corners, inside.reshape(-1, 3), np.repeat(_normals(places), 3, axis=0))
     owners, count = mesh.faces.ravel(), len(mesh.vertices)
     sums = np.stack([np.bincount(owners, channel, count) for channel in light.T], axis=1)
     return from_light(sums / np.maximum(np.bincount(owners, minlength=count), 1)[:, None])
 
 
-def _light(paint: Paint, corners: FloatArray, points: FloatArray) -> FloatArray:
-    """Linear light (n, 3) of a painted surface where it is closest to some points."""
+def _light(paint: Paint, corners: FloatArray, points: FloatArray, facing: FloatArray) -> FloatArray:
+    """Linear light (n, 3) of a painted surface where it is closest to some points, on the side that faces a way."""
     order = along_curve(corners[:, 0] + corners[:, 1] + corners[:, 2])
     sorted_corners = corners[order]
-    closest, place = find_closest(points, sorted_corners, box_faces(sorted_corners), LEAF)
+    closest, place = _find_side(points, facing, sorted_corners)
     weights, used = _weigh(sorted_corners[place], closest), paint.of(order[place])
     light = np.einsum("nc,nca->na", weights, to_light(used.colors))
     if used.places is not None and used.pictures is not None:
@@ -260,6 +264,31 @@ def _light(paint: Paint, corners: FloatArray, points: FloatArray) -> FloatArray:
             rows = np.flatnonzero((used.pictures[:, 0] == number) & np.isfinite(where).all(axis=1))
             light[rows] *= _look_up(image, where[rows])
     return light
+
+
+def _find_side(points: FloatArray, facing: FloatArray, corners: FloatArray) -> tuple[FloatArray, Indices]:
+    """As :func:`find_closest`, of triangles (m, 3, 3) sorted along a curve. Where one that faces the other way than it
+    should is found, and another lies in the same place that does not, that is taken."""
+    closest, place = find_closest(points, corners, box_faces(corners), LEAF)
+    normals = _normals(corners)
+    away = np.flatnonzero((normals[place] * facing).sum(axis=1) < 0)
+    if len(away):
+        # raised to the side that it faces, a triangle parts from one that faces the other way
+        raised = corners + LIFT * normals[:, None]
+        above = closest[away] + LIFT * facing[away]
+        found, other = find_closest(above, raised, box_faces(raised), LEAF)
+        seen = (normals[other] * facing[away]).sum(axis=1) > 0
+        seen &= np.linalg.norm(found - above, axis=1) < LIFT
+        closest[away[seen]] = found[seen] - LIFT * normals[other[seen]]
+        place[away[seen]] = other[seen]
+    return closest, place
+
+
+def _normals(triangles: FloatArray) -> FloatArray:
+    """Unit normals (n, 3) of triangles (n, 3, 3); zero of those without area."""
+    crosses = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    lengths = np.linalg.norm(crosses, axis=1, keepdims=True)
+    return np.asarray(crosses / np.where(lengths > 0, lengths, 1))
 
 
 def _weigh(triangles: FloatArray, points: FloatArray) -> FloatArray:

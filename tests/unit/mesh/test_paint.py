@@ -404,6 +404,36 @@ def test_pictures_of_gltf_end_as_they_are_told_to(wrap, color) -> None:
     np.testing.assert_allclose(colors_of(files | {"halves.png": HALVES}), color, atol=1)
 
 
+@pytest.mark.parametrize("order", ["front", "back", "both"])
+@pytest.mark.parametrize(
+    "shape", [BOX, trimesh.creation.icosphere(3), trimesh.creation.torus(1, 0.3)], ids=range(3)
+)
+def test_a_surface_of_two_sides_has_the_colour_of_the_outer_one(shape, order) -> None:
+    """As programs of architects write it, whose outer sides have materials."""
+    outer = [(face, "200 30 30") for face in shape.faces]
+    inner = [(face[::-1], "255 255 255") for face in shape.faces]
+    faces = {
+        "front": outer + inner,
+        "back": inner + outer,
+        "both": [x for two in zip(outer, inner) for x in two],
+    }
+    lines = ["OFF", f"{len(shape.vertices)} {2 * len(shape.faces)} 0"]
+    lines += [" ".join(map(str, vertex)) for vertex in shape.vertices]
+    lines += [f"3 {a} {b} {c} {color}" for (a, b, c), color in faces[order]]
+    np.testing.assert_array_equal(colors_of({"a.off": "\n".join(lines).encode()}), (200, 30, 30))
+
+
+def test_a_surface_that_is_turned_in_places_keeps_its_colours() -> None:
+    colors = [f"{20 * number} 200 {255 - 20 * number}" for number in range(12)]
+    mesh, _ = prepare({"a.off": off(colors)}, 0.03)
+    turned = Mesh(BOX.vertices, np.where(np.arange(12)[:, None] % 3 == 0, BOX.faces[:, ::-1], BOX.faces))
+    lines = off(colors).decode().split("\n")
+    lines[-12:] = [f"3 {a} {b} {c} {color}" for (a, b, c), color in zip(turned.faces, colors)]
+    other, _ = prepare({"a.off": "\n".join(lines).encode()}, 0.03)
+    np.testing.assert_allclose(by_side(other)[0, 1], by_side(mesh)[0, 1], atol=2)
+    np.testing.assert_allclose(by_side(other)[2, -1], by_side(mesh)[2, -1], atol=2)
+
+
 def test_a_picture_goes_on_beyond_its_sides() -> None:
     """Red on the left of one pixel of green, along a strip with two copies on each side."""
     corners = np.array([[[-2.0, 0, 0], [3, 0, 0], [3, 1, 0]], [[-2, 0, 0], [3, 1, 0], [-2, 1, 0]]])
