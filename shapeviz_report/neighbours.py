@@ -117,6 +117,11 @@ def find_related(points: FloatArray, count: int) -> IntArray:
     return found
 
 
+def most_standing(count: int, classes: int) -> int | None:
+    """How many shapes of a class stand for it at most where their fit is found; None where all do."""
+    return max(FITTED // classes, 2 * KIN) if count > EXACT_LIMIT else None
+
+
 def find_fits(points: FloatArray, codes: npt.NDArray[np.integer]) -> Fits:
     """How well every shape fits its class, by the distances of points.
 
@@ -135,8 +140,8 @@ def find_fits(points: FloatArray, codes: npt.NDArray[np.integer]) -> Fits:
         return Fits(fit, rival)
     members = [np.flatnonzero(codes == code) for code in range(classes)]
     standing = None
-    if count > EXACT_LIMIT:
-        most = max(FITTED // classes, 2 * KIN)
+    most = most_standing(count, classes)
+    if most is not None:
         standing = np.concatenate([evenly(own, points, most) for own in members])
         members = [np.flatnonzero(codes[standing] == code) for code in range(classes)]
     for rows, squared in squared_blocks(points, standing):

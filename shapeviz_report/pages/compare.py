@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from shapeviz_report.bins import scale_bins
-from shapeviz_report.neighbours import find_fits, find_nearest, order_classes
+from shapeviz_report.neighbours import find_fits, find_nearest, most_standing, order_classes
 from shapeviz_report.pages.base import PageContent, class_codes, class_names, map_title, rounded
 from shapeviz_report.pages.chunks import Comparison, Side, Sides
 from shapeviz_report.presets import PRESETS, compared_values, scale
@@ -30,10 +30,11 @@ class ComparePage:
         points = _points(report)
         spaces = {SPACE: points, **{method: shown.xy for method, (shown, _) in report.projections.items()}}
         projection, hits = next(iter(report.projections.values()))
-        codes = class_codes(report)
+        codes, classes = class_codes(report), len(class_names(report))
         return PageContent(
             context={
-                "classes": len(class_names(report)),
+                "classes": classes,
+                "standing": most_standing(len(report.shapes), classes) if classes > 1 else None,
                 "spaces": [
                     {"key": key, "title": _space(projection.bins) if key == SPACE else map_title(key)}
                     for key in spaces

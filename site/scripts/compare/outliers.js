@@ -66,7 +66,7 @@ export class Outliers {
     if (this.list === null) return;
     const own = kind(database);
     toldAs(document.getElementById("outliers"), () => ({
-      words: `The ${count(this.list.childElementCount, "shape")} that fit their ${own} least, of ${grouped(this.ranked().length)}. The fit compares how far the five nearest shapes of its own ${own} are with how far the five nearest of another are, in all that is compared: 1 where only its own is near, below 0 where another is closer.`,
+      words: `The ${count(this.list.childElementCount, "shape")} that fit their ${own} least, of ${grouped(this.ranked().length)}. ${document.getElementById("fit-words").textContent}`,
     }));
     this.#offer();
     this.filter.addEventListener("change", () =>

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from reports import make_report, with_bins, with_external
 
+from shapeviz_report import neighbours
 from shapeviz_report.neighbours import find_nearest
 from shapeviz_report.pages.compare import ComparePage
 from shapeviz_report.presets import PRESETS, scale
@@ -30,6 +31,14 @@ def test_neighbours_are_those_of_every_map_and_of_all_features():
     assert data["spaces"] == ["features", "tsne", "umap", "pca"]
     assert (found["features"] == find_nearest(scale(REPORT.features, PRESETS["default"]), data["k"])).all()
     assert (found["umap"] == find_nearest(REPORT.projections["umap"][0].xy, data["k"])).all()
+
+
+def test_it_is_known_how_many_stand_for_a_class(monkeypatch):
+    assert ComparePage().content(REPORT).context["standing"] is None
+    monkeypatch.setattr(neighbours, "EXACT_LIMIT", 20)
+    assert ComparePage().content(REPORT).context["standing"] == 4000 // 3
+    monkeypatch.setattr(neighbours, "FITTED", 12)
+    assert ComparePage().content(REPORT).context["standing"] == 10
 
 
 def test_only_chosen_bins_count_where_the_maps_are_made_of_them():
