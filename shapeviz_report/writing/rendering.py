@@ -114,7 +114,7 @@ def _source(report: Report) -> str:
         None if said.citation is None or said.citation.startswith("@") else " ".join(said.citation.split())
     )
     parts = [
-        f"Source: {report.database.name}, {len(report.shapes)} shapes"
+        f"Source: {report.database.name}, {grouped(len(report.shapes))} shapes"
         + (f", by {said.creator}" if said.creator else ""),
         cited,
         said.url,

@@ -161,3 +161,25 @@ def test_forced_colors_still_tell_what_is_chosen_and_what_a_color_says(browser, 
     )
     assert len(set(fills)) == len(fills)
     context.close()
+
+
+@pytest.mark.parametrize("file", ["index.html", "bins.html#shape=most", "features.html", "workbench.html"])
+def test_what_is_chosen_has_the_colors_of_the_reader(browser, site, file):
+    context = browser.new_context(forced_colors="active", reduced_motion="reduce")
+    page = context.new_page()
+    visit(page, site("everything"), file)
+    colours = page.evaluate(
+        """() => {
+            const colours = (node) => {
+                const { color, backgroundColor } = getComputedStyle(node);
+                return `${color} on ${backgroundColor}`;
+            };
+            const probe = document.createElement("i");
+            Object.assign(probe.style, { color: "HighlightText", background: "Highlight", forcedColorAdjust: "none" });
+            document.body.append(probe);
+            const chosen = [...document.querySelectorAll("nav [aria-current], [aria-pressed=true]")];
+            return [colours(probe), chosen.filter((node) => node.checkVisibility()).map(colours)];
+        }"""
+    )
+    assert set(colours[1]) == {colours[0]}
+    context.close()

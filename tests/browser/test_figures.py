@@ -306,6 +306,18 @@ def test_the_whole_gallery_is_on_paper(open_page, site):
     assert page.pdf(prefer_css_page_size=True).count(b"/Type /Page\n") >= 3
 
 
+@pytest.mark.parametrize(
+    ("name", "shape", "pictures"), [("plain", "class000/0000", 0), ("very many", "class000/0000-00000", 1)]
+)
+def test_a_shape_is_ringed_on_paper_and_very_many_marks_are_one_picture(open_page, name, shape, pictures):
+    page = open_page(name, f"shape.html#id={shape}")
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    drawing = page.locator("main svg.on-paper", has=page.locator("circle"))
+    assert drawing.count() == 1
+    assert drawing.locator("image").count() == pictures
+    assert drawing.locator("path").count() < 130
+
+
 def test_a_map_on_paper_has_its_names_where_its_marks_are(open_page):
     page = open_page("plain", "index.html#view=class")
     page.wait_for_selector("figure[data-slot=large] .labels > g")

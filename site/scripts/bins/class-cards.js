@@ -18,6 +18,9 @@ const SEPARATED = 0.9;
 /** Of the surface, a part by which two pictures differ for everybody to see it: more shows no more. */
 const ENOUGH = 0.15;
 
+/** On paper the marks of a map are shapes of a drawing up to so many; there may be dozens of maps. */
+const MOST_SHAPES = 300;
+
 export class ClassCards {
   /**
    * @param {Database} database
@@ -77,6 +80,7 @@ export class ClassCards {
     const plot = new Plot(database, {
       label: `Map of ${count(found.bins.length, "bin")}: ${name} against the rest`,
       first: (index) => database.groups[index] !== group,
+      most: MOST_SHAPES,
       selection: () => this.state.get("selection"),
       /** @param {number} index */
       mark: (index) => {

@@ -173,7 +173,7 @@ export class Turntable {
           alpha: 0.35 + 0.6 * Math.sqrt(share),
         };
       },
-      drawn: (marks) => marks.ring(this.pick.screen(this.shape), 9, styleColor("accent")),
+      drawn: (over) => over.ring(this.pick.screen(this.shape), 9, styleColor("accent")),
     });
     const surface = document.getElementById("pick-surface");
     surface.append(this.pick.node);

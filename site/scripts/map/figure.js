@@ -15,7 +15,7 @@ import { CHOSEN, FAINT, NORMAL } from "./scene.js";
 const LEVELS = [FAINT, NORMAL, CHOSEN];
 
 /** Marks of so many shapes at the most are shapes of a drawing. */
-const MOST_SHAPES = 10_000;
+export const MOST_SHAPES = 10_000;
 
 /** A legend has rows of so many pixels, and as much beside a name as the mark before it takes. */
 const ROW = 20;

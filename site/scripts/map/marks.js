@@ -15,6 +15,11 @@ export const OUTLINE = 0.6;
 /** Beyond so many pixels stamps are forgotten: a reader who zooms for long would fill the memory. */
 const MOST_PIXELS_KEPT = 2_000_000;
 
+/** Rings and lines over marks: in pixels of the page, and how present lines are. */
+export const RING = 2.5;
+export const LINE = 1;
+export const LINES = 0.6;
+
 export class Marks {
   /**
    * All sizes and places are in pixels of the page.
@@ -32,9 +37,10 @@ export class Marks {
    * Begin a drawing of this size.
    * @param {number} width
    * @param {number} height
+   * @param {number} [density] pixels of the drawing to one of the page
    */
-  begin(width, height) {
-    this.density = window.devicePixelRatio || 1;
+  begin(width, height, density = window.devicePixelRatio || 1) {
+    this.density = density;
     const [wide, high] = [Math.round(width * this.density), Math.round(height * this.density)];
     if (this.node.width !== wide || this.node.height !== high) Object.assign(this.node, { width: wide, height: high });
     this.sheet = emptySheet(wide, high);
@@ -95,7 +101,7 @@ export class Marks {
    */
   ring([x, y], radius, color) {
     const { pen } = this;
-    Object.assign(pen, { globalAlpha: 1, lineWidth: 2.5, strokeStyle: color });
+    Object.assign(pen, { globalAlpha: 1, lineWidth: RING, strokeStyle: color });
     pen.beginPath();
     pen.arc(x, y, radius, 0, 7);
     pen.stroke();
@@ -109,7 +115,7 @@ export class Marks {
    */
   tie(from, others, color) {
     const { pen } = this;
-    Object.assign(pen, { globalAlpha: 0.6, lineWidth: 1, strokeStyle: color });
+    Object.assign(pen, { globalAlpha: LINES, lineWidth: LINE, strokeStyle: color });
     pen.beginPath();
     for (const other of others) {
       pen.moveTo(from[0], from[1]);

@@ -4,8 +4,8 @@ import { calm, svg, watchSize } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 import { drawnAs } from "../base/snapshot.js";
 import { bounds } from "../database/database.js";
-import { markAt } from "./figure.js";
-import { FADED, Marks } from "./marks.js";
+import { MOST_SHAPES, markAt } from "./figure.js";
+import { FADED, LINE, LINES, Marks, RING } from "./marks.js";
 
 /** @import { Database } from "../database/database.js" */
 
@@ -21,11 +21,18 @@ import { FADED, Marks } from "./marks.js";
  * @property {(index: number) => boolean} [first] puts shapes below the others
  * @property {() => Set<number>} [selection] the shapes that stand out, all where there are none
  * @property {number} [margin]
+ * @property {number} [most] of more shapes than this a drawing is a picture
  * @property {string | null} [label]
- * @property {(marks: Marks) => void} [drawn] is called after every drawing, and may draw more
+ * @property {(over: Over) => void} [drawn] is called after every drawing, and may draw more
+ *
+ * What draws over marks.
+ * @typedef {Pick<Marks, "ring" | "tie">} Over
  */
 
 const DURATION = 450;
+
+/** As fine as a sheet of paper shows it. */
+const PRINTED = 3;
 
 /**
  * The map of a step or a class from the chunk "selection", of the shapes that took part.
@@ -53,13 +60,22 @@ export class Plot {
    */
   constructor(
     database,
-    { mark, first = () => false, selection = () => NOBODY, margin = 8, label = null, drawn = () => {} },
+    {
+      mark,
+      first = () => false,
+      selection = () => NOBODY,
+      margin = 8,
+      most = MOST_SHAPES,
+      label = null,
+      drawn = () => {},
+    },
   ) {
     this.database = database;
     this.mark = mark;
     this.first = first;
     this.selection = selection;
     this.margin = margin;
+    this.most = most;
     this.drawn = drawn;
     this.#marks = new Marks({
       class: "few-plot",
@@ -166,6 +182,13 @@ export class Plot {
   figure() {
     const { width, height } = this.view;
     if (this.map === null || width === 0) return null;
+    const viewBox = `0 0 ${width} ${height}`;
+    if (this.map.x.length > this.most) {
+      const marks = new Marks({});
+      this.#paint(marks, PRINTED);
+      const image = svg("image", { width, height, href: marks.node.toDataURL() });
+      return { node: svg("svg", { viewBox }, image, this.#over()) };
+    }
     const below = svg("g", { opacity: FADED });
     const above = svg("g");
     for (const { shape, faded } of this.#stacked()) {
@@ -174,19 +197,42 @@ export class Plot {
       if (!faded) mark.setAttribute("opacity", String(alpha));
       (faded ? below : above).append(mark);
     }
-    return { node: svg("svg", { viewBox: `0 0 ${width} ${height}` }, below, above) };
+    return { node: svg("svg", { viewBox }, below, above, this.#over()) };
+  }
+
+  /** What is drawn over the marks. */
+  #over() {
+    const node = svg("g", { fill: "none" });
+    this.drawn({
+      ring([cx, cy], r, stroke) {
+        node.append(svg("circle", { cx, cy, r, stroke, "stroke-width": RING }));
+      },
+      tie(from, others, stroke) {
+        const d = others.map((other) => `M${from}L${other}`).join("");
+        node.append(svg("path", { d, stroke, "stroke-width": LINE, opacity: LINES }));
+      },
+    });
+    return node;
   }
 
   draw() {
-    const { node, map, database } = this;
-    const marks = this.#marks;
+    const { node, map } = this;
     const [width, height] = [node.clientWidth, node.clientHeight];
     if (map === null || width === 0 || height === 0) return;
     const extent = bounds(map);
     const scale = Math.min((width - 2 * this.margin) / extent.width, (height - 2 * this.margin) / extent.height);
     this.view = { x: extent.x, y: extent.y, scale, width, height };
-    const { outline } = database.marks;
-    marks.begin(width, height);
+    this.#paint(this.#marks);
+    this.drawn(this.#marks);
+  }
+
+  /**
+   * @param {Marks} marks
+   * @param {number} [density]
+   */
+  #paint(marks, density) {
+    const { outline } = this.database.marks;
+    marks.begin(this.view.width, this.view.height, density);
     let fading = false;
     for (const { shape, faded } of this.#stacked()) {
       if (fading && !faded) marks.fade(FADED);
@@ -196,7 +242,6 @@ export class Plot {
     }
     if (fading) marks.fade(FADED);
     marks.show();
-    this.drawn(marks);
   }
 }
 

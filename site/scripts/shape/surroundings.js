@@ -12,7 +12,7 @@ import { kind } from "../database/kind.js";
 
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database, Method } from "../database/database.js" */
-/** @import { Marks } from "../map/marks.js" */
+/** @import { Over } from "../map/plot.js" */
 /** @import { Pointing } from "../map/pointing.js" */
 /** @import { ShapeLinks } from "./links.js" */
 
@@ -37,7 +37,7 @@ export class Surroundings {
       first: (index) => !this.near.has(index) && index !== state.get("shape"),
       /** @param {number} index */
       mark: (index) => this.#mark(index),
-      drawn: (marks) => this.#tie(marks),
+      drawn: (over) => this.#tie(over),
     });
     const surface = document.getElementById("place-surface");
     surface.append(this.plot.node);
@@ -184,17 +184,17 @@ export class Surroundings {
 
   /**
    * Lines to the neighbours, and a ring around the shape itself.
-   * @param {Marks} marks
+   * @param {Over} over
    */
-  #tie(marks) {
+  #tie(over) {
     const shape = this.state.get("shape");
     if (shape === null) return;
     const place = this.plot.screen(shape);
-    marks.tie(
+    over.tie(
       place,
       [...this.near].map((other) => this.plot.screen(other)),
       styleColor("quiet"),
     );
-    marks.ring(place, 11, styleColor("accent"));
+    over.ring(place, 11, styleColor("accent"));
   }
 }
