@@ -12,6 +12,7 @@ from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import find_copies
 from shapeviz_report.building.reading import (
+    MeshFiles,
     load_all_coordinates,
     load_all_external,
     plan_examining,
@@ -68,19 +69,18 @@ def check_database(source: Path | Listing, config: Config, progress: Progress | 
     cache = Cache(root)
     with open_workers(config, config.worker_count) as executor:
         run = Runner(executor, clock, cache, name_files(database), failures, config)
-        paths = {s.id: s.path.absolute() for s in database.shapes}
-        within = None if config.outside else database.root
-
+        meshes = MeshFiles(database, outside=config.outside)
+        ids = [shape.id for shape in database.shapes]
         examined: dict[str, Examined] = {}
         checking = replace(EXAMINE, name="check")
 
         def take(shape: str, _: Chain, values: dict[Stage[Any], Any]) -> None:
             examined[shape] = values[checking]
 
-        run.each("Checking meshes", paths, [checking], plan_examining(paths, within), take)
-        found = {shape: examined[shape] for shape in paths if shape in examined}
+        run.each("Checking meshes", ids, [checking], plan_examining(meshes.read), take)
+        found = {shape: examined[shape] for shape in ids if shape in examined}
         outlines = {shape: each.outline for shape, each in found.items()}
-        copies = find_copies(run, paths, within, outlines)
+        copies = find_copies(run, meshes.read, outlines)
     cache.tell()
     return CheckResult(
         database,

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.measuring import Measured, find_edges, measure_meshes, nothing_usable
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
-from shapeviz_report.building.reading import load_all_external, read_published
+from shapeviz_report.building.reading import MeshFiles, load_all_external, read_published
 from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.workers import open_executor
 from shapeviz_report.cache import Cache, default_root
@@ -147,8 +147,8 @@ def describe_database(
         database = read_published(source, config, read_publication(config))
         external = load_all_external(config.external, database)
     preset, failures = PRESETS[config.preset], list(database.failures)
-    within = None if config.outside else database.root
-    meshes = {s.id: partial(collect_files, s.path.absolute(), within) for s in database.shapes}
+    files = MeshFiles(database, outside=config.outside)
+    meshes = {s.id: partial(files.read, s.id) for s in database.shapes}
     with open_run(config, name_files(database), failures, progress, Path(source)) as run:
         edges, kept = find_edges(run, meshes, preset, config.edge_length)
         rows = measure_meshes(run, kept, preset, edges, config.edge_length).rows

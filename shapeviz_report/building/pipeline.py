@@ -33,7 +33,12 @@ from shapeviz_report.building.questions import (
     search_all_bins,
     search_subsets,
 )
-from shapeviz_report.building.reading import load_all_coordinates, load_all_external, read_published
+from shapeviz_report.building.reading import (
+    MeshFiles,
+    load_all_coordinates,
+    load_all_external,
+    read_published,
+)
 from shapeviz_report.building.runner import Made, Runner, name_files
 from shapeviz_report.building.workers import find_renderer, open_executor
 from shapeviz_report.cache import Cache, default_root
@@ -46,7 +51,6 @@ from shapeviz_report.exemplars import choose_exemplars
 from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.features import fixed_edges, quantile_edges
 from shapeviz_report.glb import find_dimensions
-from shapeviz_report.mesh import collect_files
 from shapeviz_report.models import faces_of_model
 from shapeviz_report.pages.base import thumbnail_size
 from shapeviz_report.plugins import find_plugins
@@ -131,11 +135,11 @@ def build_report(
     renderer = find_renderer(config)
     with open_executor(config, renderer) as executor:
         run = Runner(executor, clock, cache, name_files(database), failures, config)
-        paths = {s.id: s.path.absolute() for s in database.shapes}
-        within = None if config.outside else database.root
+        meshes = MeshFiles(database, outside=config.outside)
+        ids = [s.id for s in database.shapes]
 
         def plan(shape: str) -> Plan:
-            files = collect_files(paths[shape], within)
+            files = meshes.read(shape)
             chain = Chain(stages.identify(files))
             chain.add(stages.PREPARE, (), config.edge_length)
             chain.add(stages.FACTS, [stages.PREPARE])
@@ -164,8 +168,8 @@ def build_report(
             *([stages.DESCRIBE_WHOLE] if preset.whole else []),
         ]
         width = sum(block.width for block in preset.blocks)
-        values = np.empty((len(paths), width))
-        row = {shape: number for number, shape in enumerate(paths)}
+        values = np.empty((len(ids), width))
+        row = {shape: number for number, shape in enumerate(ids)}
         facts: dict[str, ShapeFacts] = {}
         outlines: dict[str, Outline] = {}
         pictures: dict[str, bytes] = {}
@@ -188,20 +192,20 @@ def build_report(
                     files[shape] = (name, chain.key(stages.EXPORT))
 
         looks: list[stages.Stage[Any]] = [stages.FACTS, stages.EXAMINE, stages.RENDER]
-        share = sampled_of_each(len(paths))
+        share = sampled_of_each(len(ids))
         edges = fixed_edges() if preset.fixed_ranges else None
-        faces = faces_of_model(len(paths))
+        faces = faces_of_model(len(ids))
         if edges is not None:
-            run.each("Measuring shapes", paths, [*looks, *described, *exports], plan, take)
+            run.each("Measuring shapes", ids, [*looks, *described, *exports], plan, take)
         else:
-            run.each("Preparing shapes", paths, [*looks, stages.SAMPLE], plan, take)
-            kept = [shape for shape in paths if shape in samples]
+            run.each("Preparing shapes", ids, [*looks, stages.SAMPLE], plan, take)
+            kept = [shape for shape in ids if shape in samples]
             edges = quantile_edges([samples[shape] for shape in kept]) if kept else fixed_edges()
             run.each("Measuring shapes", kept, [*described, *exports], plan, take)
         shapes = tuple(s for s in database.shapes if s.id in models)
         if not shapes:
             raise DatabaseError(*nothing_usable(Path(source), failures))
-        copies = find_copies(run, paths, within, {s.id: outlines[s.id] for s in shapes})
+        copies = find_copies(run, meshes.read, {s.id: outlines[s.id] for s in shapes})
         groups = group_copies(copies, [s.id for s in shapes])
         rows = [row[s.id] for s in shapes]
         features = FeatureTable(

@@ -6,7 +6,6 @@ import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from hashlib import sha256
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -33,7 +32,6 @@ from shapeviz_report.config import Config
 from shapeviz_report.copies import Outline, join_copies, pair_outlines
 from shapeviz_report.diffusion import diffuse
 from shapeviz_report.features import BINS
-from shapeviz_report.mesh import collect_files
 from shapeviz_report.order import classes_of
 from shapeviz_report.presets import PRESETS
 from shapeviz_report.projections import PAIRWISE_LIMIT, align, squared_distances
@@ -90,8 +88,7 @@ folds of 56 shapes tell NH_s to 0.01."""
 
 def find_copies(
     run: Runner,
-    paths: Mapping[str, Path],
-    within: Path | None,
+    read: Callable[[str], Mapping[str, bytes]],
     outlines: Mapping[str, Outline],
 ) -> tuple[Copy, ...]:
     """The shapes that are the same shape again; those whose comparison fails are taken for different."""
@@ -100,7 +97,7 @@ def find_copies(
     with run.clock.stage(COMPARE.name, COMPARE.doing, len(possible)) as step:
 
         def plan(pair: tuple[str, str]) -> Task:
-            first, second = (collect_files(paths[shape], within) for shape in pair)
+            first, second = map(read, pair)
             return Task(COMPARE.key(identify(first), identify(second)), lambda: (first, second))
 
         def take(pair: tuple[str, str], _: str, content: bytes, cpu_seconds: float) -> None:

@@ -10,7 +10,7 @@ from shapeviz_report.building import stages
 from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.config import Config
 from shapeviz_report.database import Listing, read_database
-from shapeviz_report.errors import ConfigError
+from shapeviz_report.errors import ConfigError, MeshError
 from shapeviz_report.external import load_coordinates, load_external
 from shapeviz_report.features import BLOCKS
 from shapeviz_report.mesh import collect_files
@@ -73,11 +73,42 @@ def load_all_coordinates(paths: Sequence[Path], database: Database) -> dict[str,
     return maps
 
 
-def plan_examining(paths: Mapping[str, Path], within: Path | None) -> Callable[[str], Plan]:
-    """How the mesh file of a shape is examined."""
+class MeshFiles:
+    """The files of the shapes of a database, each as it was when it was first read: what is found of a shape belongs
+    together.
+
+    Parameters
+    ----------
+    database : Database
+    outside : bool
+        Whether meshes may lie outside its folder.
+    """
+
+    def __init__(self, database: Database, *, outside: bool) -> None:
+        self._paths = {shape.id: shape.path.absolute() for shape in database.shapes}
+        self._within = None if outside else database.root
+        self._read_as: dict[str, str] = {}
+
+    def read(self, shape: str) -> dict[str, bytes]:
+        """As :func:`~shapeviz_report.mesh.collect_files` finds them.
+
+        Raises
+        ------
+        MeshError
+            Also if they are no longer what they were.
+        """
+        files = collect_files(self._paths[shape], self._within)
+        found = stages.identify(files)
+        if self._read_as.setdefault(shape, found) != found:
+            raise MeshError("it was changed while it was used; run the same command again")
+        return files
+
+
+def plan_examining(read: Callable[[str], Mapping[str, bytes]]) -> Callable[[str], Plan]:
+    """How the mesh file of a shape is examined, which a function reads."""
 
     def plan(shape: str) -> Plan:
-        files = collect_files(paths[shape], within)
+        files = read(shape)
         chain = Chain(stages.identify(files))
         chain.add(stages.EXAMINE)
         return chain, files

@@ -26,6 +26,7 @@ from shapeviz_report.bins import scale_bins
 from shapeviz_report.building import runner, workers
 from shapeviz_report.building.pipeline import build_report
 from shapeviz_report.building.progress import QuietProgress
+from shapeviz_report.building.stages import PAINT
 from shapeviz_report.config import Config
 from shapeviz_report.errors import ConfigError, DatabaseError, ShapevizError, SiteError
 from shapeviz_report.features import BINS
@@ -121,14 +122,15 @@ def test_only_a_changed_mesh_is_computed_again(database, own_cache, built, tmp_p
         assert len(new) == len(old) + 1
 
 
-class Writing(QuietProgress):
-    """Calls a function before the site is written."""
+class Watcher(QuietProgress):
+    """Calls a function before a stage."""
 
-    def __init__(self, act) -> None:
+    def __init__(self, act, stage="Writing the site") -> None:
         self.act = act
+        self.at = stage
 
     def stage(self, doing, total):
-        if doing == "Writing the site":
+        if doing == self.at:
             self.act()
         return super().stage(doing, total)
 
@@ -147,7 +149,7 @@ def test_what_a_pruned_cache_has_lost_is_made_again_by_all_processes(
         monkeypatch.setattr(runner, "open_workers", open_workers)
 
     config = Config(cache=own_cache, **WITH_SEARCH | {"jobs": 2})
-    build_report(database, tmp_path / "site", config, Writing(prune))
+    build_report(database, tmp_path / "site", config, Watcher(prune))
     assert read_site(built[0]) == read_site(tmp_path / "site")
     assert opened == [2], "neither a worker a shape, nor one worker for all"
     assert len(entries(own_cache, "described")) == 15
@@ -163,7 +165,22 @@ def test_a_mesh_that_goes_with_its_results_is_named(database, own_cache, tmp_pat
 
     config = Config(cache=own_cache, **OPTIONS)
     with pytest.raises(ShapevizError, match=r"^ring/2\.off cannot be used again: "):
-        build_report(copy, tmp_path / "site", config, Writing(prune))
+        build_report(copy, tmp_path / "site", config, Watcher(prune))
+    assert not (tmp_path / "site").exists()
+
+
+def test_a_mesh_that_changes_while_it_is_used_is_not_shown_as_another(database, own_cache, tmp_path) -> None:
+    copy = Path(shutil.copytree(database, tmp_path / "Some solids"))
+
+    def change() -> None:
+        for path in copy.rglob("*.off"):
+            make_shape("ring", 99).export(path)
+
+    config = Config(cache=own_cache, **WITH_SEARCH)
+    with pytest.raises(
+        ShapevizError, match=r"^Painting bins on \w+/\d failed: it was changed while it was used; run"
+    ):
+        build_report(copy, tmp_path / "site", config, Watcher(change, PAINT.doing))
     assert not (tmp_path / "site").exists()
 
 
