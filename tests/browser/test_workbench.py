@@ -101,6 +101,19 @@ def test_the_first_look_is_useful(bench, site):
     ]
 
 
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
+def test_below_the_page_is_nothing_however_many_classes_there_are(open_page, tmp_path, width, height):
+    write_site(make_report([f"kind {number:02}" for number in range(60)], 2, features=("Gc",)), tmp_path)
+    page = open_page(
+        "many", address=f"{tmp_path.as_uri()}/workbench.html", viewport={"width": width, "height": height}
+    )
+    answered(page)
+    rows, room = page.locator(".class-scroll").evaluate("(node) => [node.scrollHeight, node.clientHeight]")
+    assert rows > 2 * room
+    end = page.evaluate("document.body.getBoundingClientRect().bottom")
+    assert page.evaluate("document.documentElement.scrollHeight") <= max(end + 1, height)
+
+
 def test_the_best_bins_separate_two_classes_and_a_reload_gives_the_same(bench):
     page = bench()
     start = nh(page, "original")
