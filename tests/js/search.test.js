@@ -12,6 +12,9 @@ function expected(texts, query) {
   );
 }
 
+/** Texts as they are searched. */
+const among = (...all) => all.map((texts) => searchable(texts.length, (line) => texts[line]));
+
 const TEXTS = [
   "cups/1 Münze aus Gold",
   "",
@@ -38,21 +41,31 @@ test("words are found in any order and form, and only where all of them are", ()
     "σισυφος",
     "",
   ])
-    assert.deepEqual(findWords(searchable(TEXTS), query), expected(TEXTS, query), query);
+    assert.deepEqual(findWords(among(TEXTS), query), expected(TEXTS, query), query);
 });
 
 test("nothing is found among nothing", () => {
-  assert.deepEqual(findWords(searchable([]), "a"), []);
-  assert.deepEqual(findWords(searchable([""]), "a"), []);
-  assert.deepEqual(findWords(searchable([""]), ""), [0]);
+  assert.deepEqual(findWords(among([]), "a"), []);
+  assert.deepEqual(findWords(among([""]), "a"), []);
+  assert.deepEqual(findWords(among([""]), ""), [0]);
 });
 
 test("a word does not reach from one text into the next", () => {
-  assert.deepEqual(findWords(searchable(["go", "ld"]), "gold"), []);
+  assert.deepEqual(findWords(among(["go", "ld"]), "gold"), []);
+});
+
+test("words may stand in texts beside each other", () => {
+  const [names, classes] = [
+    ["gold leaf", "old vase", "gold"],
+    ["coin", "gold", "coin coin"],
+  ];
+  assert.deepEqual(findWords(among(names, classes), "gold coin"), [0, 2]);
+  assert.deepEqual(findWords(among(names, classes), "old"), [0, 1, 2]);
+  assert.deepEqual(findWords(among(names, classes), "leaf vase"), []);
 });
 
 test("lines are the texts", () => {
-  const searched = searchable(TEXTS);
+  const searched = searchable(TEXTS.length, (line) => TEXTS[line]);
   assert.deepEqual(
     TEXTS.map((_, line) => lineOf(searched, line)),
     TEXTS.map((text) => plain(text.replaceAll("\n", " "))),
@@ -62,7 +75,7 @@ test("lines are the texts", () => {
 test("many texts are searched as few are", () => {
   const texts = Array.from({ length: 5000 }, (_, number) => `shape ${number} of ${number % 7} kinds`);
   for (const query of ["shape", "99", "4999", "of 3", "7 kinds 12"])
-    assert.deepEqual(findWords(searchable(texts), query), expected(texts, query), query);
+    assert.deepEqual(findWords(among(texts), query), expected(texts, query), query);
 });
 
 test("a list finds among its texts what a search finds in them", () => {

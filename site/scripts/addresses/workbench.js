@@ -31,13 +31,19 @@ import { selected } from "./selected.js";
  * @property {ShapeMap | null} originalMap
  * @property {ShapeMap | null} refinedMap
  * @property {Standing} originalStatus
+ * @property {number} originalProgress
  * @property {Standing} refinedStatus
+ * @property {number} refinedProgress
  * @property {Faith | null} originalFaith how far the maps show who is like whom, as far as it was asked for
  * @property {Standing} originalFaithStatus
+ * @property {number} originalFaithProgress
  * @property {Faith | null} refinedFaith
  * @property {Standing} refinedFaithStatus
+ * @property {number} refinedFaithProgress
  * @property {Standing} scoresStatus
+ * @property {number} scoresProgress
  * @property {Standing} offerStatus
+ * @property {number} offerProgress
  * @property {{ before: number, reached: number, bins: number } | null} refused what was found and not taken: NH of the maps
  *   at hand and of its own, and how many bins it has
  * @property {Float64Array | null} scores

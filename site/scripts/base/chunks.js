@@ -48,10 +48,10 @@ export function chunks(...names) {
   return /** @type {any} */ (Promise.all(names.map(chunk)));
 }
 
-/** Parts that are kept at hand. */
-const MOST_PARTS = 64;
+/** Letters of the parts that are kept at hand, two for some ten bytes of what is in them. */
+const MOST_LETTERS = 5e5;
 
-/** @type {Map<string, Promise<any>>} the one that was asked for last comes last */
+/** @type {Map<string, { content: Promise<any>, letters: number }>} the one that was asked for last comes last */
 const parts = new Map();
 
 /**
@@ -63,11 +63,30 @@ const parts = new Map();
  */
 export function part(name, number) {
   const key = `${String(name)}-${number}`;
-  const found = parts.get(key) ?? load(key, () => addressOf(String(name)).replace("*", String(number)));
+  const found = parts.get(key) ?? loadPart(key, () => addressOf(String(name)).replace("*", String(number)));
   parts.delete(key);
   parts.set(key, found);
-  if (parts.size > MOST_PARTS) parts.delete([...parts.keys()][0]);
-  return found;
+  return found.content;
+}
+
+/**
+ * @param {string} key
+ * @param {() => string} address
+ */
+function loadPart(key, address) {
+  const made = { content: load(key, address, keep), letters: 0 };
+  /** @param {Packed} packed */
+  function keep({ letters }) {
+    made.letters = letters;
+    let all = 0;
+    for (const part of parts.values()) all += part.letters;
+    for (const [oldest, part] of parts) {
+      if (all <= MOST_LETTERS || part === made) break;
+      parts.delete(oldest);
+      all -= part.letters;
+    }
+  }
+  return made;
 }
 
 /**
@@ -81,11 +100,7 @@ export async function joined(name, length, aPart) {
   for (let start = 0; start < length; start += aPart) {
     const key = `${name}-${start / aPart}`;
     const packed = await taken(key, () => addressOf(name).replace("*", String(start / aPart)));
-    const reader = unpacked(packed).getReader();
-    for (let [place, read] = [start, await reader.read()]; !read.done; read = await reader.read()) {
-      whole.set(read.value, place);
-      place += read.value.length;
-    }
+    await unpack(packed, whole.subarray(start, start + aPart));
   }
   return whole.buffer;
 }
@@ -110,37 +125,70 @@ export function modelBytes(name) {
 /**
  * @param {string} name
  * @param {() => string} address
+ * @param {(packed: Packed) => void} [arrived] is told of it before it is unpacked
  * @returns {Promise<any>}
  */
-async function load(name, address) {
+async function load(name, address, arrived = () => {}) {
   const packed = await taken(name, address);
+  arrived(packed);
   const { kind, letters, decode } = packed;
   if (kind === "stored") return columnsOf(decode(0, letters).buffer);
-  const response = new Response(unpacked(packed));
-  if (kind === "json") return response.json();
-  const buffer = await response.arrayBuffer();
-  return kind === "columns" ? columnsOf(buffer) : buffer;
+  const content = new Uint8Array(sizeOf(packed));
+  await unpack(packed, content);
+  if (kind === "bytes") return content.buffer;
+  if (kind === "columns") return columnsOf(content.buffer);
+  const text = new TextDecoder().decode(content);
+  free(content);
+  return JSON.parse(text);
 }
 
-/** Letters that are decoded at a time: of either kind so many are whole bytes. */
-const DECODED = 32768;
+/** Letters of either kind that are whole bytes; and so many of them as are decoded at a time. */
+const GROUP = 8;
+const DECODED = 4096 * GROUP;
 
 /**
- * What is in a chunk, piece by piece: decoded as a whole, it would be in memory twice.
+ * How many bytes are packed: what gzipped data ends with.
  * @param {Packed} packed
  */
-function unpacked({ letters, decode }) {
-  let from = 0;
-  /** @type {ReadableStream<Uint8Array<ArrayBuffer>>} */
-  const pieces = new ReadableStream({
-    pull(controller) {
-      const to = Math.min(from + DECODED, letters);
-      controller.enqueue(decode(from, to));
-      if (to === letters) controller.close();
-      from = to;
-    },
-  });
-  return pieces.pipeThrough(new DecompressionStream("gzip"));
+function sizeOf({ letters, decode }) {
+  const end = decode(Math.max(GROUP * (Math.ceil(letters / GROUP) - 2), 0), letters);
+  return new DataView(end.buffer).getUint32(end.length - 4, true);
+}
+
+/**
+ * Write what is in a chunk, piece by piece: decoded as a whole, it would be in memory twice.
+ * @param {Packed} packed
+ * @param {Uint8Array} into as long
+ */
+async function unpack({ letters, decode }, into) {
+  const { readable, writable } = new DecompressionStream("gzip");
+  const writer = writable.getWriter();
+  const write = async () => {
+    for (let from = 0; from < letters; from += DECODED) {
+      const piece = decode(from, Math.min(from + DECODED, letters));
+      await writer.write(piece);
+      free(piece);
+    }
+    await writer.close();
+  };
+  const read = async () => {
+    const reader = readable.getReader();
+    let place = 0;
+    for (let step = await reader.read(); !step.done; step = await reader.read()) {
+      into.set(step.value, place);
+      place += step.value.length;
+      free(step.value);
+    }
+  };
+  await Promise.all([write(), read()]);
+}
+
+/**
+ * Give the memory of bytes back at once, where a browser can: it may else take minutes until it does.
+ * @param {Uint8Array<any>} bytes
+ */
+function free({ buffer }) {
+  buffer.transfer?.(0);
 }
 
 const ARRAYS = {

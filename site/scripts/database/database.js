@@ -241,10 +241,12 @@ export function tell(faith, trust) {
  */
 export function bounds({ x, y }) {
   let [left, right, bottom, top] = [Infinity, -Infinity, Infinity, -Infinity];
+  // Without arrays, and with comparisons that numbers that are none never pass: it goes over all shapes of a map that moves.
   for (let index = 0; index < x.length; index += 1) {
-    if (Number.isNaN(x[index])) continue;
-    [left, right] = [Math.min(left, x[index]), Math.max(right, x[index])];
-    [bottom, top] = [Math.min(bottom, y[index]), Math.max(top, y[index])];
+    if (x[index] < left) left = x[index];
+    if (x[index] > right) right = x[index];
+    if (y[index] < bottom) bottom = y[index];
+    if (y[index] > top) top = y[index];
   }
   if (left > right) return { x: 0, y: 0, width: 0.5, height: 0.5 };
   return {

@@ -10,38 +10,56 @@ import { entry } from "../base/entry.js";
  * @typedef {{ text: string, starts: Int32Array }} Searchable
  */
 
-/** @type {WeakMap<Database, Promise<Searchable>>} */
+/** @type {WeakMap<Database, Searchable[]>} */
+const atHand = new WeakMap();
+
+/** @type {WeakMap<Database, Promise<Searchable[]>>} */
 const known = new WeakMap();
 
 /**
- * One searchable text a shape: its id, name, class, labels and metadata.
+ * What of the shapes is searched without waiting: their names; their ids and classes.
+ * @param {Database} database
+ */
+export function textsAtHand(database) {
+  const { count, ids, names, groups, classes } = database;
+  return entry(atHand, database, () => [
+    searchable(count, (index) => names[index]),
+    searchable(count, (index) => `${ids[index]} ${classes[groups[index]] ?? ""}`),
+  ]);
+}
+
+/**
+ * That, and their labels and metadata.
  * @param {Database} database
  */
 export function searchTexts(database) {
-  return entry(known, database, async () => searchableWith(database, await chunk("texts")));
+  return entry(known, database, async () => {
+    const more = await chunk("texts");
+    return [...textsAtHand(database), searchable(database.count, (index) => more[index] ?? "")];
+  });
 }
 
-/**
- * The id, name and class of every shape, and what else is said of it.
- * @param {Database} database
- * @param {string[]} more
- */
-export function searchableWith({ ids, names, groups, classes }, more) {
-  return searchable(
-    ids.map((id, index) => [id, names[index], classes[groups[index]] ?? "", more[index] ?? ""].join(" ")),
-  );
-}
+/** Lines that are made at a time: all at once they would take as much memory again. */
+const AT_ONCE = 1000;
 
 /**
  * Texts in one: going through it is far quicker than from text to text.
- * @param {string[]} texts
+ * @param {number} count
+ * @param {(index: number) => string} textOf
  * @returns {Searchable}
  */
-export function searchable(texts) {
-  const text = plain(texts.map((one) => one.replaceAll("\n", " ")).join("\n"));
-  const starts = new Int32Array(texts.length + 1);
-  for (let line = 1; line < texts.length; line += 1) starts[line] = text.indexOf("\n", starts[line - 1]) + 1;
-  starts[texts.length] = text.length + 1;
+export function searchable(count, textOf) {
+  const pieces = [];
+  for (let start = 0; start < count; start += AT_ONCE) {
+    const lines = [];
+    for (let index = start; index < Math.min(start + AT_ONCE, count); index += 1)
+      lines.push(textOf(index).replaceAll("\n", " "));
+    pieces.push(plain(lines.join("\n")));
+  }
+  const text = pieces.join("\n");
+  const starts = new Int32Array(count + 1);
+  for (let line = 1; line < count; line += 1) starts[line] = text.indexOf("\n", starts[line - 1]) + 1;
+  starts[count] = text.length + 1;
   return { text, starts };
 }
 
@@ -55,22 +73,23 @@ export function lineOf({ text, starts }, line) {
 }
 
 /**
- * The numbers of the texts that hold all words of a query, parts of words included.
- * @param {Searchable} searched
+ * The numbers of the lines that hold all words of a query in one text or another, parts of words included.
+ * @param {Searchable[]} searched texts of as many lines
  * @param {string} query
  */
-export function findWords({ text, starts }, query) {
+export function findWords(searched, query) {
   const words = plain(query).split(/\s+/);
-  const count = starts.length - 1;
+  const count = searched[0].starts.length - 1;
   const held = new Uint16Array(count);
-  for (const [place, word] of words.entries()) {
-    let line = 0;
-    for (let at = text.indexOf(word); at >= 0 && line < count; at = text.indexOf(word, starts[line])) {
-      line = lineAt(starts, at, line);
-      if (held[line] === place) held[line] += 1;
-      line += 1;
+  for (const [place, word] of words.entries())
+    for (const { text, starts } of searched) {
+      let line = 0;
+      for (let at = text.indexOf(word); at >= 0 && line < count; at = text.indexOf(word, starts[line])) {
+        line = lineAt(starts, at, line);
+        if (held[line] === place) held[line] += 1;
+        line += 1;
+      }
     }
-  }
   /** @type {number[]} */
   const found = [];
   for (let line = 0; line < count; line += 1) if (held[line] === words.length) found.push(line);

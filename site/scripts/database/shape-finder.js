@@ -2,7 +2,7 @@
 
 import { element, picture, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
-import { findWords, lineOf, plain, searchable, searchableWith, searchTexts } from "./search.js";
+import { findWords, lineOf, plain, searchTexts, textsAtHand } from "./search.js";
 
 /** @import { Database } from "./database.js" */
 /** @import { Searchable } from "./search.js" */
@@ -16,15 +16,13 @@ const PICTURE = 36;
  * @param {{ field: string, list: string }} [nodes]
  */
 export function findShapes(database, choose, { field, list } = { field: "shape-search", list: "shape-found" }) {
-  /** @type {Searchable | undefined} */
-  let names;
   // Names, ids and classes are at hand; labels and metadata come when somebody is about to search.
-  /** @type {Searchable | undefined} */
+  /** @type {Searchable[] | undefined} */
   let texts;
   return new Finder(field, list, {
     find: (text) => {
-      names ??= searchable(database.names);
-      texts ??= searchableWith(database, []);
+      texts ??= textsAtHand(database);
+      const [names] = texts;
       const whole = plain(text);
       // Whose name is just that, begins with it or has it comes before those of whom something else has the words.
       /** @type {number[][]} */

@@ -109,42 +109,48 @@ function allAffinities(squared, count) {
 /**
  * Affinities of near pairs, each pair once, adding up to 1/2.
  *
- * @param {{ k: number, rows: Int32Array, squared: Float64Array }} nearest
+ * @param {{ k: number, rows: Int32Array, squared: Float64Array }} nearest whose distances become shares
  * @param {number} count
  * @returns {Steps<{ from: Int32Array, to: Int32Array, share: Float64Array }>}
  */
 function* nearAffinities({ k, rows, squared }, count) {
   const perplexity = perplexityOf(count);
-  const shares = squared.slice();
   for (let row = 0; row < count; row++) {
     if (row % ROWS === 0) yield { progress: row / count };
-    shareOut(shares.subarray(row * k, (row + 1) * k), perplexity);
+    shareOut(squared.subarray(row * k, (row + 1) * k), perplexity);
   }
-  /** @type {{ from: number[], to: number[], share: number[] }} */
-  const { from, to, share } = { from: [], to: [], share: [] };
+  // The pairs of a row with those after it lie together: from `ends` of the row before it on.
+  const ends = new Int32Array(count);
+  for (let at = 0; at < rows.length; at++) ends[Math.min(Math.floor(at / k), rows[at])] += 1;
+  for (let row = 1; row < count; row++) ends[row] += ends[row - 1];
+  const next = Int32Array.from(ends, (_, row) => (row === 0 ? 0 : ends[row - 1]));
+  const partner = new Int32Array(rows.length);
+  const value = new Float64Array(rows.length);
+  for (let at = 0; at < rows.length; at++) {
+    const row = Math.floor(at / k);
+    const held = next[Math.min(row, rows[at])]++;
+    partner[held] = Math.max(row, rows[at]);
+    value[held] = squared[at];
+  }
+  const from = new Int32Array(rows.length),
+    to = new Int32Array(rows.length);
+  const share = new Float64Array(rows.length);
   const place = new Int32Array(count).fill(-1);
-  /** @type {[number, number][][]} */
-  const partners = Array.from({ length: count }, () => []);
-  for (let row = 0; row < count; row++) {
-    for (let at = row * k; at < (row + 1) * k; at++) {
-      const low = Math.min(row, rows[at]),
-        high = Math.max(row, rows[at]);
-      partners[low].push([high, shares[at]]);
-    }
-  }
-  for (let row = 0; row < count; row++) {
-    const begin = from.length;
-    for (const [other, value] of partners[row]) {
+  let pairs = 0;
+  for (let row = 0, held = 0; row < count; row++) {
+    const begin = pairs;
+    for (; held < ends[row]; held++) {
+      const other = partner[held];
       if (place[other] < begin) {
-        place[other] = from.length;
-        from.push(row);
-        to.push(other);
-        share.push(0);
+        place[other] = pairs;
+        from[pairs] = row;
+        to[pairs] = other;
+        pairs += 1;
       }
-      share[place[other]] += value / (2 * count);
+      share[place[other]] += value[held] / (2 * count);
     }
   }
-  return { from: Int32Array.from(from), to: Int32Array.from(to), share: Float64Array.from(share) };
+  return { from: from.subarray(0, pairs), to: to.subarray(0, pairs), share: share.subarray(0, pairs) };
 }
 
 /**

@@ -62,8 +62,12 @@ export function largestCluster(members, most) {
           for (let j = -1; j <= 1; j += 1) {
             const near = cells.get(keyOf(Math.floor(mark.x / side) + i, Math.floor(mark.y / side) + j));
             if (near === undefined) continue;
-            for (let place = near.length - 1; place >= 0; place -= 1)
-              if (linked(mark, near[place], most)) cluster.push(...near.splice(place, 1));
+            for (let place = near.length - 1; place >= 0; place -= 1) {
+              if (!linked(mark, near[place], most)) continue;
+              cluster.push(near[place]);
+              // What `splice` gives would be an array a mark.
+              near.copyWithin(place, place + 1).pop();
+            }
           }
         }
       }
@@ -79,7 +83,7 @@ export function largestCluster(members, most) {
  * @param {number} most
  */
 function linked({ x, y, radius }, other, most) {
-  return Math.hypot(x - other.x, y - other.y) <= (radius ?? most) + (other.radius ?? most) + LINK;
+  return (x - other.x) ** 2 + (y - other.y) ** 2 <= ((radius ?? most) + (other.radius ?? most) + LINK) ** 2;
 }
 
 /**

@@ -152,7 +152,12 @@ export class Dots {
     const [paint, bare] = [new Uint32Array(count), new Uint8Array(count)];
     for (let index = 0; index < count; index += 1) {
       const kind = kindOf(index);
-      paint[index] = entry(kinds, kind, () => mixed(look(kind)));
+      let known = kinds.get(kind);
+      if (known === undefined) {
+        known = mixed(look(kind));
+        kinds.set(kind, known);
+      }
+      paint[index] = known;
       bare[index] = Number(kind === null);
     }
     return { paint: { paint: new Uint8Array(paint.buffer), symbols: [...symbols.keys()] }, bare };

@@ -82,7 +82,8 @@ export class LiveScene extends Scene {
     const goal = /** @type {Places & { bounds: Bounds }} */ (this.#goal);
     let farthest = 0;
     for (let index = 0; index < this.x.length; index += 1) {
-      const [dx, dy] = [goal.x[index] - this.x[index], goal.y[index] - this.y[index]];
+      const dx = goal.x[index] - this.x[index];
+      const dy = goal.y[index] - this.y[index];
       this.x[index] += share * dx;
       this.y[index] += share * dy;
       farthest = Math.max(farthest, Math.abs(dx) || 0, Math.abs(dy) || 0);

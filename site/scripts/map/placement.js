@@ -251,7 +251,7 @@ function costOf(line, group, field, most) {
 
 /** @param {Line} line */
 function lengthOf({ x1, y1, x2, y2 }) {
-  return Math.hypot(x2 - x1, y2 - y1);
+  return Math.sqrt((x2 - x1) ** 2 + (y2 - y1) ** 2);
 }
 
 /** Marks in cells, to find those near a box. */
@@ -298,7 +298,7 @@ class Field {
       const dy = Math.max(box.top - dot.y, 0, dot.y - box.bottom);
       // Most are too far, and that is told without a root.
       if (dx * dx + dy * dy < (closest + dot.radius) ** 2 && counts(dot))
-        closest = Math.min(closest, Math.hypot(dx, dy) - dot.radius);
+        closest = Math.min(closest, Math.sqrt(dx * dx + dy * dy) - dot.radius);
     });
     return Math.max(0, closest);
   }
@@ -342,7 +342,9 @@ class Field {
     this.#any(box, this.radius, (dot) => {
       if (dot.group === group) return false;
       const along = Math.min(Math.max(((dot.x - x1) * dx + (dot.y - y1) * dy) / squared, 0), 1);
-      if (Math.hypot(x1 + along * dx - dot.x, y1 + along * dy - dot.y) < dot.radius) sum += 2 * dot.radius;
+      const across = x1 + along * dx - dot.x;
+      const down = y1 + along * dy - dot.y;
+      if (across * across + down * down < dot.radius ** 2) sum += 2 * dot.radius;
       return sum >= most;
     });
     return sum;
@@ -444,25 +446,18 @@ function overlap(a, b) {
 }
 
 /**
- * Whether a line touches a box (Liang and Barsky's clipping).
+ * Whether a line touches a box: it does not lie on one side of it, and its corners not on one side of the line.
  *
  * @param {Line} line
  * @param {Box} box
  */
-function meets({ x1, y1, x2, y2 }, box) {
-  let [from, to] = [0, 1];
-  for (const [direction, room] of [
-    [x1 - x2, x1 - box.left],
-    [x2 - x1, box.right - x1],
-    [y1 - y2, y1 - box.top],
-    [y2 - y1, box.bottom - y1],
-  ]) {
-    if (direction === 0) {
-      if (room < 0) return false;
-    } else if (direction < 0) from = Math.max(from, room / direction);
-    else to = Math.min(to, room / direction);
-  }
-  return from <= to;
+function meets(line, { left, right, top, bottom }) {
+  const { x1, y1, x2, y2 } = line;
+  if ((x1 < left && x2 < left) || (x1 > right && x2 > right)) return false;
+  if ((y1 < top && y2 < top) || (y1 > bottom && y2 > bottom)) return false;
+  const sides =
+    sideOf(line, left, top) + sideOf(line, right, top) + sideOf(line, left, bottom) + sideOf(line, right, bottom);
+  return Math.abs(sides) < 4;
 }
 
 /**

@@ -260,11 +260,13 @@ export function pictureOfMap(database, map, size, hidden = NOBODY) {
   const { x, y, width, height } = bounds(map);
   const scale = (size - 8) / Math.max(width, height);
   const radius = Math.min(Math.max(24 / Math.sqrt(map.x.length), 0.8), 2);
+  /** @type {Map<number, ImageData>} each looked up once, for all shapes of a class */
+  const stamps = new Map();
   marks.begin(size, size);
   for (let place = 0; place < map.x.length; place += 1) {
     const group = database.groups[map.rows ? map.rows[place] : place];
     if (Number.isNaN(map.x[place]) || hidden.has(group)) continue;
-    const stamp = marks.stamp(database.data.marks.plain, database.color(group), radius);
+    const stamp = entry(stamps, group, () => marks.stamp(database.data.marks.plain, database.color(group), radius));
     marks.lay(stamp, size / 2 + (map.x[place] - x) * scale, size / 2 - (map.y[place] - y) * scale, 1);
   }
   marks.show();

@@ -18,8 +18,11 @@ import { turned } from "./turned.js";
 /** @import { Separation } from "./separation.js" */
 
 /**
- * Places of all shapes while a map is being made.
- * @typedef {(x: number[], y: number[]) => void} Partial
+ * Places of all shapes, along x and along y.
+ * @typedef {[Float32Array, Float32Array]} Places
+ *
+ * Takes those while a map is being made, which change until the next.
+ * @typedef {(x: Float32Array, y: Float32Array) => void} Partial
  *
  * Runs a task of the engines; those of scores take turns with several.
  * @typedef {(name: string, parameters: object, report?: Listener, number?: number) => Promise<any>} Run
@@ -468,10 +471,12 @@ export class Answers {
     // Every layout starts from the site's own map, not from the last one: a reader finds shapes about where they were,
     // and yet the same address gives the same map on any way there.
     const start = Float32Array.from(placesOf(this.#siteMap(method) ?? database.projections[0], shapes));
+    // One for all that is to be seen on the way.
+    const moving = this.#nowhere();
     /** @type {Listener} */
     const listen = (told) => {
       report({ progress: told.progress * share });
-      if (told.partial) partial(this.#spread(shapes, told.partial.xy, 0), this.#spread(shapes, told.partial.xy, 1));
+      if (told.partial) partial(...this.#spread(shapes, told.partial.xy, moving));
     };
     const task = { method, rows: this.#rows(shapes), columns, by, start, seed: data.seed };
     const { xy } = await run("layout", task, listen);
@@ -493,8 +498,7 @@ export class Answers {
   async #withOthers(run, map, { shapes, others, columns, by }, xy, report) {
     const task = { compared: await this.#compared(columns, by), shapes, xy, others };
     const found = await run("beside", task, report);
-    const [x, y] = [0, 1].map((part) => this.#spread(others, found.xy, /** @type {0 | 1} */ (part)));
-    for (const shape of shapes) [x[shape], y[shape]] = [map.x[shape], map.y[shape]];
+    const [x, y] = this.#spread(others, found.xy, this.#spread(shapes, xy));
     return { ...map, x, y, sample: shapes };
   }
 
@@ -534,13 +538,21 @@ export class Answers {
    * Places of all shapes, of which some have one.
    * @param {ArrayLike<number>} shapes
    * @param {ArrayLike<number>} xy
-   * @param {0 | 1} part
-   * @returns {number[]}
+   * @param {Places} into
    */
-  #spread(shapes, xy, part) {
-    const all = new Array(this.database.count).fill(NaN);
-    for (let index = 0; index < shapes.length; index += 1) all[shapes[index]] = xy[2 * index + part];
-    return all;
+  #spread(shapes, xy, into = this.#nowhere()) {
+    const [x, y] = into;
+    for (let index = 0; index < shapes.length; index += 1) {
+      x[shapes[index]] = xy[2 * index];
+      y[shapes[index]] = xy[2 * index + 1];
+    }
+    return into;
+  }
+
+  /** @returns {Places} where no shape has one yet */
+  #nowhere() {
+    const { count } = this.database;
+    return [new Float32Array(count).fill(NaN), new Float32Array(count).fill(NaN)];
   }
 
   /**
@@ -552,12 +564,13 @@ export class Answers {
    */
   async #measured(run, { method, shapes, columns, by }, xy) {
     const { data } = this;
+    const [x, y] = this.#spread(shapes, xy);
     return {
       key: "live",
       ...(this.titles.get(method) ?? { title: method }),
       features: [],
-      x: this.#spread(shapes, xy, 0),
-      y: this.#spread(shapes, xy, 1),
+      x,
+      y,
       neighbours: Math.min(data.neighbours, shapes.length - 1),
       ...(await this.#hits(run, shapes, xy)),
       chanceSpread: null,

@@ -70,6 +70,7 @@ export class BinSection {
       )
         this.#draw();
       if (changed.has("scoresStatus")) this.status.show(state.get("scoresStatus"));
+      if (changed.has("scoresProgress")) this.status.move(state.get("scoresProgress"));
     });
   }
 

@@ -29,23 +29,32 @@ import { contests, separationWords } from "./separation.js";
 /** Fewer shapes have no map worth the name. */
 export const FEWEST_SHAPES = 3;
 
+/** @type {Standing} */
+const WORKING = { kind: "working" };
+
 /** What the state has of the work at first. */
 export function nothingMade() {
   return {
     step: null,
     originalMap: null,
     originalStatus: { kind: "none" },
+    originalProgress: 0,
     originalCamera: null,
     refinedMap: null,
     refinedStatus: { kind: "none" },
+    refinedProgress: 0,
     refinedCamera: null,
     originalFaith: null,
     originalFaithStatus: { kind: "none" },
+    originalFaithProgress: 0,
     refinedFaith: null,
     refinedFaithStatus: { kind: "none" },
+    refinedFaithProgress: 0,
     scores: null,
     scoresStatus: { kind: "none" },
+    scoresProgress: 0,
     offerStatus: { kind: "none" },
+    offerProgress: 0,
     refused: null,
     method: 0,
     matches: null,
@@ -74,7 +83,14 @@ export class Desk {
     this.history = new History();
     this.history.take(this.#stepOf(this.#work()));
     /** @param {Question} name */
-    const inquiry = (name) => new Inquiry((/** @type {Standing} */ status) => state.set({ [`${name}Status`]: status }));
+    const inquiry = (name) =>
+      new Inquiry((/** @type {Standing} */ { progress = 0, ...standing }) =>
+        // One for all progress: only bars care for that.
+        state.set({
+          [`${name}Status`]: standing.kind === "working" ? WORKING : standing,
+          [`${name}Progress`]: progress,
+        }),
+      );
     /** @type {Record<Question, Inquiry>} */
     this.inquiries = {
       original: inquiry("original"),

@@ -80,6 +80,7 @@ class MapPanel {
     ].filter(Boolean);
     state.listen((changed) => {
       if (names.some((name) => changed.has(name))) this.render();
+      else if (changed.has(`${this.#asked}Progress`)) this.status.move(state.get(`${this.#asked}Progress`));
     });
   }
 
@@ -96,6 +97,7 @@ class MapPanel {
     const most = map && rangeOf(this.database, map).highest;
     const nothing = map && nothingTold(this.database, map);
     this.status.show(this.state.get(`${this.#asked}Status`));
+    this.status.move(this.state.get(`${this.#asked}Progress`));
     this.madeFrom.textContent =
       this.which === "original"
         ? featureWords(this.state.get("features"), this.bins.features)

@@ -26,10 +26,14 @@ export class StatusLine {
     this.again = (words) => element("button", { type: "button", class: "plain", onclick: again }, words);
   }
 
+  /** @param {number} progress of work, from 0 to 1 */
+  move(progress) {
+    this.bar.value = progress;
+  }
+
   /** @param {Standing} standing */
-  show({ kind, progress = 0, message }) {
+  show({ kind, message }) {
     if (kind === "working") {
-      this.bar.value = progress;
       this.#waiting ??= setTimeout(() => this.#put(...this.working), PATIENCE);
       return;
     }
