@@ -13,7 +13,9 @@ import numpy as np
 
 from shapeviz_report.writing.packing import pack
 
-_HANDED_OVER = re.compile(r'shapeviz\.receive\("([\w-]+)", "(\w+)", (\d+), "([\u0100-\u80ff]*)"\);\n')
+_HANDED_OVER = re.compile(
+    r'shapeviz\.receive\("([\w-]+)", "(\w+)", (\d+), \(\) => \{/\*([\u0100-\u80ff]*)\*/\}\);\n'
+)
 
 
 def packed(chunks: Mapping[str, object]) -> dict[str, tuple[str, bytes]]:

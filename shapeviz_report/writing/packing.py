@@ -19,7 +19,7 @@ ALIGNMENT = 8
 LEVEL = 6
 
 #: The letter of fifteen bits without any set; ``FIRST_LETTER`` of ``base/chunks.js``. From here on there are 2**15
-#: letters of which none ends a text of JavaScript and none is half of another.
+#: letters of which none ends a comment of JavaScript and none is half of another.
 FIRST_LETTER = 0x100
 
 
@@ -56,11 +56,11 @@ def pack(value: object, *, compressed: bool = True) -> tuple[str, bytes]:
 def chunk_script(name: str, kind: str, packed: bytes) -> bytes:
     """A script that hands packed data to the page, as letters of fifteen bits.
 
-    It is UTF-16 and says so in its first bytes, which count more than what a host says of it: so it takes a fifteenth
+    They are a comment of a function, whose text a page can have without a copy. It is UTF-16 and says so in its first bytes, which count more than what a host says of it: so it takes a fifteenth
     more room than the data, where base64 takes a third.
     """
-    head = f'shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {len(packed)}, "'
-    return codecs.BOM_UTF16_LE + _utf16(head) + _letters(packed) + _utf16('");\n')
+    head = f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {len(packed)}, () => {{/*"
+    return codecs.BOM_UTF16_LE + _utf16(head) + _letters(packed) + _utf16("*/});\n")
 
 
 def _utf16(text: str) -> bytes:

@@ -104,9 +104,9 @@ type Steps<Result, Partial = any> = Generator<{ progress: number; partial?: Part
 interface Window {
   /** What the script in the head makes for all others. */
   shapeviz: {
-    handed: Map<string, { kind: "json" | "columns" | "stored" | "bytes"; length: number; text: string }>;
+    handed: Map<string, { kind: "json" | "columns" | "stored" | "bytes"; length: number; holder: () => void }>;
     scripts: Map<string, () => void>;
-    receive(name: string, kind: "json" | "columns" | "stored" | "bytes", length: number, text: string): void;
+    receive(name: string, kind: "json" | "columns" | "stored" | "bytes", length: number, holder: () => void): void;
     startWorker?(): Promise<Worker>;
     modules?: { define(modules: object): void; use(name: string): object };
   };

@@ -6,11 +6,12 @@ import { entry } from "./entry.js";
  * What a chunk is, gzipped. Columns are JSON with arrays of numbers in it; stored ones are not gzipped.
  * @typedef {"json" | "columns" | "stored" | "bytes"} Kind
  *
- * A chunk as its script hands it over: so many bytes in letters of fifteen bits.
- * @typedef {{ kind: Kind, length: number, text: string }} Handed
+ * A chunk as its script hands it over: so many bytes in letters of fifteen bits, which are a comment in a function. The text
+ * of a function is a part of that of its script, where that of a string would be in memory once more.
+ * @typedef {{ kind: Kind, length: number, holder: () => void }} Handed
  *
  * A chunk in letters of either kind, and what those from one place to another stand for.
- * @typedef {{ kind: Kind, letters: number, decode: (from: number, to: number) => Uint8Array<ArrayBuffer> }} Packed
+ * @typedef {{ kind: Kind, letters: number, decode: (from: number, to: number, into?: Uint8Array<ArrayBuffer>) => Uint8Array<ArrayBuffer> }} Packed
  */
 
 /** Called in the head: chunks may arrive before the scripts that want them. */
@@ -21,7 +22,7 @@ export function openReception() {
     handed,
     // In a site of one file: what its scripts do, by their address in a folder.
     scripts: new Map(),
-    receive: (name, kind, length, text) => handed.set(name, { kind, length, text }),
+    receive: (name, kind, length, holder) => handed.set(name, { kind, length, holder }),
   };
 }
 
@@ -137,9 +138,7 @@ async function load(name, address, arrived = () => {}) {
   await unpack(packed, content);
   if (kind === "bytes") return content.buffer;
   if (kind === "columns") return columnsOf(content.buffer);
-  const text = new TextDecoder().decode(content);
-  free(content);
-  return JSON.parse(text);
+  return JSON.parse(new TextDecoder().decode(content));
 }
 
 /** Letters of either kind that are whole bytes; and so many of them as are decoded at a time. */
@@ -164,11 +163,10 @@ async function unpack({ letters, decode }, into) {
   const { readable, writable } = new DecompressionStream("gzip");
   const writer = writable.getWriter();
   const write = async () => {
-    for (let from = 0; from < letters; from += DECODED) {
-      const piece = decode(from, Math.min(from + DECODED, letters));
-      await writer.write(piece);
-      free(piece);
-    }
+    // One for all pieces: what was written is read by then, and memory that is left behind is not soon given back.
+    const piece = new Uint8Array((15 / 8) * Math.min(DECODED, letters + GROUP));
+    for (let from = 0; from < letters; from += DECODED)
+      await writer.write(decode(from, Math.min(from + DECODED, letters), piece));
     await writer.close();
   };
   const read = async () => {
@@ -177,18 +175,9 @@ async function unpack({ letters, decode }, into) {
     for (let step = await reader.read(); !step.done; step = await reader.read()) {
       into.set(step.value, place);
       place += step.value.length;
-      free(step.value);
     }
   };
   await Promise.all([write(), read()]);
-}
-
-/**
- * Give the memory of bytes back at once, where a browser can: it may else take minutes until it does.
- * @param {Uint8Array<any>} bytes
- */
-function free({ buffer }) {
-  buffer.transfer?.(0);
 }
 
 const ARRAYS = {
@@ -254,12 +243,13 @@ async function taken(name, address) {
   if (inDocument !== null) return inDocument;
   const { handed } = window.shapeviz;
   if (!handed.has(name)) await addScript(address());
-  const { kind, length, text } = /** @type {Handed} */ (handed.get(name));
+  const { kind, length, holder } = /** @type {Handed} */ (handed.get(name));
   handed.delete(name);
+  const text = holder.toString().slice("() => {/*".length, -"*/}".length);
   return {
     kind,
     letters: text.length,
-    decode: (from, to) => bytesOf(text.slice(from, to), Math.min((to * 15) / 8, length) - (from * 15) / 8),
+    decode: (from, to, into) => bytesOf(text.slice(from, to), Math.min((to * 15) / 8, length) - (from * 15) / 8, into),
   };
 }
 
@@ -270,9 +260,10 @@ const FIRST_LETTER = 0x100;
  * What letters of fifteen bits stand for.
  * @param {string} text
  * @param {number} length in bytes
+ * @param {Uint8Array<ArrayBuffer>} [into] no shorter
  */
-export function bytesOf(text, length) {
-  const bytes = new Uint8Array(length);
+export function bytesOf(text, length, into = new Uint8Array(length)) {
+  const bytes = into.subarray(0, length);
   let [bits, count, place] = [0, 0, 0];
   for (let letter = 0; letter < text.length; letter += 1) {
     bits = (bits << 15) | (text.charCodeAt(letter) - FIRST_LETTER);

@@ -215,11 +215,17 @@ export class Bins {
     return Array.from({ length: this.rows }, (_, row) => this.share(column, row));
   }
 
-  /** A copy of all compared values, as the engine wants them. */
-  stepped() {
-    const { features } = this;
+  /**
+   * A copy of the compared values in some columns, as the engine wants them.
+   * @param {ArrayLike<number>} columns
+   */
+  stepped(columns) {
+    const { features, rows } = this;
+    const steps = new Uint16Array(columns.length * rows);
+    for (let place = 0; place < columns.length; place += 1)
+      steps.set(this.steps.subarray(columns[place] * rows, (columns[place] + 1) * rows), place * rows);
     return {
-      steps: this.steps.slice(),
+      steps,
       most: STEPS,
       low: features.map(({ low }) => low),
       high: features.map(({ high }) => high),

@@ -64,15 +64,16 @@ export class Engine {
    * Run a task: "layout", "hit", "faith" or "score".
    *
    * @param {string} name
-   * @param {object} parameters copied to the worker
+   * @param {{ table?: FeatureValues, [name: string]: unknown }} parameters copied to the worker; a table that a task brings along goes there
    * @param {Listener} onProgress called a few dozen times a second at most
    * @returns {Job}
    */
   run(name, parameters, onProgress = (_) => {}) {
-    if (!WITHOUT_TABLE.has(name)) this.#giveTable();
+    const { table } = parameters;
+    if (!WITHOUT_TABLE.has(name) && table === undefined) this.#giveTable();
     const id = this.started++;
     const done = new Promise((resolve, reject) => this.jobs.set(id, { resolve, reject, onProgress }));
-    this.worker.postMessage({ run: { id, name, parameters } });
+    this.worker.postMessage({ run: { id, name, parameters } }, table === undefined ? [] : [table.steps.buffer]);
     return { done, cancel: () => this.cancel(id) };
   }
 

@@ -6,7 +6,7 @@
 /**
  * A task at work, and when the page last heard of it.
  * @typedef {{ id: number, steps: Steps<any>, reported: number }} Running
- * @typedef {{ id: number, name: string, parameters: object }} Order
+ * @typedef {{ id: number, name: string, parameters: { table?: FeatureValues } }} Order
  */
 
 /** @typedef {(table: FeatureValues, parameters: any) => Steps<any>} Task */
@@ -51,7 +51,7 @@ export class TaskLoop {
     const task = this.tasks[name] ?? unknown(name);
     this.running.push({
       id,
-      steps: task(/** @type {FeatureValues} */ (this.table), parameters),
+      steps: task(/** @type {FeatureValues} */ (parameters.table ?? this.table), parameters),
       reported: performance.now(),
     });
     if (this.running.length === 1) this.continue();

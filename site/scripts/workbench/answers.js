@@ -25,7 +25,7 @@ import { turned } from "./turned.js";
  * @typedef {(x: Float32Array, y: Float32Array) => void} Partial
  *
  * Runs a task of the engines; those of scores take turns with several.
- * @typedef {(name: string, parameters: object, report?: Listener, number?: number) => Promise<any>} Run
+ * @typedef {(name: string, parameters: Parameters<Engine["run"]>[1], report?: Listener, number?: number) => Promise<any>} Run
  *
  * What a map is made of, and of whom; `others` are to be placed beside these.
  * @typedef {{ method: string, shapes: Int32Array, others: Int32Array, columns: Int32Array, by: "features" | "bins" }} Layout
@@ -87,15 +87,36 @@ export class Answers {
   }
 
   #start() {
+    return startEngine(() => this.#table(Int32Array.from({ length: this.bins.count }, (_, column) => column)));
+  }
+
+  /**
+   * Some columns for an engine.
+   * @param {Int32Array} columns
+   * @returns {FeatureValues}
+   */
+  #table(columns) {
     const { bins, data } = this;
-    return startEngine(() => ({
+    return {
       rows: bins.rows,
-      columns: bins.count,
-      ...bins.stepped(),
-      blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
+      columns: columns.length,
+      ...bins.stepped(columns),
+      blocks: columns.map((column) => bins.featureOf(column)),
       weights: bins.features.map(({ weight }) => weight),
       scaling: data.scaling,
-    }));
+    };
+  }
+
+  /**
+   * What an engine is to compare: columns of its table, but few bins come along, as all would take a hundred times the
+   * memory.
+   * @param {Int32Array} columns
+   * @param {"features" | "bins"} by
+   */
+  #asked(columns, by) {
+    return by === "features"
+      ? { columns, by }
+      : { table: this.#table(columns), columns: Int32Array.from(columns.keys()), by };
   }
 
   /**
@@ -270,14 +291,16 @@ export class Answers {
   async #grow(run, step, ranking, report) {
     const { groups } = this.database;
     const shapes = sampled(this.shapes(step), groups, SEARCHED_SHAPES);
+    const columns = Int32Array.from(ranking).slice(0, SEARCHED_BINS);
     const task = {
       rows: this.#rows(shapes),
-      columns: Int32Array.from(ranking).slice(0, SEARCHED_BINS),
+      ...this.#asked(columns, "bins"),
       groups: Int32Array.from(shapes, (shape) => groups[shape]),
       k: this.data.neighbours,
       limit: FOUND_BINS,
     };
-    return [...(await run("grow", task, report, 1)).columns];
+    const found = await run("grow", task, report, 1);
+    return Array.from(found.columns, (place) => columns[place]);
   }
 
   /**
@@ -478,7 +501,7 @@ export class Answers {
       report({ progress: told.progress * share });
       if (told.partial) partial(...this.#spread(shapes, told.partial.xy, moving));
     };
-    const task = { method, rows: this.#rows(shapes), columns, by, start, seed: data.seed };
+    const task = { method, rows: this.#rows(shapes), ...this.#asked(columns, by), start, seed: data.seed };
     const { xy } = await run("layout", task, listen);
     const map = await this.#measured(run, layout, xy);
     return others.length === 0
@@ -496,7 +519,7 @@ export class Answers {
    * @returns {Promise<ShapeMap>}
    */
   async #withOthers(run, map, { shapes, others, columns, by }, xy, report) {
-    const task = { compared: await this.#compared(columns, by), shapes, xy, others };
+    const task = { ...(await this.#compared(columns, by)), shapes, xy, others };
     const found = await run("beside", task, report);
     const [x, y] = this.#spread(others, found.xy, this.#spread(shapes, xy));
     return { ...map, x, y, sample: shapes };
@@ -510,12 +533,14 @@ export class Answers {
    */
   async #compared(columns, by) {
     const { bins } = this;
-    if (bins.sample === null) return { columns, by };
-    return {
-      numbers: await (by === "bins"
-        ? numbersOfBins(bins, columns)
-        : numbersOfFeatures(this.#features(columns), this.database.count)),
-    };
+    if (bins.sample === null) {
+      const { table, ...compared } = this.#asked(columns, by);
+      return { table, compared };
+    }
+    const numbers = await (by === "bins"
+      ? numbersOfBins(bins, columns)
+      : numbersOfFeatures(this.#features(columns), this.database.count));
+    return { compared: { numbers } };
   }
 
   /**
@@ -623,10 +648,10 @@ export class Answers {
     const shapes = sample ?? Int32Array.from(this.database.groups.keys()).filter((shape) => !Number.isNaN(x[shape]));
     const xy = placesOf({ x, y }, shapes);
     const { columns, features } = /** @type {Choice} */ (compares);
-    const asked = columns
-      ? { columns: Int32Array.from(columns), by: "bins" }
-      : { columns: this.columns(new Set(features)), by: "features" };
     return this.#chain(async (run) => {
+      const asked = columns
+        ? this.#asked(Int32Array.from(columns), "bins")
+        : this.#asked(this.columns(new Set(features)), "features");
       const found = await run("faith", { rows: this.#rows(shapes), xy, ...asked, k: neighbours }, report);
       return {
         kept: this.#onAll(shapes, found.kept),
