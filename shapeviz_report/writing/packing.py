@@ -56,8 +56,9 @@ def pack(value: object, *, compressed: bool = True) -> tuple[str, bytes]:
 def chunk_script(name: str, kind: str, packed: bytes) -> bytes:
     """A script that hands packed data to the page, as letters of fifteen bits.
 
-    They are a comment of a function, whose text a page can have without a copy. It is UTF-16 and says so in its first bytes, which count more than what a host says of it: so it takes a fifteenth
-    more room than the data, where base64 takes a third.
+    They are a comment of a function, whose text a page has without a copy. It is UTF-16 and says so in its first bytes,
+    which count more than what a host says of it: so it takes a fifteenth more room than the data, where base64 takes a
+    third.
     """
     head = f"shapeviz.receive({json.dumps(name)}, {json.dumps(kind)}, {len(packed)}, () => {{/*"
     return codecs.BOM_UTF16_LE + _utf16(head) + _letters(packed) + _utf16("*/});\n")

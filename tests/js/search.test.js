@@ -82,6 +82,6 @@ test("a list finds among its texts what a search finds in them", () => {
   for (const query of ["munze", "MÜNZE gold", "  gold ", "old l", "nowhere", ""])
     assert.deepEqual(
       [...TEXTS.keys()].filter((index) => holding(query)(TEXTS[index])),
-      findWords(searchable(TEXTS), query),
+      findWords(among(TEXTS), query),
     );
 });

@@ -69,7 +69,9 @@ def test_a_script_hands_it_over(tmp_path):
 def test_fifteen_bits_are_a_letter(length):
     content = bytes((7 + 77 * place) % 256 for place in range(length))
     text = chunk_script("a", "stored", content).decode("utf-16")
-    letters = text.removeprefix(f'shapeviz.receive("a", "stored", {length}, () => {{/*').removesuffix("*/});\n")
+    letters = text.removeprefix(f'shapeviz.receive("a", "stored", {length}, () => {{/*').removesuffix(
+        "*/});\n"
+    )
     assert read_letters(letters, length) == content
     assert all(0x100 <= ord(letter) < 0x8100 for letter in letters)
 
