@@ -61,5 +61,39 @@
     for (const [node, size] of sizes) node.style.fontSize = `${times * size}px`;
   };
 
-  window.everyone = { focused, missed, enlargeText };
+  /** How light a colour is, as contrast counts it (WCAG 2), and how far it covers. */
+  const lightness = (color) => {
+    const parts = color.match(/-?[\d.]+/g).map(Number);
+    const unit = color.startsWith("color(") ? 1 : 255;
+    const [red, green, blue] = parts
+      .slice(0, 3)
+      .map((part) => part / unit)
+      .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+    return { value: 0.2126 * red + 0.7152 * green + 0.0722 * blue, alpha: parts[3] ?? 1 };
+  };
+
+  /** The ground of an element: that of the next one around it which has one. */
+  const ground = (node) => {
+    for (let own = node; own !== null; own = own.parentElement) {
+      const { value, alpha } = lightness(getComputedStyle(own).backgroundColor);
+      if (alpha > 0.5) return value;
+    }
+    return 1;
+  };
+
+  /** Texts in sight that are hardly told from their ground, by the colours that are really used. */
+  const faint = () => {
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    const found = [];
+    while (walker.nextNode()) {
+      const { data, parentElement: own } = walker.currentNode;
+      if (data.trim() === "" || !own.checkVisibility() || own.closest("svg, script, style, option, :disabled"))
+        continue;
+      const levels = [lightness(getComputedStyle(own).color).value, ground(own)].sort((a, b) => b - a);
+      if ((levels[0] + 0.05) / (levels[1] + 0.05) < 4.5) found.push(`${own.className} ${data.trim().slice(0, 30)}`);
+    }
+    return found;
+  };
+
+  window.everyone = { focused, missed, enlargeText, faint };
 })();

@@ -183,3 +183,18 @@ def test_what_is_chosen_has_the_colors_of_the_reader(browser, site, file):
     )
     assert set(colours[1]) == {colours[0]}
     context.close()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_text_is_read_in_forced_colors(browser, site, theme):
+    context = browser.new_context(
+        forced_colors="active", color_scheme=theme, viewport=DESK, reduced_motion="reduce"
+    )
+    page = context.new_page()
+    found = {}
+    for address in ADDRESSES:
+        visit(page, site("everything"), address)
+        page.evaluate(SCRIPT)
+        found[address] = page.evaluate("everyone.faint()")
+    context.close()
+    assert {address: texts for address, texts in found.items() if texts} == {}
