@@ -3,6 +3,9 @@
 import re
 
 import pytest
+from reports import make_report
+
+from shapeviz_report.writing import write_site
 
 ALL = "With 8 shapes, each has all others among its 7 nearest on any map."
 ONE = "All labelled shapes are of one class, which no map can mix with another."
@@ -78,3 +81,22 @@ def test_no_bins_are_said_to_keep_classes_apart(open_page):
     # The Workbench does not offer them either.
     page = open_page("few bins", "workbench.html")
     assert "the build found" not in text_of(page, "main")
+
+
+def test_shapes_that_are_alone_in_their_classes_are_not_called_fitting(open_page, tmp_path):
+    write_site(make_report(["ant", "bee", None], 1), tmp_path / "site")
+    page = open_page("six", address=f"{(tmp_path / 'site').as_uri()}/compare.html#view=outliers")
+    assert text_of(page, "#outlier-words").startswith("Each shape here is the only one of its class")
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "words"),
+    [("class:ant", "rest", "No difference could show by so few shapes"), ("class:ant", "class:bird", "")],
+)
+def test_where_nothing_could_show_that_is_said(open_page, first, second, words):
+    page = open_page("six", f"compare.html#a={first}&b={second}")
+    page.wait_for_selector("#result:not([hidden])", state="attached")
+    told = text_of(page, "#answer")
+    ways = {"rest": "15", "class:bird": "three"}[second]
+    assert words in told
+    assert f"there are only {ways} ways to deal them out" in told

@@ -122,10 +122,14 @@ export class Outliers {
     document
       .getElementById("outlier-words")
       .replaceChildren(
-        element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${grouped(ranked.length)}`),
-        closer > 1
-          ? ` are closer to another ${kind(this.database)} than to their own.`
-          : ` is closer to another ${kind(this.database)} than to its own.`,
+        ...(ranked.length === 0
+          ? [`Each shape here is the only one of its ${kind(this.database)}: there is no other that it could be like.`]
+          : [
+              element("b", {}, `${closer === 0 ? "No shape" : count(closer, "shape")} of ${grouped(ranked.length)}`),
+              closer > 1
+                ? ` are closer to another ${kind(this.database)} than to their own.`
+                : ` is closer to another ${kind(this.database)} than to its own.`,
+            ]),
       );
     const shown = ranked.slice(0, this.shown);
     this.more.hidden = ranked.length <= shown.length;
