@@ -122,6 +122,19 @@ for (const [name, given, least] of [
   });
 }
 
+test("no name stands below what lies over the map", () => {
+  const covered = [{ left: 240, right: 340, top: 0, bottom: 40 }];
+  for (let seed = 1; seed <= 8; seed += 1) {
+    const map = makeMap({ seed, classes: 14, each: 20, spread: 14, frame: PHONE });
+    const places = placeNames(map.marks, map.names, { ...map.frame, covered }, RADIUS);
+    assert.ok(places.length >= 7);
+    for (const place of places) {
+      const box = boxOf(place, map.marks, map.names);
+      assert.ok(box.right <= 240 || box.top >= 40, `the name of ${place.group} is covered`);
+    }
+  }
+});
+
 test("names keep their places while the map is zoomed, as long as they have room in it", () => {
   let [kept, all] = [0, 0];
   for (let seed = 1; seed <= 8; seed += 1) {

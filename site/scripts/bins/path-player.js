@@ -138,7 +138,7 @@ export class PathPlayer {
           return;
         }
         const points = this.plot.placed().map((shape) => ({ ...shape, group: database.groups[shape.index] }));
-        labels.place(points, width, height, this.#radius);
+        labels.place(points, { width, height }, this.#radius);
         labels.follow((index) => this.plot.screen(index));
       },
     });

@@ -6,7 +6,7 @@ import { leaderOf, placeNames } from "./placement.js";
 
 /** @import { Naming } from "./coloring.js" */
 /** @import { Mark } from "./clusters.js" */
-/** @import { Place } from "./placement.js" */
+/** @import { Box, Place } from "./placement.js" */
 /** @typedef {Place & { node: Element, mark: Element, line: Element | null }} Label */
 
 const HEIGHT = 18;
@@ -50,14 +50,13 @@ export class Labels {
    * Choose places; a name that has one keeps it where it can.
    *
    * @param {Mark[]} marks the visible shapes
-   * @param {number} width
-   * @param {number} height
+   * @param {{ width: number, height: number, covered?: Box[] }} frame
    * @param {number} radius of a mark
    */
-  place(marks, width, height, radius) {
+  place(marks, frame, radius) {
     const groups = new Set(marks.map(({ group }) => group).filter((group) => group >= 0));
     const sizes = new Map([...groups].map((group) => [group, this.#size(group)]));
-    const places = placeNames(marks, sizes, { width, height }, radius, this.#labels);
+    const places = placeNames(marks, sizes, frame, radius, this.#labels);
     this.#labels = places.map((place) => {
       const { group, leader } = place;
       const mark = svg("path", {

@@ -741,9 +741,21 @@ export class MapView {
     });
     if (thinning !== null) keepLargest(points, MOST_NAMED);
     const largest = points.reduce((most, { radius }) => Math.max(most, radius), 0);
-    this.labels.place(points, width, height, largest);
+    this.labels.place(points, { width, height, covered: coveredOf(this.surface) }, largest);
     this.labels.follow(this.placing());
   }
+}
+
+/**
+ * What of a surface lies below the buttons that zoom.
+ * @param {Element} surface
+ */
+function coveredOf(surface) {
+  const { left, top } = surface.getBoundingClientRect();
+  return [...document.querySelectorAll(".zoom")].map((buttons) => {
+    const box = buttons.getBoundingClientRect();
+    return { left: box.left - left, right: box.right - left, top: box.top - top, bottom: box.bottom - top };
+  });
 }
 
 /**

@@ -47,7 +47,7 @@ const ENDS = 24;
  *
  * @param {readonly Mark[]} marks shapes that are shown; those of group -1 have no name and are in the way all the same
  * @param {ReadonlyMap<number, { width: number, height: number }>} names the size of each name with what stands before it
- * @param {{ width: number, height: number }} frame
+ * @param {{ width: number, height: number, covered?: Box[] }} frame with what lies over the map
  * @param {number} radius of a mark, the largest
  * @param {readonly Place[]} [kept] places from before, kept where they still hold, so that names do not jump
  * @returns {Place[]} large classes first
@@ -414,7 +414,7 @@ class Taken {
   /** @type {Candidate[]} */
   #all = [];
 
-  /** @param {{ width: number, height: number }} frame */
+  /** @param {{ width: number, height: number, covered?: Box[] }} frame */
   constructor(frame) {
     this.frame = frame;
   }
@@ -428,6 +428,7 @@ class Taken {
   hasRoom({ box, line }) {
     if (box.left < APART || box.top < APART) return false;
     if (box.right > this.frame.width - APART || box.bottom > this.frame.height - APART) return false;
+    if (this.frame.covered?.some((own) => overlap(box, own))) return false;
     return this.#all.every(
       (other) =>
         !overlap(box, other.box) &&
