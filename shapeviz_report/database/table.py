@@ -9,7 +9,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any, TypeGuard
@@ -381,9 +381,8 @@ def _column_rows(found: Columns, table: Path) -> Content:
                 f"The table {table} has a value longer than {MOST_LETTERS:,} letters in its column '{name}'."
             )
         else:
-            # a text of many rows stays one
-            tidy = cache(str.strip if column == FILE_COLUMN else clean)
-            texts[column] = [*map(tidy, cells)]
+            # a text of many rows stays one, and is looked at once
+            texts[column] = [*map(cache(partial(_tidy, column)), cells)]
     warnings = []
     if left_out:
         warnings.append(
@@ -394,7 +393,7 @@ def _column_rows(found: Columns, table: Path) -> Content:
     rows = [
         _row(f"row {number}", dict(zip(texts, cells)))
         for number, cells in enumerate(zip(*texts.values()), 1)
-        if any(cell.strip() for cell in cells)
+        if any(cells)
     ]
     return Content(rows, warnings, FILE_COLUMN in map(_plain, names))
 
@@ -435,7 +434,8 @@ def _csv_rows(text: str, table: Path) -> tuple[list[Row], bool]:
                     f"A cell that contains '{delimiter}' belongs in double quotes."
                 )
             if any(cell.strip() for cell in cells):
-                rows.append(_row(place, dict(zip_longest(columns, cells, fillvalue=""))))
+                texts = zip_longest(columns, cells, fillvalue="")
+                rows.append(_row(place, {column: _tidy(column, cell) for column, cell in texts}))
     except csv.Error as error:
         line = reader.line_num + above
         raise DatabaseError(f"{table}, line {line}: this is not CSV: {error}.") from error
@@ -456,7 +456,7 @@ def _json_rows(text: str, table: Path) -> tuple[list[Row], bool]:
         cells = {names[key]: _as_text(value) for key, value in entry.items()}
         if any(len(cell) > MOST_LETTERS for cell in cells.values()):
             raise DatabaseError(f"{table}, {place}: a value is longer than {MOST_LETTERS:,} letters.")
-        rows.append(_row(place, cells))
+        rows.append(_row(place, {column: _tidy(column, cell) for column, cell in cells.items()}))
     return rows, FILE_COLUMN in map(_plain, keys)
 
 
@@ -538,14 +538,18 @@ def _as_text(value: object) -> str:
     return encodable(value) if isinstance(value, str) else json.dumps(value)
 
 
+def _tidy(column: str, cell: str) -> str:
+    """A cell as it is kept: empty where it says that there is no value."""
+    if column == FILE_COLUMN:
+        return cell.strip()
+    text = clean(cell)
+    return "" if text in NO_VALUES else text
+
+
 def _row(place: str, cells: Mapping[str, str]) -> Row:
     """A row without the columns that have no name, as spreadsheets leave them behind."""
-    kept = {
-        column: "" if clean(cell) in NO_VALUES else clean(cell)
-        for column, cell in cells.items()
-        if column and column != FILE_COLUMN
-    }
-    return Row(place, cells.get(FILE_COLUMN, "").strip(), kept)
+    kept = {column: cell for column, cell in cells.items() if column and column != FILE_COLUMN}
+    return Row(place, cells.get(FILE_COLUMN, ""), kept)
 
 
 def _sort_out(
@@ -555,15 +559,21 @@ def _sort_out(
     root = table.parent
     by_file: dict[str, Listed] = {}
     failures = []
+    on_another_machine = cache(lambda file: not spellings(file))
+
+    @cache
+    def locate(file: str) -> tuple[str, Path]:
+        path = finder.find(file) or Path(os.path.normpath(os.path.join(root, file)))
+        return readable(_from(root, path)), path
+
     for row in rows:
-        if row.file and not spellings(row.file):
+        if row.file and on_another_machine(row.file):
             reason = (
                 f"{table.name} lists it ({row.place}), but it is on another machine; copy it into the folder"
             )
             failures.append(Failure(readable(row.file), "read", reason))
         elif row.file:
-            path = finder.find(row.file) or Path(os.path.normpath(os.path.join(root, row.file)))
-            relative = readable(_from(root, path))
+            relative, path = locate(row.file)
             by_file.setdefault(relative, Listed(path, [])).rows.append(row)
         else:
             failures.append(
@@ -598,7 +608,8 @@ def _from(root: Path, path: Path) -> str:
 
 def _count_unlisted(root: Path, rows: Sequence[Row], finder: Finder, outside: bool) -> int:
     """How many meshes below the table's folder none of its rows names; 0 for a folder that cannot be looked into."""
-    named = {os.path.realpath(path) for row in rows if row.file and (path := finder.find(row.file))}
+    files = {row.file for row in rows if row.file}
+    named = {os.path.realpath(path) for file in files if (path := finder.find(file))}
     try:
         return sum(os.path.realpath(file.location) not in named for file in scan_folder(root, outside).files)
     except DatabaseError:

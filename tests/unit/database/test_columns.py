@@ -169,6 +169,20 @@ def test_a_text_of_many_rows_is_held_once(root) -> None:
     assert found.rows[0].cells["x"] == text.strip()
 
 
+def test_a_text_of_many_rows_is_looked_at_once(root, monkeypatch) -> None:
+    """A thousand bytes of Parquet may say a long text a million times."""
+    looked = []
+    monkeypatch.setattr(tables, "clean", lambda text: looked.append(text) or text)
+    monkeypatch.setattr(tables, "spellings", lambda file: looked.append(file) or [file])
+    texts = ["a.off", "y" * 1000, "z" * 1000]
+    place = pyarrow.array([0] * 2_000, pyarrow.int32())
+    columns = [pyarrow.DictionaryArray.from_arrays(place, pyarrow.array([text])) for text in texts]
+    path = write(root, dict(zip(["file", "x", "label"], columns)))
+    (shape,) = read_database(path).shapes
+    assert shape.labels == {"label": texts[2]}
+    assert all(looked.count(text) <= 1 for text in texts)
+
+
 def test_another_process_reads_what_a_stranger_wrote(root) -> None:
     write(root, {"file": FILES})
     parquet.write_table(pyarrow.table({"id": ["a", "b", "deep/c"], "x": [1, 2, 3]}), root / "own.parquet")
