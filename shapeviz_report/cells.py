@@ -39,8 +39,8 @@ class Parted(NamedTuple):
 
 
 def part_cells(text: str, *, strict: bool = False) -> Iterator[Parted]:
-    """A text as CSV with each delimiter that programs use, or with the one that its first line names: whoever knows a
-    column takes the first in which it appears.
+    """A text as CSV, empty lines above it apart, with each delimiter that programs use, or with the one that its first
+    line names: whoever knows a column takes the first in which it appears.
 
     Parameters
     ----------
@@ -53,9 +53,11 @@ def part_cells(text: str, *, strict: bool = False) -> Iterator[Parted]:
     csv.Error
         The header cannot be read.
     """
-    first, _, rest = text.partition("\n")
+    written = text.lstrip("\r\n")
+    above = text[: len(text) - len(written)].count("\n")
+    first, _, rest = written.partition("\n")
     told = _EXCEL_DELIMITER.fullmatch(first.strip(" \r"))
-    body, above = (rest, 1) if told else (text, 0)
+    body, above = (rest, above + 1) if told else (written, above)
     for delimiter in (told[1],) if told else DELIMITERS:
         read = partial(csv.reader, delimiter=delimiter, skipinitialspace=True)
         header = next(read(io.StringIO(body, newline="")), [])

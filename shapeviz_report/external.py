@@ -170,7 +170,7 @@ def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
 
 def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
     """Ids and values of a table: of some columns, or of all but those that say what a shape is."""
-    ways = list(part_cells(decode_text(content).lstrip("\r\n"), strict=True))
+    ways = list(part_cells(decode_text(content), strict=True))
     table = next((way for way in ways if "id" in way.header), ways[0])
     head, rows = table.header, [row for row in table.rows if row]
     if not head:

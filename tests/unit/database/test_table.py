@@ -254,6 +254,8 @@ def test_a_name_longer_than_any_file_can_have_is_not_there(root) -> None:
         ("t.csv", "sep=;\nfile;label\nmeshes/a.off;cup\n"),
         ("t.csv", "\ufeffsep=|\r\nfile|label\r\nmeshes/a.off|cup\r\n"),
         ("t.csv", "File_Name|label\nmeshes/a|cup\n"),
+        ("t.csv", "\n\r\n\nsep=;\nfile;label\nmeshes/a.off;cup\n"),
+        ("t.csv", "\nfile,label\n\nmeshes/a.off,cup\n"),
         ("t.csv", 'PATH, label\n"meshes\\a.off", "cup"\n'),
         ("t.json", '[{"fullId": "meshes/a", "label": "cup", "year": NaN, "size": Infinity}]'),
         ("t.csv", "id,label,year\nmeshes/a.off,cup,NaN\n"),
@@ -267,6 +269,13 @@ def test_usual_tables_of_other_programs(tmp_path, name, text):
     assert [(shape.id, shape.labels, shape.metadata) for shape in database.shapes] == [
         ("meshes/a", {"label": "cup"}, {})
     ]
+
+
+@pytest.mark.parametrize("above", ["", "\n\n", "sep=,\n", "\r\nsep=,\r\n"])
+def test_lines_are_counted_with_those_above_the_header(tmp_path, above):
+    (tmp_path / "t.csv").write_text(f"{above}file,label\na.off,cup\nb.off,a,b\n", newline="")
+    with pytest.raises(DatabaseError, match=f"line {3 + above.count(chr(10))}: there are more cells"):
+        read_database(tmp_path / "t.csv")
 
 
 @pytest.mark.parametrize("label", ["NaN", "null"])
