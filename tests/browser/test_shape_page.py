@@ -439,6 +439,7 @@ def test_a_map_is_pointed_at_and_clicked(shape):
 def test_an_unknown_shape_offers_others(open_page):
     page = open_page("plain", "shape.html#id=<b>nix</b>")
     assert title(page) == "No such shape"
+    assert page.locator("#open-tables").is_hidden()
     assert "<b>nix</b>" in page.locator("#nowhere").inner_text()
     assert page.locator("#known").is_hidden()
     page.fill("#shape-search", "kind b 4")

@@ -76,6 +76,8 @@ export class Heading {
   #offerSelection(shape) {
     const chosen = shape !== null && this.state.get("selection").has(shape);
     this.choose.hidden = shape === null;
+    // Of no shape there are none.
+    document.getElementById("open-tables").hidden = shape === null;
     this.choose.setAttribute("aria-pressed", String(chosen));
     this.choose.textContent = chosen ? "Selected" : "Select";
   }
