@@ -370,3 +370,11 @@ def test_no_heading_is_parted_from_what_it_heads(open_page):
         }).map((node) => node.outerHTML.slice(0, 80))"""
     )
     assert loose == []
+
+
+def test_all_others_are_counted_where_a_sample_of_them_is_compared(open_page, tmp_path):
+    page = open_page("large", "compare.html#a=class%3Aclass+0&b=class%3Aclass+1")
+    page.wait_for_selector("#result:not([hidden])", state="attached")
+    root = page.locator("[data-figure]:has(#shared-title)")
+    text = re.sub(r"<[^>]+>", " ", save(page, root, "SVG", tmp_path).read_text(encoding="utf-8"))
+    assert re.search(r"unlike\s+1\s500\s+other\s+shapes", text)

@@ -35,7 +35,7 @@ import { called } from "./words.js";
  * @property {Group} b
  * @property {Bins} bins
  * @property {Chunk.Comparison} data
- * @property {Pick<Group, "name" | "color"> & { side: "rest", mark: () => null }} rest all other shapes
+ * @property {Pick<Group, "name" | "color"> & { side: "rest", mark: () => null, count: number }} rest all other shapes
  * @property {(column: number) => void} look
  * @property {number} best
  * @property {number} bin the one that is looked at
@@ -224,7 +224,13 @@ export class GroupsView {
     // The first that can be seen on shapes.
     const best = contrast.told.find((column) => bins.isShare(column)) ?? contrast.told[0] ?? 0;
     /** @type {View["rest"]} */
-    const rest = { side: "rest", name: "the others", color: () => "var(--quiet)", mark: () => null };
+    const rest = {
+      side: "rest",
+      name: "the others",
+      color: () => "var(--quiet)",
+      mark: () => null,
+      count: database.count - a.shapes.length - b.shapes.length,
+    };
     /** @param {number} column */
     const look = (column) =>
       // Who asks for a bin asks for its colours, not for those of all features together.

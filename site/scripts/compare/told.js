@@ -36,7 +36,7 @@ export function tellFigures(current, seen) {
   }));
   part("shared-title", (view) => ({
     title: `What ${view.a.name} and ${view.b.name} have in common`,
-    words: `${bins("shared-bins")} in which ${sized(view)} are unlike ${count(view.contrast.values.rest.count, "other shape")}, and like each other. ${MARKS}`,
+    words: `${bins("shared-bins")} in which ${sized(view)} are unlike ${count(view.rest.count, "other shape")}, and like each other. ${MARKS}`,
   }));
   part("features-title", (view) => ({
     title: `${view.a.name} and ${view.b.name}, feature by feature`,
