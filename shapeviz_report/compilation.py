@@ -12,6 +12,7 @@ import pickle
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numba
@@ -44,6 +45,15 @@ def kernel(**options: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]
             return njit(cache=True, **options)(function)
 
     return compiled
+
+
+def keep_compiled(library: str, *modules: ModuleType) -> None:
+    """Let numba keep what it compiles of some modules of a library, whose own way is to compile it in every process."""
+    with kept_for(library):
+        for module in modules:
+            for function in vars(module).values():
+                if isinstance(function, dispatcher.Dispatcher) and not function.signatures:
+                    function.enable_caching()
 
 
 @contextmanager

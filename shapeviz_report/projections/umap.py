@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import warnings
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from numba.core.dispatcher import Dispatcher
 
-from shapeviz_report.compilation import kept_for
+from shapeviz_report.compilation import keep_compiled
 from shapeviz_report.projections.base import Method
 from shapeviz_report.projections.kernels.nearest import nearest_rows
 from shapeviz_report.types import FloatArray
@@ -53,18 +51,10 @@ def _fit(values: npt.NDArray[np.floating], seed: int, **options: Any) -> FloatAr
         warnings.simplefilter("ignore")
         import umap
 
-        _keep_compiled_code(umap.umap_, umap.layouts, umap.utils)
+        # 15 seconds less in every process after the first
+        keep_compiled("umap", umap.umap_, umap.layouts, umap.utils)
         reducer = umap.UMAP(n_neighbors=_neighbours(len(values)), random_state=seed, n_jobs=1, **options)
         return reducer.fit_transform(values)
-
-
-def _keep_compiled_code(*modules: ModuleType) -> None:
-    """Let numba store what it compiles of these modules: 15 seconds less in every process after the first."""
-    with kept_for("umap"):
-        for module in modules:
-            for function in vars(module).values():
-                if isinstance(function, Dispatcher) and not function.signatures:
-                    function.enable_caching()
 
 
 UMAP_METHOD = Method(
