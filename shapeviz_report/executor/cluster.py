@@ -20,7 +20,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice
-from threading import Lock
+from threading import Lock, Thread
 from typing import Any
 
 from shapeviz_report.errors import ClusterError, ConfigError
@@ -156,6 +156,7 @@ class DaskExecutor:
             The cluster lost its scheduler or has had no worker for a minute, or a worker lacks something.
         """
         from distributed import KilledWorker
+        from distributed.client import ClosedClientError
         from distributed.comm import CommClosedError
 
         waiting = enumerate(tasks)
@@ -216,13 +217,16 @@ class DaskExecutor:
                 except KilledWorker as error:
                     yield _fatal(index, error.allowed_failures + 1)
                     continue
-                except CancelledError as error:
-                    raise ClusterError(_GONE) from error
+                except CancelledError:
+                    # A connection that was lost, as to a scheduler frozen for long, takes all tasks with it.
+                    self._reconnect()
+                    send(index, sent.task, self._threads(), sent.lost)
+                    continue
                 yield replace(outcome, index=index)
-        except CommClosedError as error:
+        except (CommClosedError, ClosedClientError) as error:
             raise ClusterError(_GONE) from error
         finally:
-            with suppress(OSError):
+            with suppress(OSError, ClosedClientError):
                 for future in running:
                     future.cancel()
 
@@ -285,7 +289,7 @@ class DaskExecutor:
         """Accept or refuse a worker; one that went meanwhile is asked again when it is back."""
         try:
             told = answer.result()[worker]
-        except (OSError, LookupError):
+        except (OSError, LookupError, CancelledError):
             return
         if isinstance(told, OSError):
             return
@@ -307,6 +311,14 @@ class DaskExecutor:
             return
         self._refused[worker] = f"The worker {worker} {why}"
 
+    def _reconnect(self) -> None:
+        """Wait until the client has its connection again, which it sees to; the scheduler has gone if it gives up."""
+        time.sleep(0.5)
+        while self._client.status == "connecting":
+            time.sleep(0.1)
+        if self._client.status != "running":
+            raise ClusterError(_GONE)
+
     def _ask(self, question: str) -> Any:
         """What the scheduler answers. Waits for it; where that is long, the user is told, once."""
         silent = 0
@@ -317,8 +329,9 @@ class DaskExecutor:
                 )
             except TimeoutError:
                 silent += 1
-            except OSError as error:
-                raise ClusterError(_GONE) from error
+            except OSError:
+                self._reconnect()
+                continue
             else:
                 if silent:
                     logger.warning("The Dask scheduler at %s answers again.", self._address)
@@ -353,11 +366,26 @@ class DaskExecutor:
 def _connect(client_class: Any, address: str) -> Any:
     """A Dask client of a scheduler; one that does not come about is closed, or Python's end waits for it."""
     client = client_class.__new__(client_class)
+    failed: list[BaseException] = []
+
+    def begin() -> None:
+        try:
+            client.__init__(address, timeout=ANSWER_TIME, set_as_default=False)
+        except BaseException as error:
+            failed.append(error)
+
+    # Dask's own limit does not hold for a scheduler that takes a connection and then says nothing.
+    beginning = Thread(target=begin, daemon=True)
     try:
-        client.__init__(address, timeout=ANSWER_TIME, set_as_default=False)
+        beginning.start()
+        beginning.join(2 * ANSWER_TIME)
+        if beginning.is_alive():
+            raise TimeoutError(f"it takes connections and says nothing for {2 * ANSWER_TIME:g} seconds")
+        if failed:
+            raise failed[0]
     except BaseException:
         with suppress(OSError):
-            client.close()
+            client.close(timeout=PARTING_TIME)
         raise
     return client
 

@@ -209,6 +209,31 @@ def test_a_frozen_scheduler_is_told_of_once_and_waited_for(tmp_path, monkeypatch
     assert awake == f"The Dask scheduler at {cluster.address} answers again."
 
 
+def test_a_scheduler_that_is_frozen_from_the_beginning_is_said(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(module, "ANSWER_TIME", 1.0)
+    with running_cluster(tmp_path, workers=0) as cluster:
+        cluster.scheduler.send_signal(signal.SIGSTOP)
+        begun = time.monotonic()
+        with pytest.raises(ClusterError, match=r"does not answer: .*dask scheduler"):
+            DaskExecutor(cluster.address, 60, None, same_everywhere, os.getpid)
+        assert time.monotonic() - begun < 20
+
+
+def test_a_connection_that_is_lost_and_comes_back_loses_nothing(tmp_path) -> None:
+    """As to a scheduler that is frozen for so long that the system gives the connection up."""
+    with (
+        running_cluster(tmp_path, workers=1) as cluster,
+        DaskExecutor(cluster.address, 60, None, same_everywhere, os.getpid) as executor,
+    ):
+        outcomes = executor.run(time.sleep, [(0.05,)] * 60)
+        found = [next(outcomes)]
+        client = executor._client
+        client.loop.add_callback(client.scheduler_comm.comm.abort)
+        found += outcomes
+    assert sorted(outcome.index for outcome in found) == list(range(60))
+    assert {outcome.reason for outcome in found} == {None}
+
+
 def test_a_cluster_without_workers_is_said(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(module, "PATIENCE", 1.0)
     with (
