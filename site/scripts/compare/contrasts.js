@@ -71,10 +71,10 @@ export class Contrasts {
     let job = null;
     let cancelled = false;
     const done = (async () => {
+      this.#engine ??= startEngine();
       const bins = await this.bins();
       const taken = new Set([...a, ...b]);
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
-      this.#engine ??= startEngine();
       const [engine, whole] = await Promise.all([
         this.#engine,
         bins instanceof LevelBins ? this.#whole(bins, { a, b, rest: outside }) : UNKNOWN,
@@ -105,7 +105,7 @@ export class Contrasts {
       const { contests, read } = allAtHand
         ? byRows(sample)
         : byMoments(values, { a: a.length, b: b.length, rest: outside.length }, sample, given);
-      job = engine.run("contrast", { ...given, contests, seed: SEED }, report);
+      job = engine.run("contrast", { ...given, contests, seed: SEED }, report, [given.values]);
       if (cancelled) job.cancel();
       return new Contrast(bins, values, sample, read(await job.done));
     })();

@@ -19,17 +19,18 @@ export function sharesOf(steps) {
 
 /** @param {Uint16Array} steps */
 function makeShares(steps) {
-  /** @type {Map<number, number | null>} each number once, however many shapes have it */
-  const known = new Map([[NONE, null]]);
+  /** @type {(number | null | undefined)[]} each number once, however many shapes have it */
+  const known = new Array(NONE + 1);
+  known[NONE] = null;
   /** @type {(number | null)[]} */
   const shares = new Array(steps.length);
   // A loop: `Array.from` with a function takes ten times as long.
   for (let index = 0; index < steps.length; index += 1) {
     const step = steps[index];
-    let share = known.get(step);
+    let share = known[step];
     if (share === undefined) {
       share = step / STEPS;
-      known.set(step, share);
+      known[step] = share;
     }
     shares[index] = share;
   }

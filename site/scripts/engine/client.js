@@ -66,14 +66,17 @@ export class Engine {
    * @param {string} name
    * @param {{ table?: FeatureValues, [name: string]: unknown }} parameters copied to the worker; a table that a task brings along goes there
    * @param {Listener} onProgress called a few dozen times a second at most
+   * @param {{ buffer: ArrayBufferLike }[]} moved what else of the parameters goes there
    * @returns {Job}
    */
-  run(name, parameters, onProgress = (_) => {}) {
+  run(name, parameters, onProgress = (_) => {}, moved = []) {
     const { table } = parameters;
     if (!WITHOUT_TABLE.has(name) && table === undefined) this.#giveTable();
     const id = this.started++;
     const done = new Promise((resolve, reject) => this.jobs.set(id, { resolve, reject, onProgress }));
-    this.worker.postMessage({ run: { id, name, parameters } }, table === undefined ? [] : [table.steps.buffer]);
+    const all = table === undefined ? moved : [...moved, table.steps];
+    const buffers = all.map(({ buffer }) => /** @type {ArrayBuffer} */ (buffer));
+    this.worker.postMessage({ run: { id, name, parameters } }, buffers);
     return { done, cancel: () => this.cancel(id) };
   }
 

@@ -3,7 +3,7 @@
 import { comparePageAddress } from "../addresses/compare.js";
 import { chunk, chunks } from "../base/chunks.js";
 import { openPage } from "../base/page.js";
-import { pageAddress } from "../base/place.js";
+import { pageAddress, readHash } from "../base/place.js";
 import { watchTables } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
 import { GroupsView } from "../compare/groups-view.js";
@@ -21,6 +21,8 @@ import { Tray } from "../tray/tray.js";
 async function main() {
   const [overview, data, clusters] = await chunks("overview", "compare", "clusters");
   const database = new Database(overview, currentTheme);
+  // Whoever comes with two groups waits for nothing else.
+  if (readHash().has("a")) loadAllBins().catch(() => {});
   const neighbours = new Neighbours(database, data);
   await neighbours.know();
   const { state, written, announce, ready } = await openPage({
