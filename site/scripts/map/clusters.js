@@ -83,7 +83,10 @@ export function largestCluster(members, most) {
  * @param {number} most
  */
 function linked({ x, y, radius }, other, most) {
-  return (x - other.x) ** 2 + (y - other.y) ** 2 <= ((radius ?? most) + (other.radius ?? most) + LINK) ** 2;
+  const across = x - other.x;
+  const down = y - other.y;
+  const reach = (radius ?? most) + (other.radius ?? most) + LINK;
+  return across * across + down * down <= reach * reach;
 }
 
 /**
