@@ -148,6 +148,14 @@ def test_the_best_bins_separate_two_classes_and_a_reload_gives_the_same(bench):
     eventually(page, lambda: (nh(page, "refined"), chosen(page)) == (after, 6))
 
 
+def test_the_number_of_bins_says_how_many_are_added(bench):
+    page = bench()
+    for asked, taken in (("-3", "1"), ("0", "1"), ("2.7", "2"), ("1e9", None)):
+        page.fill("#bin-number", asked)
+        page.press("#bin-number", "Tab")
+        assert page.input_value("#bin-number") == (taken or page.get_attribute("#bin-number", "max"))
+
+
 def test_undo_and_the_browsers_way_back_are_one(bench):
     page = bench()
 
