@@ -473,6 +473,9 @@ def test_saved_bins_are_those_that_a_build_reads(bench, tmp_path):
         download.value.save_as(tmp_path / name)
         blocks = make_report(features=FEATURES).features.blocks
         assert read_bins(tmp_path / name, blocks) == ("Gc:2", "Sc[1]:3", "Sc[1]:4", "Sc[1]:5")
+    saved = (tmp_path / "bins.txt").read_text()
+    assert "# workbench.html#bins=" in saved
+    assert "file:" not in saved, "no folder of the reader's machine"
     with page.expect_download() as download:
         page.click("[data-file='maps.csv']")
     download.value.save_as(tmp_path / "maps.csv")

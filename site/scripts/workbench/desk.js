@@ -429,9 +429,17 @@ export class Desk {
       originalMap: state.get("originalMap"),
       refinedMap: state.get("refinedMap"),
       words,
-      address: window.location.href,
+      address: ownAddress(window.location),
     };
   }
+}
+
+/**
+ * The address of the page with what it asks; of a file its name alone, for the folder tells of the machine it lies on.
+ * @param {Location} location
+ */
+function ownAddress({ protocol, href, pathname, hash }) {
+  return protocol === "file:" ? pathname.split("/").at(-1) + hash : href;
 }
 
 /** @param {Set<number>} members */
