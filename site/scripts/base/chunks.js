@@ -1,5 +1,6 @@
 // Data of a page: gzipped JSON, columns or bytes in scripts that hand it over, because pages from file:// may not fetch.
 
+import { pause } from "./dom.js";
 import { entry } from "./entry.js";
 
 /**
@@ -158,6 +159,18 @@ function sizeOf({ letters, decode }) {
   return new DataView(end.buffer).getUint32(end.length - 4, true);
 }
 
+/** Milliseconds for which chunks are unpacked at a stretch. */
+const STRETCH = 12;
+
+let breathed = 0;
+
+/** Let the page be drawn now and then: pieces that follow each other would keep it waiting for all chunks that come at once. */
+async function breathe() {
+  if (performance.now() - breathed < STRETCH) return;
+  await pause();
+  breathed = performance.now();
+}
+
 /**
  * Write what is in a chunk, piece by piece: decoded as a whole, it would be in memory twice.
  * @param {Packed} packed
@@ -169,8 +182,10 @@ async function unpack({ letters, decode }, into) {
   const write = async () => {
     // One for all pieces: what was written is read by then, and memory that is left behind is not soon given back.
     const piece = new Uint8Array((15 / 8) * Math.min(DECODED, letters + GROUP));
-    for (let from = 0; from < letters; from += DECODED)
+    for (let from = 0; from < letters; from += DECODED) {
+      await breathe();
       await writer.write(decode(from, Math.min(from + DECODED, letters), piece));
+    }
     await writer.close();
   };
   const read = async () => {
