@@ -218,11 +218,13 @@ def single_file(shared_folder, reports) -> Callable[[str], Path]:
 
 
 @pytest.fixture
-def open_page(browser, site) -> Iterator[Callable[..., Page]]:
+def open_page(browser, site, serve) -> Iterator[Callable[..., Page]]:
     """Open a page of a site from ``file://`` and wait until it is drawn.
 
     The reader is one who asks for less movement, so that a step is done when it is drawn; tests of the
     movements ask for them with ``reduced_motion="no-preference"``.
+
+    Servers end after the pages, which may still be reading.
 
     ``watch`` of the page collects its requests and complaints; a complaint nobody expects fails the test.
     """
