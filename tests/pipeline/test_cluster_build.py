@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from cluster import running_cluster
@@ -57,14 +58,15 @@ def test_the_same_site_though_workers_are_killed_half_way(built, database, tmp_p
     assert read_site(site) == read_site(tmp_path / "site")
 
 
+def start_build(database: Path, folder: Path, scheduler: str) -> subprocess.Popen[str]:
+    options = ["-o", folder / "site", "--scheduler", scheduler, "--cache", folder / "cache"]
+    command = [sys.executable, "-m", "shapeviz_report", "build", database, *options]
+    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+
+
 def test_a_scheduler_that_goes_ends_the_build_with_a_sentence_and_nothing_else(database, tmp_path) -> None:
     with running_cluster(tmp_path, workers=1) as cluster:
-        options = ["-o", tmp_path / "site", "--scheduler", cluster.address, "--cache", tmp_path / "cache"]
-        build = subprocess.Popen(
-            [sys.executable, "-m", "shapeviz_report", "build", database, *options],
-            stderr=subprocess.PIPE,
-            text=True,
-        )
+        build = start_build(database, tmp_path, cluster.address)
         assert build.stderr is not None
         said = [line for line, _ in zip(build.stderr, range(2), strict=False)]
         cluster.scheduler.kill()
@@ -79,12 +81,7 @@ def test_a_scheduler_that_goes_ends_the_build_with_a_sentence_and_nothing_else(d
 
 def test_a_frozen_scheduler_holds_no_build_that_is_stopped(database, tmp_path) -> None:
     with running_cluster(tmp_path, workers=1) as cluster:
-        options = ["-o", tmp_path / "site", "--scheduler", cluster.address, "--cache", tmp_path / "cache"]
-        build = subprocess.Popen(
-            [sys.executable, "-m", "shapeviz_report", "build", database, *options],
-            stderr=subprocess.PIPE,
-            text=True,
-        )
+        build = start_build(database, tmp_path, cluster.address)
         while not any((tmp_path / "cache").glob("facts/*/*")):
             assert build.poll() is None
             time.sleep(0.05)
