@@ -14,7 +14,7 @@ import queue
 import time
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Coroutine, Iterable, Iterator, Mapping
 from concurrent.futures import CancelledError, Future
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -164,6 +164,7 @@ class DaskExecutor:
         limits = time_limit * patience, memory_limit
         done: queue.SimpleQueue[Any] = queue.SimpleQueue()
         running: dict[Any, _Sent] = {}
+        coming: dict[Any, Future[dict[str, Any]]] = {}
         longest: float | None = None
 
         def send(index: int, task: tuple[Any, ...], workers: Iterable[str], lost: int = 0) -> _Sent:
@@ -178,14 +179,27 @@ class DaskExecutor:
             future.add_done_callback(done.put)
             return sent
 
+        def twins(index: int) -> list[Any]:
+            return [future for future, sent in running.items() if sent.index == index]
+
+        def fetch(future: Any) -> None:
+            # Nobody waits for one result: it may be that of a worker which is frozen.
+            coming[future] = self._begin(self._client.scheduler.gather(keys=[future.key]))
+            coming[future].add_done_callback(lambda _: done.put(future))
+
+        def forget(future: Any) -> None:
+            del running[future]
+            if future in coming:
+                coming.pop(future).cancel()
+            future.cancel()
+
         try:
             while True:
                 threads = self._threads()
                 for future, sent in list(running.items()):
                     # Dask would wait for one of just these to come back.
                     if threads.keys().isdisjoint(sent.workers):
-                        del running[future]
-                        future.cancel()
+                        forget(future)
                         if sent.lost == LOSSES:
                             yield _fatal(sent.index, LOSSES + 1)
                         else:
@@ -206,35 +220,38 @@ class DaskExecutor:
                     continue
                 if future not in running:
                     continue
+                if future.status == "finished" and future not in coming:
+                    fetch(future)
+                    continue
                 sent = running.pop(future)
                 index = sent.index
                 longest = max(longest or 0.0, time.monotonic() - sent.begun)
-                for other in [other for other, same in running.items() if same.index == index]:
-                    del running[other]
-                    other.cancel()
                 try:
-                    outcome = future.result()
+                    outcome = _taken(future, coming.pop(future, None))
                 except KilledWorker as error:
-                    yield _fatal(index, error.allowed_failures + 1)
-                    continue
-                except CancelledError:
-                    # A connection that was lost, as to a scheduler frozen for long, takes all tasks with it.
+                    outcome = _fatal(index, error.allowed_failures + 1)
+                except (CancelledError, OSError):
+                    # A connection that was lost, as to a scheduler frozen for long, takes all tasks with it; a worker
+                    # that goes takes its results.
                     self._reconnect()
-                    send(index, sent.task, self._threads(), sent.lost)
+                    if not twins(index):
+                        send(index, sent.task, self._threads(), sent.lost)
                     continue
+                for twin in twins(index):
+                    forget(twin)
                 yield replace(outcome, index=index)
         except (CommClosedError, ClosedClientError) as error:
             raise ClusterError(_GONE) from error
         finally:
             with suppress(OSError, ClosedClientError):
-                for future in running:
-                    future.cancel()
+                for future in list(running):
+                    forget(future)
 
     def _threads(self) -> dict[str, int]:
         """The workers that may be used now, with their threads; waits for the first one."""
         end = time.monotonic() + PATIENCE
         while True:
-            found: dict[str, int] = self._ask("ncores")
+            found: dict[str, int] = self._ask("ncores", workers=None)
             pending = self._vet(found)
             threads = {worker: count for worker, count in found.items() if worker in self._accepted}
             if sum(threads.values()):
@@ -277,8 +294,7 @@ class DaskExecutor:
                     on_error="return",
                     asynchronous=True,
                 )
-                loop = self._client.loop.asyncio_loop
-                self._asked[worker] = asyncio.run_coroutine_threadsafe(question, loop)
+                self._asked[worker] = self._begin(question)
             if self._asked[worker].done():
                 self._judge(worker, self._asked.pop(worker))
             else:
@@ -311,6 +327,10 @@ class DaskExecutor:
             return
         self._refused[worker] = f"The worker {worker} {why}"
 
+    def _begin(self, asking: Coroutine[Any, Any, Any]) -> Future[Any]:
+        """Ask something without waiting for it."""
+        return asyncio.run_coroutine_threadsafe(asking, self._client.loop.asyncio_loop)
+
     def _reconnect(self) -> None:
         """Wait until the client has its connection again, which it sees to; the scheduler has gone if it gives up."""
         time.sleep(0.5)
@@ -319,13 +339,13 @@ class DaskExecutor:
         if self._client.status != "running":
             raise ClusterError(_GONE)
 
-    def _ask(self, question: str) -> Any:
+    def _ask(self, question: str, **about: Any) -> Any:
         """What the scheduler answers. Waits for it; where that is long, the user is told, once."""
         silent = 0
         while True:
             try:
                 answer = self._client.sync(
-                    getattr(self._client.scheduler, question), workers=None, callback_timeout=SILENCE
+                    getattr(self._client.scheduler, question), callback_timeout=SILENCE, **about
                 )
             except TimeoutError:
                 silent += 1
@@ -346,21 +366,38 @@ class DaskExecutor:
                 )
 
     def _late(self, running: dict[Any, _Sent], after: float) -> list[tuple[_Sent, list[str]]]:
-        """Tasks that were sent once and longer ago than so many seconds, and the workers that do not have them."""
+        """Tasks that were sent once and longer ago than so many seconds, and workers with neither them nor a result."""
         now = time.monotonic()
         times = Counter(sent.index for sent in running.values())
         late = {f.key: s for f, s in running.items() if now - s.begun > after and times[s.index] == 1}
         if not late:
             return []
         workers = {
-            worker: keys for worker, keys in self._ask("processing").items() if worker in self._accepted
+            worker: keys
+            for worker, keys in self._ask("processing", workers=None).items()
+            if worker in self._accepted
         }
+        holders = self._ask("who_has", keys=list(late))
         found = []
         for key, sent in late.items():
-            others = [worker for worker, keys in workers.items() if key not in keys]
+            others = [
+                worker for worker, keys in workers.items() if key not in keys and worker not in holders[key]
+            ]
             if 0 < len(others) < len(workers):
                 found.append((sent, others))
         return found
+
+
+def _taken(future: Any, answer: Future[dict[str, Any]] | None) -> Outcome:
+    """The outcome that was fetched; the task's error, or CancelledError where its result is lost."""
+    if answer is None:
+        if future.status == "error":
+            future.result()
+        raise CancelledError
+    told = answer.result()
+    if told["status"] != "OK":
+        raise CancelledError
+    return told["data"][future.key]
 
 
 def _connect(client_class: Any, address: str) -> Any:

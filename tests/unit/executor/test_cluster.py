@@ -188,6 +188,40 @@ def test_what_a_frozen_worker_has_is_done_by_another(tmp_path, monkeypatch) -> N
     assert {outcome.reason for outcome in found} == {None}
 
 
+def test_what_a_frozen_worker_has_done_is_done_again(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr(module, "LOOK_AGAIN", 0.5)
+    with (
+        running_cluster(tmp_path, workers=2) as cluster,
+        DaskExecutor(cluster.address, 60, None, same_everywhere, os.getpid) as executor,
+    ):
+        outcomes = executor.run(time.sleep, [(0.05,)] * 60)
+        found = [next(outcomes)]
+        # All that was sent is done by then, and still where it was done: for five minutes Dask would wait for it.
+        time.sleep(2.0)
+        cluster.workers[0].send_signal(signal.SIGSTOP)
+        begun = time.monotonic()
+        found += outcomes
+        monkeypatch.setattr(module, "ANSWER_TIME", 2.0)
+        executor.__exit__()
+        assert time.monotonic() - begun < 60
+    assert sorted(outcome.index for outcome in found) == list(range(60))
+    assert {outcome.reason for outcome in found} == {None}
+
+
+def test_what_a_killed_worker_has_done_is_done_again(tmp_path) -> None:
+    with (
+        running_cluster(tmp_path, workers=2) as cluster,
+        DaskExecutor(cluster.address, 60, None, same_everywhere, os.getpid) as executor,
+    ):
+        outcomes = executor.run(time.sleep, [(0.05,)] * 60)
+        found = [next(outcomes)]
+        time.sleep(2.0)
+        cluster.workers[0].kill()
+        found += outcomes
+    assert sorted(outcome.index for outcome in found) == list(range(60))
+    assert {outcome.reason for outcome in found} == {None}
+
+
 def test_a_frozen_scheduler_is_told_of_once_and_waited_for(tmp_path, monkeypatch, caplog) -> None:
     monkeypatch.setattr(module, "SILENCE", 1.0)
     monkeypatch.setattr(module, "LOOK_AGAIN", 0.5)
