@@ -50,6 +50,14 @@ export function chunks(...names) {
   return /** @type {any} */ (Promise.all(names.map(chunk)));
 }
 
+/**
+ * Whether the site has a chunk.
+ * @param {keyof Chunk.Chunks} name
+ */
+export function isThere(name) {
+  return standingIn(name) !== null || addressOf(name) !== undefined;
+}
+
 /** Letters of the parts that are kept at hand, two for some ten bytes of what is in them. */
 const MOST_LETTERS = 5e5;
 
@@ -231,12 +239,20 @@ function columnsOf(buffer) {
 }
 
 /**
+ * What holds data in a document that is the whole site.
+ * @param {string} name
+ */
+function standingIn(name) {
+  return document.getElementById(`chunk-${name}`);
+}
+
+/**
  * Data that stands in the document, in base64, where the site is one file.
  * @param {string} name
  * @returns {Packed | null}
  */
 function standing(name) {
-  const block = document.getElementById(`chunk-${name}`);
+  const block = standingIn(name);
   if (block === null) return null;
   const text = block.textContent;
   return {

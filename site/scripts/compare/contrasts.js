@@ -13,6 +13,7 @@ import { counts, wholeValues } from "./whole-values.js";
 /** @import { Engine, Job, Listener } from "../engine/client.js" */
 /** @import { Contest, Contrast as Found } from "../engine/contrast.js" */
 /** @import { GroupValues } from "../database/group-values.js" */
+/** @import { CountedValues } from "../database/level-counts.js" */
 
 /**
  * Something of both groups, and of all other shapes.
@@ -29,7 +30,7 @@ const MOST_BESIDE = 200;
 /** @type {(keyof OfGroups<any>)[]} */
 const SIDES = ["a", "b", "rest"];
 
-/** @type {OfGroups<GroupValues | null>} */
+/** @type {OfGroups<null>} */
 const UNKNOWN = { a: null, b: null, rest: null };
 
 const SHUFFLES = 499;
@@ -75,21 +76,24 @@ export class Contrasts {
       const bins = await this.bins();
       const taken = new Set([...a, ...b]);
       const outside = [...this.database.ids.keys()].filter((index) => !taken.has(index));
-      const [engine, whole] = await Promise.all([
-        this.#engine,
-        bins instanceof LevelBins ? this.#whole(bins, { a, b, rest: outside }) : UNKNOWN,
-      ]);
+      const coming = bins instanceof LevelBins ? this.#whole(bins, { a, b, rest: outside }) : UNKNOWN;
       /**
        * @param {number[]} shapes
-       * @param {GroupValues | null} known
+       * @param {Promise<GroupValues> | null} known
        */
       const some = (shapes, known) =>
         known === null
           ? bins.some(shapes, this.database.groups, MOST_COMPARED, MOST_PARTS)
           : bins.some(shapes, this.database.groups, MOST_BESIDE);
-      const sample = { a: some(a, whole.a), b: some(b, whole.b), rest: some(outside, whole.rest) };
+      const sample = { a: some(a, coming.a), b: some(b, coming.b), rest: some(outside, coming.rest) };
       const rows = [...sample.a, ...sample.b, ...sample.rest];
-      await bins.know(rows);
+      const [engine, own, others, left] = await Promise.all([
+        this.#engine,
+        coming.a,
+        coming.b,
+        coming.rest,
+        bins.know(rows),
+      ]);
       const given = {
         rows: rows.length,
         values: valuesOf(bins, rows),
@@ -97,11 +101,11 @@ export class Contrasts {
         weights: this.data.weights,
       };
       const values = {
-        a: whole.a ?? new RowValues(bins, sample.a),
-        b: whole.b ?? new RowValues(bins, sample.b),
-        rest: whole.rest ?? new RowValues(bins, sample.rest),
+        a: own ?? new RowValues(bins, sample.a),
+        b: others ?? new RowValues(bins, sample.b),
+        rest: left ?? new RowValues(bins, sample.rest),
       };
-      const allAtHand = whole === UNKNOWN && sample.a.length === a.length && sample.b.length === b.length;
+      const allAtHand = coming === UNKNOWN && sample.a.length === a.length && sample.b.length === b.length;
       const { contests, read } = allAtHand
         ? byRows(sample)
         : byMoments(values, { a: a.length, b: b.length, rest: outside.length }, sample, given);
@@ -119,23 +123,31 @@ export class Contrasts {
   }
 
   /**
-   * What is known of all shapes of each group: where they are counted, lie in few parts, or are all that such groups leave.
+   * What is known of all shapes of each group, where they are counted, lie in few parts, or are all that such groups leave;
+   * null of others, at once, so that a sample of them is read at the same time.
    * @param {LevelBins} bins
    * @param {OfGroups<number[]>} groups
-   * @returns {Promise<OfGroups<GroupValues | null>>}
+   * @returns {OfGroups<Promise<GroupValues> | null>}
    */
-  async #whole(bins, { a, b, rest }) {
-    const groups = await Promise.all([a, b, rest].map((shapes) => wholeValues(bins, shapes, this.database)));
-    const known = groups.filter((values) => values !== null);
-    if (known.length === groups.length - 1) {
-      const all = await readCounts(bins, this.database.classes.length);
-      groups[groups.indexOf(null)] = known
-        .filter((values) => values.count > 0)
-        .map((values) => counts(values, bins))
-        .reduce((left, values) => left.without(values), all);
-    }
+  #whole(bins, { a, b, rest }) {
+    const groups = [a, b, rest].map((shapes) => wholeValues(bins, shapes, this.database));
+    const coming = groups.filter((values) => values !== null);
+    if (coming.length === groups.length - 1) groups[groups.indexOf(null)] = this.#left(bins, coming);
     const [own, others, outside] = groups;
     return { a: own, b: others, rest: outside };
+  }
+
+  /**
+   * All shapes but those of some groups.
+   * @param {LevelBins} bins
+   * @param {Promise<RowValues | CountedValues>[]} groups
+   */
+  async #left(bins, groups) {
+    const [all, ...known] = await Promise.all([readCounts(bins, this.database.classes.length), ...groups]);
+    return known
+      .filter((values) => values.count > 0)
+      .map((values) => counts(values, bins))
+      .reduce((left, values) => left.without(values), all);
   }
 }
 

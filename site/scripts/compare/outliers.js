@@ -101,9 +101,9 @@ export class Outliers {
   }
 
   #offer() {
-    const { database } = this;
+    const { database, data } = this;
     const below = database.classes.map(() => 0);
-    for (const index of this.ranked(null)) if (this.#fit(index) < 0) below[database.groups[index]] += 1;
+    for (const [index, fit] of data.fit.entries()) if (fit !== null && fit < 0) below[database.groups[index]] += 1;
     this.filter.replaceChildren(
       element("option", { value: "" }, "all shapes"),
       ...database.classes.map((name, group) =>

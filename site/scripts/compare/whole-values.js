@@ -11,19 +11,19 @@ import { MOST_DOTS } from "./distribution.js";
 const MOST_READ = 500;
 
 /**
- * The values of some shapes, if they are whole classes, or few that lie in few parts; else null. Of so few that each is
- * shown, one by one.
+ * The values of some shapes, if they are whole classes, or few that lie in few parts; else null, at once. Of so few that
+ * each is shown, one by one.
  * @param {LevelBins} bins
  * @param {number[]} shapes rising
  * @param {Database} database
+ * @returns {Promise<RowValues | CountedValues> | null}
  */
-export async function wholeValues(bins, shapes, database) {
+export function wholeValues(bins, shapes, database) {
   /** @param {number} most */
   const few = (most) => shapes.length <= most && bins.some(shapes, database.groups, most).length === shapes.length;
-  const counted = few(MOST_DOTS) ? null : await countedClasses(bins, shapes, database);
+  const counted = few(MOST_DOTS) ? null : countedClasses(bins, shapes, database);
   if (counted !== null || !few(MOST_READ)) return counted;
-  await bins.know(shapes);
-  return new RowValues(bins, shapes);
+  return bins.know(shapes).then(() => new RowValues(bins, shapes));
 }
 
 /**

@@ -1,7 +1,7 @@
 // The bins of a database that has more values than a page can hold: they come shape by shape, or bin by bin, when asked
 // for, each in levels from the lowest to the highest value of its column. shapeviz_report/pages/levels.py writes them.
 
-import { chunk, part } from "../base/chunks.js";
+import { chunks, isThere, part } from "../base/chunks.js";
 import { Bins, loadBins } from "./bins.js";
 import { levelsOf, STEPS } from "./levels.js";
 import { sampledByParts } from "./sample.js";
@@ -19,8 +19,9 @@ export function loadAllBins() {
 }
 
 async function load() {
-  const work = await chunk("workbench");
-  return work.sample === null ? loadBins() : new LevelBins(work, await chunk("levels"));
+  if (!isThere("levels")) return loadBins();
+  const [work, levels] = await chunks("workbench", "levels");
+  return new LevelBins(work, levels);
 }
 
 export class LevelBins extends Bins {

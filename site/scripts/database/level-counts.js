@@ -12,29 +12,33 @@ import { STEPS } from "./levels.js";
 const MOST_READ = 12;
 
 /**
- * The values of some shapes that are whole classes, or all but whole classes, where these are few; else null.
+ * The values of some shapes that are whole classes, or all but whole classes, where these are few; else null, at once.
  * @param {LevelBins} bins
  * @param {number[]} shapes
  * @param {{ groups: ArrayLike<number>, sizes: Map<number, number>, classes: string[] }} database
+ * @returns {Promise<CountedValues> | null}
  */
-export async function countedClasses(bins, shapes, { groups, sizes, classes }) {
+export function countedClasses(bins, shapes, { groups, sizes, classes }) {
   /** @type {Map<number, number>} */
   const held = new Map();
   for (const shape of shapes) held.set(groups[shape], (held.get(groups[shape]) ?? 0) + 1);
   for (const [group, count] of held) if (sizes.get(group) !== count) return null;
-  /** @param {number[]} codes */
-  const read = (codes) => Promise.all(codes.map((code) => readCounts(bins, code)));
+  /**
+   * @param {number[]} codes
+   * @param {"with" | "without"} joining
+   */
+  const read = async (codes, joining) => {
+    const [first, ...rest] = await Promise.all(codes.map((code) => readCounts(bins, code)));
+    return rest.reduce((sum, own) => sum[joining](own), first);
+  };
   const inside = [...held.keys()];
   const outside = [...sizes.keys()].filter((group) => !held.has(group));
   // Those without a class are counted with all shapes only.
   const [ways, others] = [held.has(-1), outside.includes(-1)].map((odd) => (odd ? Infinity : 0));
   if (Math.min(inside.length + ways, outside.length + 1 + others) > MOST_READ) return null;
-  if (inside.length + ways <= outside.length + 1 + others) {
-    const [first, ...rest] = await read(inside);
-    return rest.reduce((sum, own) => sum.with(own), first);
-  }
-  const [all, ...rest] = await read([classes.length, ...outside]);
-  return rest.reduce((sum, own) => sum.without(own), all);
+  return inside.length + ways <= outside.length + 1 + others
+    ? read(inside, "with")
+    : read([classes.length, ...outside], "without");
 }
 
 /**
@@ -167,7 +171,9 @@ export class CountedValues {
         upTo[column] = joint(first.variance, second.variance, first.mean - second.mean);
       }
     }
-    const cells = Uint32Array.from(counted.cells, (shapes, cell) => shapes + sign * other.counted.cells[cell]);
+    const cells = Uint32Array.from(counted.cells);
+    const added = other.counted.cells;
+    for (let cell = 0; cell < cells.length; cell += 1) cells[cell] += sign * added[cell];
     return new CountedValues(bins, { shapes, means, variances, upTo, cells });
   }
 }

@@ -2,6 +2,7 @@
 
 import { comparePageAddress } from "../addresses/compare.js";
 import { chunk, chunks } from "../base/chunks.js";
+import { pause } from "../base/dom.js";
 import { openPage } from "../base/page.js";
 import { pageAddress, readHash } from "../base/place.js";
 import { watchTables } from "../base/tables.js";
@@ -19,10 +20,10 @@ import { carryView, follow } from "../tray/carry.js";
 import { Tray } from "../tray/tray.js";
 
 async function main() {
+  // Two groups are what most come for, and their values what takes longest.
+  if (!readHash().has("view")) loadAllBins().catch(() => {});
   const [overview, data, clusters] = await chunks("overview", "compare", "clusters");
   const database = new Database(overview, currentTheme);
-  // Whoever comes with two groups waits for nothing else.
-  if (readHash().has("a")) loadAllBins().catch(() => {});
   const neighbours = new Neighbours(database, data);
   await neighbours.know();
   const { state, written, announce, ready } = await openPage({
@@ -37,6 +38,9 @@ async function main() {
     },
   });
   const groups = new GroupsView(database, data, clusters, neighbours, state, { bins: loadAllBins, announce });
+  groups.compare();
+  // What it asks for comes while the rest is made.
+  await pause();
   const outliers = new Outliers(database, data, neighbours, state, { bins: loadAllBins, announce });
   const matrix = new Matrix(database, data, neighbours, state, { announce });
   new Tabs(state);
@@ -44,7 +48,6 @@ async function main() {
   const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
   new Tray(database, state, { open, take: (side, group) => groups.chooser.choose(side, group) });
   carryView(written);
-  groups.compare();
   outliers.render();
   matrix.render();
   watchTables(() => compareTables(database, data, state, { groups, outliers, matrix }));
