@@ -17,7 +17,7 @@ from typing import Any
 
 import numba
 from numba import config, njit
-from numba.core import dispatcher
+from numba.core import dispatcher, event
 from numba.core.caching import (
     CompileResultCacheImpl,
     FunctionCache,
@@ -28,6 +28,7 @@ from numba.core.serialize import dumps
 
 from shapeviz_report.cache import Cache, default_root, make_key
 from shapeviz_report.errors import CacheError
+from shapeviz_report.executor.pauses import pause
 from shapeviz_report.versions import library_versions, source_version
 
 
@@ -136,3 +137,23 @@ class _KeptCode(FunctionCache):
     def _save_overload(self, sig: object, data: object) -> None:
         with suppress(OSError, CacheError):
             super()._save_overload(sig, data)
+
+
+class _Compiling(event.Listener):
+    """Machine code is made for all tasks to come: the one that first needs it is not late for it."""
+
+    def __init__(self) -> None:
+        self._depth = 0
+
+    def on_start(self, _: event.Event) -> None:
+        if self._depth == 0:
+            pause(True)
+        self._depth += 1
+
+    def on_end(self, _: event.Event) -> None:
+        self._depth -= 1
+        if self._depth == 0:
+            pause(False)
+
+
+event.register("numba:compile", _Compiling())

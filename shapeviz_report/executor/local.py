@@ -21,6 +21,9 @@ from shapeviz_report.executor.channel import Channel
 from shapeviz_report.imports import trusted_path
 from shapeviz_report.system import LACKING_MEMORY, PipeEnd, bound_memory, fate, start_process
 
+MOST_PAUSED = 300.0
+"""Seconds that a task may pause at a stretch."""
+
 
 class LocalExecutor:
     """Worker processes on this machine, reused from call to call. Use it as a context manager.
@@ -30,7 +33,8 @@ class LocalExecutor:
     jobs : int
         Number of processes.
     time_limit : float
-        Seconds that one task may take before its worker is stopped.
+        Seconds that one task may take before its worker is stopped, without those that it pauses for
+        (:mod:`shapeviz_report.executor.pauses`).
     memory_limit : int
         Bytes of memory that one worker may take.
     """
@@ -60,6 +64,7 @@ class LocalExecutor:
         limit = self.time_limit * patience
         idle = list(self._workers)
         busy: dict[PipeEnd, tuple[_Worker, int, float]] = {}
+        paused: dict[PipeEnd, float] = {}
         try:
             while True:
                 while len(busy) < self.jobs and (task := next(waiting, None)) is not None:
@@ -74,7 +79,8 @@ class LocalExecutor:
                 now = time.monotonic()
                 late = [c for c, (_, _, deadline) in busy.items() if deadline <= now and c not in ready]
                 for connection in [*ready, *late]:
-                    worker, index, _ = busy.pop(connection)
+                    worker, index, deadline = busy.pop(connection)
+                    left = paused.pop(connection, limit)
                     if connection in late:
                         worker.stop()
                         self._workers.remove(worker)
@@ -82,8 +88,7 @@ class LocalExecutor:
                         yield Outcome(index, None, reason, 0.0)
                         continue
                     try:
-                        answer: tuple[Any, BaseException | None, float] = connection.recv()
-                        value, error, cpu = answer
+                        answer: bool | tuple[Any, BaseException | None, float] = connection.recv()
                     except (EOFError, ConnectionError):
                         worker.stop()
                         self._workers.remove(worker)
@@ -92,6 +97,12 @@ class LocalExecutor:
                             reason += f", perhaps for want of memory: {self._advice}"
                         yield Outcome(index, None, reason, 0.0)
                         continue
+                    if isinstance(answer, bool):
+                        if answer:
+                            paused[connection] = deadline - now
+                        busy[connection] = (worker, index, now + (MOST_PAUSED if answer else left))
+                        continue
+                    value, error, cpu = answer
                     if isinstance(error, MemoryError):
                         # What native code left undone when it got no memory is not for the next task.
                         worker.stop()

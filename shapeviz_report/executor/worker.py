@@ -12,16 +12,21 @@ import traceback
 from shapeviz_report.ending import ASKING
 from shapeviz_report.errors import ShapevizError
 from shapeviz_report.executor.channel import Channel
+from shapeviz_report.executor.pauses import tell_pauses
 from shapeviz_report.system import PipeEnd, end_with_parent, start_listening
 
 
 def serve(connection: PipeEnd) -> None:
-    """The life of a worker: take a task, answer with (value, error, CPU seconds), until the pipe closes."""
+    """The life of a worker: take a task, answer with (value, error, CPU seconds), until the pipe closes.
+
+    True and False before an answer tell of a pause that begins and ends.
+    """
     # Ctrl-C reaches every process of the terminal; the parent alone decides what it means.
     for number in ASKING:
         signal.signal(number, signal.SIG_IGN if number == signal.SIGINT else signal.SIG_DFL)
     start_listening()
     end_with_parent()
+    tell_pauses(connection.send)
     tasks = Channel(connection)
     reported = 0.0
     while True:

@@ -43,6 +43,20 @@ def test_machine_code_follows_a_change_in_a_called_module(tmp_path) -> None:
     assert run(package, cache) == "8.0 1"
 
 
+def test_compiling_is_a_pause_of_its_worker_and_loading_what_is_kept_is_none(tmp_path) -> None:
+    package, cache = tmp_path / "loops", tmp_path / "cache"
+    package.mkdir()
+    (package / "__init__.py").write_text(
+        "from shapeviz_report.executor.pauses import tell_pauses\ntell_pauses(print)\n"
+    )
+    (package / "outer.py").write_text(
+        "from shapeviz_report.compilation import kernel\n@kernel()\ndef inner(x): return x + 1\n"
+        "@kernel()\ndef outer(x): return inner(x)\n"
+    )
+    assert run(package, cache).split("\n") == ["True", "False", "2.0 0"]
+    assert run(package, cache) == "2.0 1"
+
+
 def _spoil(file: Path, how: str) -> None:
     content = file.read_bytes()
     if how == "folder":

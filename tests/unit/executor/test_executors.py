@@ -116,6 +116,16 @@ def test_with_patience_a_task_may_take_longer(make_executor) -> None:
         assert outcome.reason == "it took longer than 2.5 seconds; a larger time_limit may help"
 
 
+def test_what_a_worker_does_once_for_all_its_tasks_is_no_task_s_time(make_executor) -> None:
+    pausing = "import time; from shapeviz_report.executor.pauses import pause; pause(True); time.sleep(4); pause(False)"
+    with make_executor(3) as executor:
+        found = collect(
+            executor, exec, [(pausing,), (f"{pausing}; time.sleep(1)",), (f"{pausing}; time.sleep(600)",)]
+        )
+    assert found.pop(2) == (None, "it took longer than 3 seconds; a larger time_limit may help")
+    assert {reason for _, reason in found.values()} == {None}
+
+
 # Touched and untouched memory, in one piece and in many, asked for by Python, by numpy and by C.
 _GREEDY = {
     "one piece": "bytearray(3 << 30)",
