@@ -96,7 +96,7 @@ export class Contrasts {
       ]);
       const given = {
         rows: rows.length,
-        values: valuesOf(bins, rows),
+        values: bins.valuesOf(rows),
         blocks: Int32Array.from({ length: bins.count }, (_, column) => bins.featureOf(column)),
         weights: this.data.weights,
       };
@@ -280,20 +280,6 @@ function inProportion(lists, sizes) {
     const count = Math.min(Math.max(Math.round(share * sizes[place]), 1), list.length);
     return Array.from({ length: count }, (_, number) => list[Math.floor((number * list.length) / count)]);
   });
-}
-
-/**
- * The compared values of some rows, column after column.
- * @param {Bins} bins
- * @param {number[]} rows
- */
-function valuesOf(bins, rows) {
-  const values = new Float32Array(bins.count * rows.length);
-  for (let column = 0; column < bins.count; column += 1) {
-    for (let place = 0; place < rows.length; place += 1)
-      values[column * rows.length + place] = bins.value(column, rows[place]);
-  }
-  return values;
 }
 
 /** What came out of a comparison. */

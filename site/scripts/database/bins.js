@@ -131,6 +131,19 @@ export class Bins {
   }
 
   /**
+   * The compared values of some shapes that are at hand, column after column.
+   * @param {number[]} shapes
+   */
+  valuesOf(shapes) {
+    const values = new Float32Array(this.count * shapes.length);
+    for (let column = 0; column < this.count; column += 1) {
+      for (let place = 0; place < shapes.length; place += 1)
+        values[column * shapes.length + place] = this.value(column, shapes[place]);
+    }
+    return values;
+  }
+
+  /**
    * The step of a shape in a column; no number where it is not of the sample.
    * @param {number} column
    * @param {number} shape

@@ -107,6 +107,19 @@ export class LevelBins extends Bins {
     return this.#known.get(shape)?.[column] ?? NaN;
   }
 
+  /** @param {number[]} shapes */
+  valuesOf(shapes) {
+    const rows = shapes.map((shape) => /** @type {Uint8Array} */ (this.#known.get(shape)));
+    const values = new Float32Array(this.count * rows.length);
+    for (let column = 0, place = 0; column < this.count; column += 1) {
+      for (const levels of rows) {
+        values[place] = this.valueAt(column, levels[column]);
+        place += 1;
+      }
+    }
+    return values;
+  }
+
   /**
    * @param {number} column
    * @param {number} level
