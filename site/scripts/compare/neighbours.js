@@ -1,6 +1,7 @@
 // The nearest neighbours of every shape, in the space of all features and on every map.
 
 import { part } from "../base/chunks.js";
+import { entry } from "../base/entry.js";
 
 /** @import { Database } from "../database/database.js" */
 
@@ -18,6 +19,8 @@ export class Neighbours {
 
   /** @type {Map<string, Uint32Array>} by space, as many of each shape */
   #rows = new Map();
+  /** @type {Map<string, number[][]>} */
+  #matrices = new Map();
 
   /**
    * Have the neighbours in a space at hand.
@@ -62,14 +65,16 @@ export class Neighbours {
    * @param {string} space
    */
   matrix(space) {
-    const { database } = this;
-    const counts = database.classes.map(() => new Array(database.classes.length).fill(0));
-    for (const [index, group] of database.groups.entries()) {
-      if (group < 0) continue;
-      for (const other of this.of(index, space))
-        if (database.groups[other] >= 0) counts[group][database.groups[other]] += 1;
-    }
-    return counts;
+    // The address of the page asks for it again and again.
+    return entry(this.#matrices, space, () => {
+      const { classes, groups } = this.database;
+      const counts = classes.map(() => new Array(classes.length).fill(0));
+      for (const [index, group] of groups.entries()) {
+        if (group < 0) continue;
+        for (const other of this.of(index, space)) if (groups[other] >= 0) counts[group][groups[other]] += 1;
+      }
+      return counts;
+    });
   }
 
   /**

@@ -19,10 +19,13 @@ const MOST_READ = 12;
  * @returns {Promise<CountedValues> | null}
  */
 export function countedClasses(bins, shapes, { groups, sizes, classes }) {
-  /** @type {Map<number, number>} */
-  const held = new Map();
-  for (const shape of shapes) held.set(groups[shape], (held.get(groups[shape]) ?? 0) + 1);
-  for (const [group, count] of held) if (sizes.get(group) !== count) return null;
+  // From -1 on, which stands for no class.
+  const held = new Uint32Array(classes.length + 1);
+  for (const shape of shapes) held[groups[shape] + 1] += 1;
+  const [inside, outside] = [true, false].map((wanted) =>
+    [...sizes.keys()].filter((group) => held[group + 1] > 0 === wanted),
+  );
+  if (inside.some((group) => held[group + 1] !== sizes.get(group))) return null;
   /**
    * @param {number[]} codes
    * @param {"with" | "without"} joining
@@ -31,10 +34,8 @@ export function countedClasses(bins, shapes, { groups, sizes, classes }) {
     const [first, ...rest] = await Promise.all(codes.map((code) => readCounts(bins, code)));
     return rest.reduce((sum, own) => sum[joining](own), first);
   };
-  const inside = [...held.keys()];
-  const outside = [...sizes.keys()].filter((group) => !held.has(group));
   // Those without a class are counted with all shapes only.
-  const [ways, others] = [held.has(-1), outside.includes(-1)].map((odd) => (odd ? Infinity : 0));
+  const [ways, others] = [inside, outside].map((own) => (own.includes(-1) ? Infinity : 0));
   if (Math.min(inside.length + ways, outside.length + 1 + others) > MOST_READ) return null;
   return inside.length + ways <= outside.length + 1 + others
     ? read(inside, "with")
