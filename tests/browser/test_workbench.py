@@ -444,6 +444,43 @@ def test_it_works_by_keyboard_alone(bench):
     eventually(page, lambda: page.locator("#class-table .use[aria-pressed=true]").count() == 4)
 
 
+def test_all_classes_are_one_stop_of_the_tab_key(bench):
+    page = bench()
+    stops = page.locator("#class-table tbody :is(button, input)")
+    assert (stops.count(), page.locator("#class-table tbody [tabindex='0']").count()) == (20, 1)
+
+    def focus() -> str:
+        return page.evaluate("document.activeElement.dataset.key")
+
+    page.focus("#separate-all")
+    page.keyboard.press("Tab")
+    assert focus() == "use 0"
+    for key, goal in {
+        "ArrowUp": "use 0",
+        "ArrowDown": "use 1",
+        "ArrowRight": "only 1",
+        "End": "only 4",
+    }.items():
+        page.keyboard.press(key)
+        assert focus() == goal
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Space")
+    assert not page.locator("[data-key='from 4']").is_checked()
+    page.keyboard.press("ArrowUp")
+    assert focus() == "from 3"
+    page.keyboard.press("Home")
+    assert focus() == "from 0"
+    # What cannot be used is passed over, and the Tab key comes back to where it left.
+    page.locator("[data-key='use 1']").click()
+    answered(page)
+    page.focus("[data-key='from 0']")
+    page.keyboard.press("ArrowDown")
+    assert focus() == "from 2"
+    page.keyboard.press("Tab")
+    page.keyboard.press("Shift+Tab")
+    assert focus() == "from 2"
+
+
 def test_the_example_runs_to_its_end(bench):
     page = bench()
     for step in range(1, 6):

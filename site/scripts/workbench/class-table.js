@@ -1,4 +1,5 @@
-// The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps.
+// The classes, a row each: in use or not, to be set apart or not, and how well each keeps together on the two maps. For the
+// Tab key all rows are one stop, and arrow keys go from row to row: a database may have a hundred classes.
 
 import { element, focused } from "../base/dom.js";
 import { change, difference } from "../base/figures.js";
@@ -10,7 +11,10 @@ import { ofAtMost, rangeOf } from "../database/hit-range.js";
 /** @import { Database } from "../database/database.js" */
 /** @import { Separation } from "./separation.js" */
 
-/** @typedef {"from" | "against"} Part of what is to be separated */
+/**
+ * @typedef {"from" | "against"} Part of what is to be separated
+ * @typedef {{ tabIndex: number, disabled?: boolean, readonly isConnected: boolean, focus: () => void }} Stop a button or a box
+ */
 
 /** @type {Part[]} */
 const PARTS = ["from", "against"];
@@ -40,6 +44,8 @@ export class ClassTable {
       );
     }
     this.body.addEventListener("pointerleave", () => state.set({ pointedGroup: null }));
+    this.table.addEventListener("focusin", ({ target }) => this.body.contains(target) && this.#stopAt(target));
+    this.table.addEventListener("keydown", (event) => this.#key(event));
     state.listen((changed) => {
       if (["hidden", "separation"].some((name) => changed.has(name))) this.#mark();
       if (["originalMap", "refinedMap", "theme", "coloring"].some((name) => changed.has(name))) this.render();
@@ -69,6 +75,7 @@ export class ClassTable {
       {
         type: "button",
         class: "use",
+        tabindex: "-1",
         "data-key": `use ${group}`,
         title: `${name}\nClick takes it into use or out of it.`,
         onclick: (event) => (event.altKey ? this.#only(group) : this.#toggle(group)),
@@ -81,6 +88,7 @@ export class ClassTable {
       {
         type: "button",
         class: "only",
+        tabindex: "-1",
         "data-key": `only ${group}`,
         "aria-label": `Only ${name}`,
         title: "Only this class",
@@ -126,6 +134,7 @@ export class ClassTable {
     const label = part === "from" ? `Separate ${name}` : `Separate from ${name}`;
     const input = element("input", {
       type: "checkbox",
+      tabindex: "-1",
       "data-key": `${part} ${group}`,
       "aria-label": label,
       title: `${label}\nClick with Alt: only this`,
@@ -175,6 +184,40 @@ export class ClassTable {
         tick.checked = used && this.#ticked(part).has(group);
       }
     }
+    if (this.#stop?.isConnected !== true || this.#stop.disabled) this.#stopAt(this.body.querySelector(".use"));
+  }
+
+  /** @type {Stop | null} where the Tab key comes to the rows */
+  #stop = null;
+
+  /** @param {Stop | null} next */
+  #stopAt(next) {
+    if (next === null || next === this.#stop) return;
+    if (this.#stop !== null) this.#stop.tabIndex = -1;
+    next.tabIndex = 0;
+    this.#stop = next;
+  }
+
+  /** @param {{ key: string, target: any, altKey: boolean, ctrlKey: boolean, metaKey: boolean, preventDefault: () => void }} event */
+  #key(event) {
+    if (event.altKey || event.ctrlKey || event.metaKey) return;
+    /** @type {Stop[][]} */
+    const rows = [...(this.rows?.values() ?? [])].map(({ use, only, ticks }) => [use, only, ...ticks.values()]);
+    const row = rows.findIndex((own) => own.includes(event.target));
+    if (row < 0) return;
+    const column = rows[row].indexOf(event.target);
+    /** @param {Stop[]} others of which the first that can be used is next */
+    const go = (others) => {
+      event.preventDefault();
+      others.find((other) => other?.disabled === false)?.focus();
+    };
+    const below = rows.map((own) => own[column]);
+    if (event.key === "ArrowDown") go(below.slice(row + 1));
+    else if (event.key === "ArrowUp") go(below.slice(0, row).reverse());
+    else if (event.key === "Home") go(below);
+    else if (event.key === "End") go(below.reverse());
+    else if (event.key === "ArrowRight") go(rows[row].slice(column + 1));
+    else if (event.key === "ArrowLeft") go(rows[row].slice(0, column).reverse());
   }
 }
 
