@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import io
+import os
 import re
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,11 @@ INSTALL = "pip install 'shapeviz-report[parquet]'"
 
 Columns = list[tuple[str, list[str] | None]]
 """Names of columns, and their cells as texts; None where cells are no texts. A name may come twice."""
+
+_SECOND = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
+
+_EXTENSION = b"ARROW:extension:name"
+"""The key of a column's metadata that names the library which knows what its values mean."""
 
 _FRACTION = re.compile(r"\.(\d*?)0*(?=\D|$)")
 """The fraction of a second, with the zeros at its end apart."""
@@ -72,8 +78,18 @@ def parquet_texts(content: bytes, most_cells: int, most_bytes: int) -> Columns:
 
 
 def table_texts(table: pyarrow.Table) -> Columns:
-    """The columns of a table by their names, as :func:`column_texts` has them."""
-    return list(zip(table.column_names, map(column_texts, table.columns)))
+    """The columns of a table by their names, as :func:`column_texts` has them; None also for those that only another
+    library can read, as periods of pandas, which are mere numbers without it."""
+    return [
+        (field.name, None if _is_foreign(field) else column_texts(column))
+        for field, column in zip(table.schema, table.columns)
+    ]
+
+
+def _is_foreign(field: pyarrow.Field) -> bool:
+    import pyarrow
+
+    return isinstance(field.type, pyarrow.BaseExtensionType) or _EXTENSION in (field.metadata or {})
 
 
 def read_parquet(content: bytes, most_cells: int, most_bytes: int) -> pyarrow.Table:
@@ -132,19 +148,55 @@ def frame_table(frame: Any) -> pyarrow.Table:
     """
     import pyarrow
 
-    if not (isinstance(frame, pyarrow.Table) or hasattr(frame, "__arrow_c_stream__")):
+    # a single column has one type
+    if not (isinstance(frame, pyarrow.Table) or hasattr(frame, "__arrow_c_stream__")) or hasattr(
+        frame, "dtype"
+    ):
         raise TypeError(f"{type(frame).__name__} is neither a path nor a data frame")
+    frame = _with_texts(frame)
     try:
         return pyarrow.table(frame)
     except (pyarrow.ArrowException, ValueError, TypeError) as error:
         raise ValueError(": ".join(map(str, error.args))) from error
 
 
+def _with_texts(frame: Any) -> Any:
+    """A data frame of pandas with text in place of what Arrow has no type for, such as paths, years beside words,
+    months or the ranges of ``pandas.cut``; any other frame as it is."""
+    if not hasattr(frame, "iloc") or not frame.columns.is_unique:
+        return frame
+    texts = {}
+    for column in frame.columns:
+        if frame[column].dtype.kind == "O" and not _has_type(frame[column]):
+            cells = zip(frame[column], frame[column].isna())
+            texts[column] = [
+                None if empty else os.fspath(cell) if isinstance(cell, os.PathLike) else str(cell)
+                for cell, empty in cells
+            ]
+    if texts:
+        frame = frame.copy(deep=False)
+        for column, cells_of_it in texts.items():
+            frame[column] = cells_of_it
+    return frame
+
+
+def _has_type(column: Any) -> bool:
+    """Whether Arrow has a type for the cells of a column of pandas."""
+    import pyarrow
+
+    try:
+        kind = pyarrow.array(column, from_pandas=True).type
+    except (pyarrow.ArrowException, ValueError, TypeError):
+        return False
+    kind = kind.value_type if pyarrow.types.is_dictionary(kind) else kind
+    return not isinstance(kind, pyarrow.BaseExtensionType)
+
+
 def column_texts(column: pyarrow.ChunkedArray) -> list[str] | None:
     """The cells of a column as one would write them, empty for nulls and NaN; None for bytes that are no text, and for
     lists and the like.
 
-    Whole numbers have no point, dates no time, and neither zeros at their ends.
+    Whole numbers have no point, dates no time, durations hours, minutes and seconds, and none zeros at their ends.
     """
     import pyarrow
     from pyarrow import compute
@@ -158,6 +210,10 @@ def column_texts(column: pyarrow.ChunkedArray) -> list[str] | None:
                 return None
             found += ["" if place is None else texts[place] for place in chunk.indices.to_pylist()]
         return found
+    if pyarrow.types.is_duration(kind):
+        second = _SECOND[kind.unit]
+        counts = compute.cast(column, pyarrow.int64()).to_pylist()
+        return ["" if count is None else _duration(count, second) for count in counts]
     try:
         cells = compute.cast(column, pyarrow.string()).to_pylist()
     except (pyarrow.ArrowException, UnicodeDecodeError):
@@ -170,6 +226,13 @@ def column_texts(column: pyarrow.ChunkedArray) -> list[str] | None:
         if all(text == "" or text.endswith(" 00:00:00") for text in texts):
             texts = [text.removesuffix(" 00:00:00") for text in texts]
     return texts
+
+
+def _duration(count: int, second: int) -> str:
+    """A duration of so many parts of a second as hours, minutes and seconds."""
+    seconds, rest = divmod(abs(count), second)
+    text = f"{seconds // 3600}:{seconds // 60 % 60:02}:{seconds % 60:02}.{rest:0{len(str(second)) - 1}}"
+    return ("-" if count < 0 else "") + _FRACTION.sub(_point_and_digits, text)
 
 
 def _point_and_digits(fraction: re.Match[str]) -> str:

@@ -68,7 +68,7 @@ def _read_text(text: str) -> list[str]:
 
 
 def _read_csv(text: str) -> list[str]:
-    table = next((way for way in part_cells(text, strict=True) if "bin" in way.header), None)
+    table = next((way for way in part_cells(text) if "bin" in way.header), None)
     if table is None:
         raise ValueError("it has no column named 'bin'")
     rows = (dict(zip(table.header, cells)) for cells in table.rows if cells)

@@ -11,6 +11,9 @@ from typing import Any, NamedTuple
 
 DELIMITERS = (",", ";", "\t", "|")
 
+NAMELESS = re.compile(r"(__index_level_\d+__|Unnamed: \d+)?")
+"""What a column without a name is called; such an index of a data frame is mere numbers of rows."""
+
 _EXCEL_DELIMITER = re.compile(r'"?sep=(.)"?')
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?", re.ASCII | re.IGNORECASE)
 _FORMULA = re.compile(r"'*[=+\-@\t\r\n\uff1d\uff0b\uff0d\uff20]")
@@ -38,15 +41,10 @@ class Parted(NamedTuple):
     above: int
 
 
-def part_cells(text: str, *, strict: bool = False) -> Iterator[Parted]:
+def part_cells(text: str) -> Iterator[Parted]:
     """A text as CSV, empty lines above it apart, with each delimiter that programs use, or with the one that its first
-    line names: whoever knows a column takes the first in which it appears.
-
-    Parameters
-    ----------
-    text : str
-    strict : bool
-        Whether quotes that are not as they should be are an error in the rows.
+    line names: whoever knows a column takes the first in which it appears. In the rows, quotes that are not as they
+    should be are an error.
 
     Raises
     ------
@@ -61,7 +59,7 @@ def part_cells(text: str, *, strict: bool = False) -> Iterator[Parted]:
     for delimiter in (told[1],) if told else DELIMITERS:
         read = partial(csv.reader, delimiter=delimiter, skipinitialspace=True)
         header = next(read(io.StringIO(body, newline="")), [])
-        rows = read(io.StringIO(body, newline=""), strict=strict)
+        rows = read(io.StringIO(body, newline=""), strict=True)
         next(rows, None)
         yield Parted(delimiter, header, rows, above)
 

@@ -15,6 +15,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
 
@@ -376,9 +377,11 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
         return value
     elif kind.startswith("Path") and isinstance(value, str | os.PathLike):
         return _path(key, value, where, folder)
-    elif kind.startswith("float") and isinstance(value, int | float) and not isinstance(value, bool):
+    elif kind.startswith("float") and isinstance(value, Real) and not isinstance(value, bool):
         return float(value)
-    elif isinstance(value, {"str": str, "int": int}.get(kind[:3], ())) and not isinstance(value, bool):
+    elif kind.startswith("int") and isinstance(value, Integral) and not isinstance(value, bool):
+        return int(value)  # perhaps a number of numpy
+    elif kind.startswith("str") and isinstance(value, str):
         return value
     wanted = {"t": "a list of file names", "P": "a path", "s": "text", "i": "a whole number", "f": "a number"}
     wanted["b"] = "true or false"

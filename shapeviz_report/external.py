@@ -6,6 +6,7 @@ import csv
 import io
 import re
 import struct
+import unicodedata
 import zipfile
 import zlib
 from collections import Counter
@@ -17,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.arrow import column_numbers, column_texts, read_parquet, require_pyarrow
-from shapeviz_report.cells import part_cells, read_cell
+from shapeviz_report.cells import NAMELESS, part_cells, read_cell
 from shapeviz_report.errors import ConfigError
 from shapeviz_report.executor import call_apart
 from shapeviz_report.files import decode_text, read_regular
@@ -143,13 +144,26 @@ def _places(what: str, rows: Sequence[str], count: int, ids: Sequence[str]) -> l
     if twice is not None:
         raise ConfigError(f"{what} has two rows for the shape {twice!r}")
     place = {shape: number for number, shape in enumerate(rows)}
-    missing = [shape for shape in ids if shape not in place]
+    # programs write accents in one form, file systems have them in another: one row and one shape that look alike
+    # are the same
+    composed = [*map(_composed, rows)]
+    once = {form for form, times in Counter(composed).items() if times == 1}
+    once -= {form for form, times in Counter(map(_composed, ids)).items() if times > 1}
+    alike = {form: number for number, form in enumerate(composed) if form in once}
+    found = [place.get(shape, alike.get(_composed(shape))) for shape in ids]
+    missing = [shape for shape, row in zip(ids, found) if row is None]
     if missing:
+        strange = sorted({*rows}.difference(ids))
+        theirs = f", but rows of none, such as {strange[0]!r}" if strange else ""
         raise ConfigError(
             f"{what} has no row for {len(missing)} of the {len(ids)} shapes of the database, such as "
-            f"{missing[0]!r}; `shapeviz-report check DATABASE --list` prints the ids"
+            f"{missing[0]!r}{theirs}; `shapeviz-report check DATABASE --list` prints the ids"
         )
-    return [place[shape] for shape in ids]
+    return [row for row in found if row is not None]
+
+
+def _composed(shape: str) -> str:
+    return unicodedata.normalize("NFC", shape)
 
 
 def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[Any]]:
@@ -165,12 +179,14 @@ def _read_archive(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
             ids = arrays["shape_ids"]
         except ValueError as error:
             raise ValueError("its ids are no text, as numpy.array(ids, str) makes it") from error
+        if ids.dtype.kind == "S":  # text as HDF5 has it
+            ids = np.char.decode(ids, "utf-8")
         return [str(shape) for shape in ids.ravel().tolist()], arrays["values"]
 
 
 def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.NDArray[np.float64]]:
     """Ids and values of a table: of some columns, or of all but those that say what a shape is."""
-    ways = list(part_cells(decode_text(content), strict=True))
+    ways = list(part_cells(decode_text(content)))
     table = next((way for way in ways if "id" in way.header), ways[0])
     head, rows = table.header, [row for row in table.rows if row]
     if not head:
@@ -183,7 +199,7 @@ def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.
             raise ValueError(f"row {number} has {len(row)} cells, and the head {len(head)}")
     key = head.index("id")
     told = [head.index(name) for name in columns] or [
-        place for place, name in enumerate(head) if place != key and not name.startswith(DESCRIBING)
+        place for place, name in enumerate(head) if place != key and not _is_no_number(name)
     ]
     values = np.array(
         [
@@ -193,6 +209,11 @@ def _read_table(content: bytes, columns: Sequence[str]) -> tuple[list[str], npt.
         np.float64,
     )
     return [read_cell(row[key]) for row in rows], values.reshape(len(rows), len(told))
+
+
+def _is_no_number(column: str) -> bool:
+    """Whether a column says what a shape is, or only numbers the rows, and so is no part of the feature."""
+    return column.startswith(DESCRIBING) or NAMELESS.fullmatch(column) is not None
 
 
 def _number(cell: str, row: int, column: str) -> float:
@@ -216,9 +237,7 @@ def _read_columns(content: bytes, columns: Sequence[str]) -> tuple[list[str], np
     ids = column_texts(table["id"])
     if ids is None:
         raise ValueError("its column 'id' holds no text")
-    told = columns or [
-        name for name in table.column_names if name != "id" and not name.startswith(DESCRIBING)
-    ]
+    told = columns or [name for name in table.column_names if name != "id" and not _is_no_number(name)]
     found = [np.empty((len(ids), 0))]
     for name in told:
         values = column_numbers(table[name])

@@ -13,7 +13,8 @@ from shapeviz_report.database.flat import FlatFolder
 from shapeviz_report.database.formats import MESH_FORMATS, is_read
 from shapeviz_report.database.modelnet import ModelNet
 from shapeviz_report.database.princeton import Princeton
-from shapeviz_report.database.table import TABLE_SUFFIXES, Listing, Table, passed_over
+from shapeviz_report.database.rows import TABLE_SUFFIXES
+from shapeviz_report.database.table import Listing, Table, passed_over
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.types import Database
 

@@ -2,83 +2,43 @@
 
 from __future__ import annotations
 
-import csv
-import json
 import os
 import re
-from collections import Counter
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, partial
-from itertools import zip_longest
+from functools import cache
 from pathlib import Path
-from typing import Any, TypeGuard
+from typing import Any
 
-from shapeviz_report.arrow import Columns, frame_table, parquet_texts, require_pyarrow, table_texts
-from shapeviz_report.cells import part_cells
+from shapeviz_report.arrow import frame_table, require_pyarrow, table_texts
 from shapeviz_report.database.base import Layout, database_name, shape_ids, shape_names, sorted_shapes
 from shapeviz_report.database.finder import Finder, spellings
 from shapeviz_report.database.folder import leads_outside, scan_folder
 from shapeviz_report.database.formats import MESH_SUFFIXES, is_read, split_name, suffix_of, why_not_read
-from shapeviz_report.database.text import clean, decode, encodable, readable
-from shapeviz_report.errors import ConfigError, DatabaseError
-from shapeviz_report.executor import call_apart
-from shapeviz_report.files import read_regular
+from shapeviz_report.database.rows import (
+    CLASS_COLUMNS,
+    FILE_COLUMN,
+    LABEL_COLUMN,
+    TABLE_SUFFIXES,
+    Content,
+    OtherContentError,
+    Row,
+    check_cells,
+    column_rows,
+    plain_name,
+    read_rows,
+)
+from shapeviz_report.database.text import readable
+from shapeviz_report.errors import DatabaseError
 from shapeviz_report.types import Database, Failure, ShapeEntry
 
-FILE_COLUMN = "file"
-LABEL_COLUMN = "label"
-FILE_COLUMNS = (
-    FILE_COLUMN,
-    "filename",
-    "filepath",
-    "path",
-    "mesh",
-    "meshfile",
-    "model",
-    "modelfile",
-    "fullid",
-    "id",
-)
-"""Names of the column with the files, from the plainest on; case, spaces, ``_`` and ``-`` do not matter."""
-_BIN = re.compile(r"\w+(\[\d+\])?:\d+")
-"""Names of columns in tables of features, such as ``shapeviz-report describe`` writes."""
-CLASS_COLUMNS = ("class", "classname", "category")
-"""Names of metadata columns that are labelings whatever their values are; written as those above."""
-NO_VALUES = frozenset({"NaN", "nan", "N/A", "n/a", "#N/A", "<NA>"})
-"""Cells with which programs write that there is no value. A class may be called "none" or "null"."""
-LINES_SUFFIXES = (".jsonl", ".ndjson")
-PARQUET = ".parquet"
-TABLE_SUFFIXES = (".csv", ".tsv", ".json", *LINES_SUFFIXES, PARQUET)
-MOST_BYTES = 64 * 1024**2
-"""Size of the largest table that is read."""
-MOST_UNPACKED = 256 * 1024**2
-"""Bytes that a Parquet table may unpack to."""
-MOST_CELLS = 5_000_000
-"""Cells of a table, empty ones too: 50 for each of 100,000 shapes."""
-MOST_LETTERS = 131_072
-"""Letters of a cell, as the csv module has it."""
 MOST_CLASSES = 100
 FEWEST_SHAPES_A_CLASS = 3
 
-_SECOND_OBJECT = re.compile(r"\s*\{.*\}[ \t\r]*\n\s*\{")
-"""An object that ends on its line and another below, without a comma: JSON lines, whatever the file is called."""
-_INDEX = re.compile(r"__index_level_\d+__")
-"""What the index of a data frame is called in a table when it has no name: mere numbers of rows."""
-
-
-@dataclass(frozen=True)
-class Row:
-    """One row: where it stands, its file, and its other cells by column, in the table's order, empty ones too."""
-
-    place: str
-    file: str
-    cells: Mapping[str, str]
-
-    @property
-    def filled(self) -> dict[str, str]:
-        """The cells that say something."""
-        return {column: cell for column, cell in self.cells.items() if cell}
+_MESH_NAME = re.compile(
+    rf"[^\"\n,;|\t]{{1,1000}}({'|'.join(map(re.escape, MESH_SUFFIXES))})(?![\w.])", re.IGNORECASE
+)
+"""What may be the name of a mesh in a text of any kind."""
 
 
 @dataclass(frozen=True)
@@ -87,15 +47,6 @@ class Listed:
 
     path: Path
     rows: list[Row]
-
-
-@dataclass(frozen=True)
-class Content:
-    """What a table says: its rows, warnings, and whether it plainly is one of meshes, with a column ``file``."""
-
-    rows: list[Row]
-    warnings: list[str]
-    plain: bool
 
 
 class Listing:
@@ -126,8 +77,8 @@ class Listing:
                 f"The data frame cannot be read: {error}. Columns hold text, numbers or dates; paths as text."
             ) from error
         told = Path(f"of {self.name}")  # "The table of the data frame has ..."
-        _check_cells(told, found.num_rows * found.num_columns)
-        content = _column_rows(table_texts(found), told)
+        check_cells(told, found.num_rows * found.num_columns)
+        content = column_rows(table_texts(found), told)
         files = [os.path.abspath(row.file) for row in content.rows if row.file]
         if not files:
             raise DatabaseError("The data frame lists no files.")
@@ -142,10 +93,6 @@ class Listing:
 
     def __fspath__(self) -> str:
         return os.fspath(self.root)
-
-
-class OtherContentError(DatabaseError):
-    """A table has neither a column of files nor one of classes: it is not about shapes at all."""
 
 
 class Table(Layout):
@@ -177,7 +124,7 @@ class Table(Layout):
 
     def read(self, path: Path, outside: bool) -> Database:
         table = _the_table(path, outside, self.besides)
-        database = self.read_content(_read(table), table, outside)
+        database = self.read_content(read_rows(table), table, outside)
         if not path.is_dir():
             return database
         passed = passed_over(path, outside, (*self.besides, table))
@@ -192,9 +139,11 @@ class Table(Layout):
         finder = Finder(root, suffixes=MESH_SUFFIXES)
         listed, failures = _sort_out(rows, table, finder)
         if repeated := sorted(relative for relative, file in listed.items() if len(file.rows) > 1):
+            files = "1 file stands" if len(repeated) == 1 else f"{len(repeated)} files stand"
+            verb = "is" if len(repeated) == 1 else "are"
             warnings.append(
-                f"{len(repeated)} files stand in {table.name} more than once with the same values and are "
-                f"taken once: {', '.join(repeated[:5])}{', ...' if len(repeated) > 5 else ''}."
+                f"{files} in {table.name} more than once with the same values and {verb} taken once: "
+                f"{', '.join(repeated[:5])}{', ...' if len(repeated) > 5 else ''}."
             )
         relatives = sorted(listed)
         columns = dict.fromkeys(column for relative in relatives for column in listed[relative].rows[0].cells)
@@ -202,7 +151,7 @@ class Table(Layout):
         cells = [listed[relative].rows[0].filled for relative in relatives]
         labels = [cell.pop(LABEL_COLUMN, "") for cell in cells]
         groups = [column for column in columns if _names_groups(column, [cell.get(column) for cell in cells])]
-        groups.sort(key=lambda column: _plain(column) not in CLASS_COLUMNS)
+        groups.sort(key=lambda column: plain_name(column) not in CLASS_COLUMNS)
         if groups and not any(labels):
             warnings.append(
                 f"{table.name} has no labels; the shapes are grouped by its column '{groups[0]}'."
@@ -308,20 +257,26 @@ def _judge(table: Path, outside: bool) -> Verdict:
         told = f"It is a link to {os.path.realpath(table)}, outside the folder; copy it, or use --outside."
         return Verdict(False, False, told)
     try:
-        content = _read(table)
-    except OtherContentError:
-        return Verdict(False, False, "")
+        content = read_rows(table)
+    except OtherContentError as error:
+        named = (found[0].strip() for text in error.texts for found in _MESH_NAME.finditer(text))
+        return Verdict(False, False, str(error) if _find_mesh(table, named) else "")
     except DatabaseError as error:
         return Verdict(False, False, str(error))
-    finder = Finder(table.parent, suffixes=MESH_SUFFIXES)
-    found = (finder.find(row.file) for row in content.rows if row.file)
-    if any(path is not None and is_read(path.name) and path.is_file() for path in found):
+    if _find_mesh(table, (row.file for row in content.rows if row.file)):
         return Verdict(True, content.plain, "Name it instead of the folder to read it.")
     classes = any(
-        _plain(column) in (LABEL_COLUMN, *CLASS_COLUMNS) for row in content.rows for column in row.cells
+        plain_name(column) in (LABEL_COLUMN, *CLASS_COLUMNS) for row in content.rows for column in row.cells
     )
     tells = content.plain or classes
     return Verdict(False, content.plain, "No mesh that its rows name is there." if tells else "")
+
+
+def _find_mesh(table: Path, names: Iterable[str]) -> bool:
+    """Whether one of the files that a table names is a mesh that is there."""
+    finder = Finder(table.parent, suffixes=MESH_SUFFIXES)
+    found = map(finder.find, names)
+    return any(path is not None and is_read(path.name) and path.is_file() for path in found)
 
 
 def _candidates(folder: Path, besides: Collection[str]) -> list[Path]:
@@ -334,222 +289,6 @@ def _candidates(folder: Path, besides: Collection[str]) -> list[Path]:
     except OSError:
         return []
     return [folder / name for name in names if os.path.realpath(folder / name) not in besides]
-
-
-def _read_text(table: Path) -> tuple[str, bool]:
-    try:
-        return decode(read_regular(table, MOST_BYTES))
-    except OSError as error:
-        raise DatabaseError(f"The table {table} cannot be read: {error.strerror}.") from error
-
-
-def _read(table: Path) -> Content:
-    if suffix_of(table.name) == PARQUET:
-        return _read_parquet(table)
-    text, certain = _read_text(table)
-    warnings = [] if certain else [f"{table.name} is not UTF-8; it was read as Windows-1252."]
-    is_csv = suffix_of(table.name) in (".csv", ".tsv")
-    rows, plain = _csv_rows(text, table) if is_csv else _json_rows(text, table)
-    return Content(rows, warnings, plain)
-
-
-def _read_parquet(table: Path) -> Content:
-    try:
-        require_pyarrow(f"The table {table}", "or save it as CSV")
-        found = call_apart(parquet_texts, read_regular(table, MOST_BYTES), MOST_CELLS, MOST_UNPACKED)
-    except ConfigError as error:
-        raise DatabaseError(f"{error}.") from error
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise DatabaseError(f"The table {table} cannot be read: {reason}.") from error
-    return _column_rows(found, table)
-
-
-def _column_rows(found: Columns, table: Path) -> Content:
-    """The rows of a table of columns with types."""
-    texts = {}
-    left_out = []
-    found = [(name, cells) for name, cells in found if not _INDEX.fullmatch(name)]
-    names = [name for name, _ in found]
-    columns = _columns(names)
-    _check_names(columns, names, table)
-    for column, (name, cells) in zip(columns, found):
-        if cells is None:
-            left_out.append(name)
-        elif any(len(cell) > MOST_LETTERS for cell in cells):
-            raise DatabaseError(
-                f"The table {table} has a value longer than {MOST_LETTERS:,} letters in its column '{name}'."
-            )
-        else:
-            # a text of many rows stays one, and is looked at once
-            texts[column] = [*map(cache(partial(_tidy, column)), cells)]
-    warnings = []
-    if left_out:
-        warnings.append(
-            f"Columns of {table.name} hold lists or bytes and are left out: {', '.join(map(clean, left_out))}."
-        )
-    if FILE_COLUMN not in texts:
-        raise _no_files(names, " ".join([f"The table {table} has no column '{FILE_COLUMN}'.", *warnings]))
-    rows = [
-        _row(f"row {number}", dict(zip(texts, cells)))
-        for number, cells in enumerate(zip(*texts.values()), 1)
-        if any(cells)
-    ]
-    return Content(rows, warnings, FILE_COLUMN in map(_plain, names))
-
-
-def _no_files(names: Iterable[str], complaint: str) -> DatabaseError:
-    """The error of a table without a column of files."""
-    about_shapes = any(_plain(name) in (LABEL_COLUMN, *CLASS_COLUMNS) for name in names)
-    return (DatabaseError if about_shapes else OtherContentError)(complaint)
-
-
-def _csv_rows(text: str, table: Path) -> tuple[list[Row], bool]:
-    """The rows, separated by the delimiter that makes a column of files appear."""
-    seen: list[str] = []
-    try:
-        for parted in part_cells(text):
-            columns = _columns(parted.header)
-            if FILE_COLUMN in columns:
-                break
-            seen += parted.header
-    except csv.Error as error:
-        raise DatabaseError(f"The table {table} is not CSV: {error}.") from error
-    if FILE_COLUMN not in columns:
-        raise _no_files(
-            seen,
-            f"The table {table} has no column '{FILE_COLUMN}'. Its first line must name the columns, "
-            "for instance: file,label.",
-        )
-    delimiter, header, reader, above = parted
-    _check_names(columns, header, table)
-    rows: list[Row] = []
-    try:
-        for cells in reader:
-            _check_cells(table, len(rows) * len(columns))
-            place = f"line {reader.line_num + above}"
-            if any(cell.strip() for cell in cells[len(columns) :]):
-                raise DatabaseError(
-                    f"{table}, {place}: there are more cells than the {len(columns)} columns. "
-                    f"A cell that contains '{delimiter}' belongs in double quotes."
-                )
-            if any(cell.strip() for cell in cells):
-                texts = zip_longest(columns, cells, fillvalue="")
-                rows.append(_row(place, {column: _tidy(column, cell) for column, cell in texts}))
-    except csv.Error as error:
-        line = reader.line_num + above
-        raise DatabaseError(f"{table}, line {line}: this is not CSV: {error}.") from error
-    return rows, FILE_COLUMN in map(_plain, header)
-
-
-def _json_rows(text: str, table: Path) -> tuple[list[Row], bool]:
-    # by the characters that part values, before any is made
-    _check_cells(table, text.count(",") + text.count("[") + text.count("{"))
-    entries = _json_entries(text, table)
-    keys = list(dict.fromkeys(key for _, entry in entries for key in entry))
-    names = dict(zip(keys, _columns(keys)))
-    if FILE_COLUMN not in names.values():
-        raise _no_files(keys, f"The table {table} has no key '{FILE_COLUMN}' in its objects.")
-    rows = []
-    for place, entry in entries:
-        _check_names([names[key] for key in entry], list(entry), table, place)
-        cells = {names[key]: _as_text(value) for key, value in entry.items()}
-        if any(len(cell) > MOST_LETTERS for cell in cells.values()):
-            raise DatabaseError(f"{table}, {place}: a value is longer than {MOST_LETTERS:,} letters.")
-        rows.append(_row(place, {column: _tidy(column, cell) for column, cell in cells.items()}))
-    return rows, FILE_COLUMN in map(_plain, keys)
-
-
-def _json_entries(text: str, table: Path) -> list[tuple[str, dict[str, object]]]:
-    """The objects of a list, of the only such list under a key of an object, or one a line; each with its place."""
-
-    def parse(text: str, where: str = "") -> object:
-        try:
-            return json.loads(text, parse_constant=lambda _: None, object_pairs_hook=unique)
-        except (ValueError, RecursionError) as error:
-            raise DatabaseError(f"The table {table}{where} is not JSON: {error}.") from error
-
-    def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
-        if len(found := dict(pairs)) < len(pairs):
-            twice = [key for key, count in Counter(key for key, _ in pairs).items() if count > 1]
-            raise ValueError(f"an object has the key '{twice[0]}' twice")
-        return found
-
-    whole: object
-    if suffix_of(table.name) in LINES_SUFFIXES or _SECOND_OBJECT.match(text):
-        lines = [(f"line {number}", line) for number, line in enumerate(text.split("\n"), 1) if line.strip()]
-        places, whole = [place for place, _ in lines], [parse(line, f", {place},") for place, line in lines]
-    else:
-        whole = parse(text)
-        if isinstance(whole, dict):
-            lists = [value for value in whole.values() if value and _is_list_of_objects(value)]
-            whole = lists[0] if len(lists) == 1 else None
-        places = [f"entry {number}" for number in range(1, len(whole) + 1)] if isinstance(whole, list) else []
-    if not _is_list_of_objects(whole):
-        raise OtherContentError(
-            f'The table {table} is not a list of objects: [{{"file": "a.off", "label": "cup"}}, ...].'
-        )
-    return list(zip(places, whole, strict=True))
-
-
-def _check_cells(table: Path, count: int) -> None:
-    """Refuse a table of too many cells. Raises ``DatabaseError``."""
-    if count > MOST_CELLS:
-        raise DatabaseError(
-            f"The table {table} has more than {MOST_CELLS:,} cells; leave out columns that say nothing of the shapes."
-        )
-
-
-def _is_list_of_objects(value: object) -> TypeGuard[list[dict[str, object]]]:
-    return isinstance(value, list) and all(isinstance(entry, dict) for entry in value)
-
-
-def _plain(name: str) -> str:
-    """The name of a column without what does not matter: case, spaces, ``_`` and ``-``."""
-    return re.sub("[ _-]", "", clean(name)).lower()
-
-
-def _columns(names: Sequence[str]) -> list[str]:
-    """The columns as they are kept: that of the files is ``file``, that of the labels ``label``, in any case."""
-    plain = [_plain(name) for name in names]
-    # the ids of shapes beside their features are no files
-    known = FILE_COLUMNS[:-1] if any(map(_BIN.fullmatch, names)) else FILE_COLUMNS
-    files = next((name for name in known if name in plain), None)
-    return [
-        FILE_COLUMN if own == files else LABEL_COLUMN if own == LABEL_COLUMN else clean(name)
-        for own, name in zip(plain, names)
-    ]
-
-
-def _check_names(columns: Sequence[str], names: Sequence[str], table: Path, place: str = "") -> None:
-    """Raise ``DatabaseError`` where two columns with a name are one."""
-    twice = next((column for column, count in Counter(columns).items() if column and count > 1), None)
-    if twice is not None:
-        where = f", {place}," if place else ""
-        written = ", ".join(f"'{clean(name)}'" for column, name in zip(columns, names) if column == twice)
-        raise DatabaseError(
-            f"The table {table}{where} has two columns named '{twice}' (written {written}); rename one."
-        )
-
-
-def _as_text(value: object) -> str:
-    if value is None:
-        return ""
-    return encodable(value) if isinstance(value, str) else json.dumps(value)
-
-
-def _tidy(column: str, cell: str) -> str:
-    """A cell as it is kept: empty where it says that there is no value."""
-    if column == FILE_COLUMN:
-        return cell.strip()
-    text = clean(cell)
-    return "" if text in NO_VALUES else text
-
-
-def _row(place: str, cells: Mapping[str, str]) -> Row:
-    """A row without the columns that have no name, as spreadsheets leave them behind."""
-    kept = {column: cell for column, cell in cells.items() if column and column != FILE_COLUMN}
-    return Row(place, cells.get(FILE_COLUMN, ""), kept)
 
 
 def _sort_out(
@@ -619,6 +358,6 @@ def _count_unlisted(root: Path, rows: Sequence[Row], finder: Finder, outside: bo
 def _names_groups(column: str, values: Sequence[str | None]) -> bool:
     present = [value for value in values if value]
     classes = len(set(present))
-    if _plain(column) in CLASS_COLUMNS:
+    if plain_name(column) in CLASS_COLUMNS:
         return classes > 0
     return 2 <= classes <= MOST_CLASSES and len(present) >= FEWEST_SHAPES_A_CLASS * classes

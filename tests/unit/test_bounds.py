@@ -209,7 +209,7 @@ def test_links_that_lead_outside_are_followed_only_when_asked(tmp_path, name) ->
 
 def test_a_table_of_more_columns_than_cells(tmp_path, monkeypatch) -> None:
     """Rows of one cell under a header of thousands: each has all of its columns, empty."""
-    monkeypatch.setattr("shapeviz_report.database.table.MOST_CELLS", 50_000)
+    monkeypatch.setattr("shapeviz_report.database.rows.MOST_CELLS", 50_000)
     path = tmp_path / "shapes.csv"
     path.write_text("file," + ",".join(f"c{n}" for n in range(1000)) + "\n" + "a.off\n" * 1000)
     assert "more than 50,000 cells" in refused(read_database, path)

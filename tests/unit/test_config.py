@@ -5,6 +5,7 @@ import importlib.util
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from shapeviz_report.config import MACHINE, Config, load_config
@@ -139,6 +140,13 @@ def test_what_is_on_can_be_switched_off(database) -> None:
     assert load_config(None, {}).meshes
     assert not load_config(database, {}).meshes
     assert load_config(database, {"meshes": True}).meshes
+
+
+def test_numbers_of_numpy_are_numbers(database) -> None:
+    config = load_config(database, {"seed": np.int64(3), "edge_length": np.float32(0.03125)})
+    assert (config.seed, type(config.seed), config.edge_length) == (3, int, 0.03125)
+    with pytest.raises(ConfigError, match="seed must be a whole number"):
+        load_config(database, {"seed": np.float64(3)})
 
 
 def test_the_file_lies_beside_a_table(database) -> None:

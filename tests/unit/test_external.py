@@ -8,6 +8,7 @@ import zipfile
 from typing import ClassVar
 
 import numpy as np
+import pandas
 import pyarrow
 import pytest
 from pyarrow import parquet
@@ -35,6 +36,27 @@ def test_by_ids_in_any_order_and_of_more_shapes(tmp_path) -> None:
         table.writerows([["a", *row[:1], shape, *row[1:], "?"] for shape, row in rows.items()])
     for name in ("own.npz", "own.csv"):
         assert load_external(tmp_path / name, IDS).tolist() == [[1, 2], [3, 4], [5, 6]]
+
+
+def test_numbers_of_rows_are_no_part_of_a_feature(tmp_path) -> None:
+    frame = pandas.DataFrame({"id": IDS, "width": [1, 2, 3]}, index=[7, 8, 9])
+    frame.to_csv(tmp_path / "own.csv")
+    frame.to_parquet(tmp_path / "own.parquet")
+    pandas.read_csv(tmp_path / "own.csv").to_csv(tmp_path / "again.csv")
+    for name in ("own.csv", "own.parquet", "again.csv"):
+        assert load_external(tmp_path / name, IDS).tolist() == [[1], [2], [3]]
+
+
+def test_ids_as_other_programs_write_them(tmp_path) -> None:
+    np.savez(tmp_path / "own.npz", shape_ids=np.array([shape.encode() for shape in IDS]), values=[1, 2, 3])
+    assert load_external(tmp_path / "own.npz", IDS).tolist() == [[1], [2], [3]]
+    composed, parted = "M\u00fcnze", "Mu\u0308nze"
+    np.savez(tmp_path / "own.npz", shape_ids=["cup", composed], values=[1, 2])
+    assert load_external(tmp_path / "own.npz", [parted, "cup"]).tolist() == [[2], [1]]
+    with pytest.raises(ConfigError, match="no row for 1 of the 2"):
+        load_external(tmp_path / "own.npz", [composed, parted])
+    np.savez(tmp_path / "own.npz", shape_ids=[parted, composed], values=[1, 2])
+    assert load_external(tmp_path / "own.npz", [composed, parted]).tolist() == [[2], [1]]
 
 
 @pytest.mark.parametrize("name", ["own.csv", "own.tsv"])
@@ -118,6 +140,10 @@ def test_arrays_that_do_not_fit(tmp_path, content, reason) -> None:
         ({"shape_ids": IDS}, "it has no array 'values'"),
         ({"shape_ids": IDS, "values": np.zeros((2, 2))}, "has 2 rows, but 3 ids of shapes"),
         ({"shape_ids": IDS[:2], "values": np.zeros((2, 2))}, "no row for 1 of the 3 shapes.*such as 'cup/1'"),
+        (
+            {"shape_ids": [f"{shape}.off" for shape in IDS], "values": np.zeros(3)},
+            "no row for 3 of the 3 shapes.*such as 'ant/1', but rows of none, such as 'ant/1.off'",
+        ),
         ({"shape_ids": [*IDS, "ant/1"], "values": np.zeros(4)}, "two rows for the shape 'ant/1'"),
         (
             {"shape_ids": np.array(IDS, object), "values": np.zeros(3)},

@@ -19,7 +19,7 @@ from pyarrow import parquet
 
 from shapeviz_report.arrow import parquet_texts
 from shapeviz_report.database import Listing, read_database
-from shapeviz_report.database import table as tables
+from shapeviz_report.database import rows as tables
 from shapeviz_report.errors import ConfigError, DatabaseError
 
 FILES = ["a.off", "b.obj", "deep/c.ply"]
@@ -80,6 +80,8 @@ def test_a_table_of_parquet_is_read_as_one_of_csv(root) -> None:
             ["2018-01-02 00:00:00", None, "2018-01-02 03:04:05.5"],
         ),
         ([datetime.time(1, 20), None, datetime.time(1, 2, 3, 40)], ["01:20:00", None, "01:02:03.00004"]),
+        ([datetime.timedelta(hours=25, seconds=1.5), None, datetime.timedelta(-1)], ["25:00:01.5", None, "-24:00:00"]),
+        (pyarrow.array([3600, None, 59], pyarrow.duration("s")), ["1:00:00", None, "0:00:59"]),
         (pyarrow.array([7, None, 7]).dictionary_encode(), ["7", None, "7"]),
         ([b"stone", None, "Münze".encode()], ["stone", None, "Münze"]),
         (["N/A", " x ", "=1+1"], [None, "x", "=1+1"]),
@@ -97,12 +99,17 @@ def test_cells_are_what_one_would_write(root, cells, texts) -> None:
         [[1, 2], [3], []],
         [{"a": 1}, {"a": 2}, None],
         pyarrow.array([b"\xff", b"a", b"\xff"]).dictionary_encode(),
+        # numbers of months, which only pandas knows to be such
+        pyarrow.array(pandas.period_range("2020", periods=3, freq="M")),
     ],
 )
 def test_what_is_no_text_is_left_out_with_a_word(root, cells) -> None:
     database = read_database(write(root, {"file": FILES, "image": cells, "label": ["x", "y", "z"]}))
     assert [dict(shape.metadata) for shape in database.shapes] == [{}, {}, {}]
-    assert "Columns of shapes.parquet hold lists or bytes and are left out: image." in database.warnings
+    assert (
+        "Columns of shapes.parquet hold neither text, numbers nor dates and are left out: image."
+        in database.warnings
+    )
 
 
 def test_rows_that_cannot_be_taken_are_named_by_number(root) -> None:
@@ -119,7 +126,7 @@ def test_rows_that_cannot_be_taken_are_named_by_number(root) -> None:
     ("columns", "said"),
     [
         ({"name": ["x"], "class": ["y"]}, r"has no column 'file'\.$"),
-        ({"file": [["a.off"]], "class": ["y"]}, r"no column 'file'\. Columns .* hold lists or bytes .*: file\.$"),
+        ({"file": [["a.off"]], "class": ["y"]}, r"no column 'file'\. Columns .* hold neither text.*: file\.$"),
         ({"file": ["a.off"], "File": ["a.off"]}, "two columns named 'file' .*rename one"),
         ({"file": pyarrow.array([], pyarrow.string())}, "lists no files"),
         ({"file": ["a.off"], "x": ["y" * 131_073]}, r"a value longer than 131,072 letters in its column 'x'"),
@@ -164,7 +171,7 @@ def test_a_text_of_many_rows_is_held_once(root) -> None:
     # unpacked, it would be 200 MB
     text = "y" * 100_000 + " "
     columns = {"file": ["a.off"] * 2_000, "x": pyarrow.array([text] * 2_000)}
-    found = tables._read(write(root, columns))
+    found = tables.read_rows(write(root, columns))
     assert len({id(row.cells["x"]) for row in found.rows}) == 1
     assert found.rows[0].cells["x"] == text.strip()
 
@@ -173,7 +180,9 @@ def test_a_text_of_many_rows_is_looked_at_once(root, monkeypatch) -> None:
     """A thousand bytes of Parquet may say a long text a million times."""
     looked = []
     monkeypatch.setattr(tables, "clean", lambda text: looked.append(text) or text)
-    monkeypatch.setattr(tables, "spellings", lambda file: looked.append(file) or [file])
+    monkeypatch.setattr(
+        "shapeviz_report.database.table.spellings", lambda file: looked.append(file) or [file]
+    )
     texts = ["a.off", "y" * 1000, "z" * 1000]
     place = pyarrow.array([0] * 2_000, pyarrow.int32())
     columns = [pyarrow.DictionaryArray.from_arrays(place, pyarrow.array([text])) for text in texts]
@@ -269,13 +278,32 @@ class TestDataFrame:
         frame = pandas.DataFrame({"file": [f"db/{name}" for name in FILES]}, index=[3, 5, 9])
         assert [dict(shape.metadata) for shape in read_database(Listing(frame)).shapes] == [{}, {}, {}]
 
+    @pytest.mark.parametrize(
+        ("cells", "texts"),
+        [
+            ([1900, "about 1850", None], ["1900", "about 1850", None]),
+            ([Path("x/y"), None, float("nan")], ["x/y", None, None]),
+            (pandas.period_range("2020", periods=3, freq="M"), ["2020-01", "2020-02", "2020-03"]),
+            (pandas.cut([1, 2, 3], [0, 2, 4]), ["(0, 2]", "(0, 2]", "(2, 4]"]),
+            (pandas.to_timedelta([1, None, 2.5], unit="h"), ["1:00:00", None, "2:30:00"]),
+            (pandas.array([1, None, 3], dtype="Int64"), ["1", None, "3"]),
+        ],
+    )
+    def test_cells_of_pandas_are_what_one_would_write(self, cells, texts) -> None:
+        frame = pandas.DataFrame({"file": [Path("db", name) for name in FILES], "x": cells})
+        database = read_database(Listing(frame))
+        assert [shape.metadata.get("x") for shape in database.shapes] == texts
+        assert [shape.id for shape in database.shapes] == ["a", "b", "deep/c"]
+
     def test_frames_that_cannot_be_read(self) -> None:
-        with pytest.raises(DatabaseError, match=r"Could not convert .*file.*paths as text"):
-            Listing(pandas.DataFrame({"file": [Path("db/a.off")]}))
+        with pytest.raises(DatabaseError, match=r"file with type complex128.*paths as text"):
+            Listing(pandas.DataFrame({"file": [1j]}))
         with pytest.raises(DatabaseError, match="lists no files"):
             Listing(pandas.DataFrame({"file": [None, ""]}))
         with pytest.raises(TypeError, match="list is neither a path nor a data frame"):
             Listing(["db/a.off"])
+        with pytest.raises(TypeError, match="Series is neither a path nor a data frame"):
+            Listing(pandas.Series(["db/a.off"]))
         with pytest.raises(DatabaseError, match="has the layout 'table', not 'flat'"):
             read_database(Listing(pandas.DataFrame({"file": ["db/a.off"]})), layout="flat")
 

@@ -117,7 +117,10 @@ def test_rows_that_cannot_be_taken(root):
     assert "a folder" in reasons["deep"]
     assert "empty" in reasons["shapes.csv, line 7"]
     assert "2 times with different values (line 8, line 9)" in reasons["d.off"]
-    assert "b.obj" in database.warnings[0]
+    assert (
+        database.warnings[0]
+        == "1 file stands in shapes.csv more than once with the same values and is taken once: b.obj."
+    )
 
 
 def test_all_rows_fail(root):
@@ -135,6 +138,7 @@ def test_all_rows_fail(root):
         ("t.csv", "file,label\na.off,cup,too,many\n", "line 2: there are more cells than the 2 columns"),
         ("t.csv", "file,label,label\na.off,cup,ant\n", "two columns named 'label'"),
         ("t.csv", f"file,label\na.off,{'x' * 200_000}\n", "line 2: this is not CSV"),
+        ("t.csv", 'file,label\na.off,"c\nup"\nb.obj,"ant\nd.off,cup\n', "line 4: this is not CSV"),
         ("t.json", "{", "not JSON"),
         ("t.json", "[" * 100_000, "not JSON"),
         ("t.json", '{"file": "a.off"}', "not a list of objects"),
@@ -294,6 +298,14 @@ def test_no_value_is_no_label(tmp_path, label):
         ("t.jsonl", '{"file": "a.off"}\n{"file": "b.off"\n', "line 2"),
         ("t.json", '[{"category": "cup"}]', "no key 'file'"),
         ("t.csv", "id,label,label\na,cup,ant\n", "two columns named 'label'"),
+        # as pandas writes them by default
+        (
+            "t.json",
+            '{"file": {"0": "a.off"}, "label": {"0": "cup"}}',
+            'pandas writes it with orient="records"',
+        ),
+        ("t.csv", "# made by Ada\nfile,label\na.off,cup\n", "first line must name the columns"),
+        ("t.csv", 'file,label,note\na.off,cup,"big\nb.off,ant,\n', "line 2: this is not CSV"),
         # features that `describe` wrote beside the meshes
         ("t.csv", "id,class,label:class,Gc:1,Sc[0]:1\na,cup,cup,0.5,0.5\n", "no column 'file'"),
     ],
@@ -318,6 +330,7 @@ def test_a_table_that_is_passed_over_is_told_of(tmp_path, name, text, reason):
         ("results.csv", "model,score\nlinear,1\n"),
         ("list.json", "[1, 2]"),
         ("empty.csv", ""),
+        ("settings.json", '{"model": "elsewhere.off", "format": ".off"}'),
     ],
 )
 def test_tables_of_other_things_are_passed_over_in_silence(root, name, text):
