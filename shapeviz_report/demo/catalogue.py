@@ -27,7 +27,7 @@ sort and to colour by. Whoever builds a site of meshes of their own finds their 
 
 ## Where to begin
 
-- Shapes that are alike lie together on the map below. Which ones lie among strangers?
+- Shapes that are alike lie together on the [map](index.html). Which ones lie among strangers?
 - The [gallery](shapes.html) has them all, to be found by words and by what is known of them.
 - [Two groups compared](compare.html) says in sentences what sets them apart.
 - The page [Bins](bins.html) shows on the shapes what the features see.

@@ -43,6 +43,13 @@ from shapeviz_report.types import Report
 from shapeviz_report.writing import write_site
 
 FEATURES = ("Gc", "Sc", "PFH", "FPFH")
+#: Names with which no line of a page is broken where it would be, or that go on to the left.
+LONG_LABELS = (
+    "Donaudampfschifffahrtselektrizitätenhauptbetriebswerkbauunterbeamtengesellschaft",
+    "a_class_with_underscores_and_no_spaces_whatsoever_in_its_very_long_name",
+    "كرسي مكتب ذو مسند ظهر مرتفع جدا ومسندين للذراعين وعجلات",
+    "כיסא משרדי עם משענת גב גבוהה מאוד ושתי משענות יד",
+)
 NASTY_FEATURES = ("Gc", "<b>50 %</b> & more", "עברית ימין", "a feature name without an end " * 3)
 
 
@@ -121,6 +128,7 @@ SITES = {
             metadata={"artist": "N. N.", "year": "1902"},
         )
     ),
+    "long names": lambda: with_everything(make_report([*LONG_LABELS, None], 6, features=FEATURES)),
     "museum": lambda: with_columns(
         with_parents(
             make_report(["ant", "bee", "cup", "plate", "table", None], 24, name="A museum"),

@@ -95,5 +95,50 @@
     return found;
   };
 
-  window.everyone = { focused, missed, enlargeText, faint };
+  /** Names written from right to left: what comes first in them is at their right. */
+  const RIGHT_TO_LEFT = /^[^\p{L}]*[\p{Script=Hebrew}\p{Script=Arabic}]/u;
+
+  /** Texts in sight that run out of their box, that end there without a sign of it, or of which the beginning is cut. */
+  const cut = () => {
+    const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    const found = [];
+    const range = document.createRange();
+    while (walker.nextNode()) {
+      const { data, parentElement: own } = walker.currentNode;
+      if (data.trim() === "" || !own.checkVisibility({ visibilityProperty: true })) continue;
+      if (own.closest("svg, script, style, select, .unseen")) continue;
+      range.selectNodeContents(walker.currentNode);
+      const { left, right, top, bottom, width } = range.getBoundingClientRect();
+      if (width === 0) continue;
+      let box = own;
+      while (["inline", "contents"].includes(getComputedStyle(box).display)) box = box.parentElement;
+      const outside = (node) => {
+        const around = node.getBoundingClientRect();
+        return right > around.right + 2 || left < around.left - 2;
+      };
+      const above = (node) => {
+        const around = node.getBoundingClientRect();
+        return top < around.top - 2 || bottom > around.bottom + 2;
+      };
+      let clip = box;
+      while (clip !== document.body) {
+        const { overflowX, writingMode } = getComputedStyle(clip);
+        const out = writingMode.startsWith("vertical") ? above(clip) : outside(clip);
+        if (overflowX !== "visible" && out) break;
+        clip = clip.parentElement;
+      }
+      const { overflowX, textOverflow, direction, maskImage } = getComputedStyle(clip);
+      const told = `${clip.tagName}.${clip.className} ${data.trim().slice(0, 30)}`;
+      if (clip === document.body) {
+        if (outside(box)) found.push(`runs out of ${told}`);
+      } else if (overflowX === "hidden" || overflowX === "clip") {
+        if (textOverflow !== "ellipsis" && maskImage === "none") found.push(`ends without a sign ${told}`);
+        else if (RIGHT_TO_LEFT.test(clip.textContent) && direction !== "rtl")
+          found.push(`without its beginning ${told}`);
+      }
+    }
+    return found;
+  };
+
+  window.everyone = { focused, missed, enlargeText, faint, cut };
 })();

@@ -116,6 +116,17 @@ class TestPage:
         assert page.evaluate("document.scrollingElement.scrollWidth") <= HALF["width"]
 
 
+@pytest.mark.parametrize("viewport", [DESK, PHONE], ids=["desk", "phone"])
+def test_long_names_stay_in_their_boxes_and_keep_their_beginning(reader, site, viewport):
+    found = {}
+    for address in ADDRESSES:
+        look(reader, viewport, "light")
+        visit(reader, site("long names"), address.replace(SHAPE, "class002/0000"))
+        reader.evaluate(SCRIPT)
+        found[address] = reader.evaluate("everyone.cut()")
+    assert {address: names for address, names in found.items() if names} == {}
+
+
 @pytest.mark.parametrize("name", ["one shape", "no labels"])
 def test_axe_finds_no_fault_where_there_is_little_to_show(reader, site, name):
     found = []

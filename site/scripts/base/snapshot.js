@@ -28,6 +28,7 @@ const LOOKS = [
   "text-anchor",
   "dominant-baseline",
   "paint-order",
+  "unicode-bidi",
 ];
 
 /**

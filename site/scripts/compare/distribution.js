@@ -49,7 +49,7 @@ export function distribution(rows, share) {
     "div",
     { class: "spread-of" },
     rows.map((row) => [
-      element("span", { class: "group-name" }, row.mark, element("bdi", {}, row.name)),
+      element("span", { class: "group-name", title: row.name }, row.mark, element("bdi", {}, row.name)),
       strip(row, place),
       element("span", { class: "mean" }, told(row.mean)),
     ]),

@@ -261,8 +261,7 @@ export class Outliers {
       .slice(0, 3)
       .map(([group, number], place) => [
         place > 0 && ", ",
-        `${number} of `,
-        element("bdi", {}, groupName(database, group)),
+        group < 0 ? `${number} without label` : [`${number} of `, element("bdi", {}, groupName(database, group))],
       ]);
     return [`Its ${count(near.length, "nearest neighbour")}: `, parts];
   }

@@ -391,18 +391,18 @@ export class Ranking {
     if (!greedy || this.among !== "all") return;
     const { hit } = this.subsets.data;
     const places = greedy.path.map((place) => [this.#x(place), this.#y(this.measure?.values?.[place])]);
-    // Numbers that would touch the one before are left out; the words below have them all.
-    const numbered = places.filter(([x], index) => index === 0 || Math.abs(x - places[index - 1][0]) >= CLOSEST);
+    // Numbers that would touch an earlier one are left out; the words below have them all.
+    /** @type {number[]} */
+    const numbered = [];
+    for (const [index, [x]] of places.entries())
+      if (numbered.every((other) => Math.abs(x - places[other][0]) >= CLOSEST)) numbered.push(index);
     this.path.append(
       svg("polyline", { points: places.map((place) => place.join()).join(" ") }),
       ...places.map(([x, y]) => svg("circle", { cx: x, cy: y, r: 3.5 })),
-      ...numbered.map(([x, y]) =>
-        svg(
-          "text",
-          { x, y: Math.max(y - 8, 10), "text-anchor": "middle" },
-          String(greedy.path.findIndex((place) => this.#x(place) === x) + 1),
-        ),
-      ),
+      ...numbered.map((index) => {
+        const [x, y] = places[index];
+        return svg("text", { x, y: Math.max(y - 8, 10), "text-anchor": "middle" }, String(index + 1));
+      }),
     );
     const steps = greedy.path.map((place, index) => [
       index > 0 && " → ",

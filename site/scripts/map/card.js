@@ -79,10 +79,10 @@ export class Card {
             "near it: ",
             neighbours
               .slice(0, MOST_CLASSES)
-              .map(
-                ([other, number], place) =>
-                  `${place > 0 ? ", " : ""}${number} ${shortened(database.className(other), 18)}`,
-              ),
+              .map(([other, number], place) => [
+                `${place > 0 ? ", " : ""}${number} `,
+                element("bdi", {}, shortened(database.className(other), 18)),
+              ]),
             neighbours.length > MOST_CLASSES && " …",
           ),
         parted !== null && parted.missing.length + parted.kept.length > 0 && element("p", {}, missingWords(parted)),
@@ -140,8 +140,8 @@ export function missingWords({ kept, missing }) {
 export function classLine(database, group) {
   return element(
     "p",
-    { class: "of-class", dir: "auto" },
+    { class: "of-class" },
     swatch(database.symbol(group), database.color(group)),
-    shortened(database.className(group), 60),
+    element("bdi", {}, shortened(database.className(group), 60)),
   );
 }

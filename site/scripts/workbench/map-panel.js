@@ -106,6 +106,7 @@ class MapPanel {
     this.faith.replaceChildren(...(map?.faith && map.faith.chance !== 1 ? faithParts(map.faith, map.neighbours) : []));
     this.figure.classList.toggle("stale", status.kind !== "answered" && map !== null);
     this.figure.classList.toggle("without", map === null);
+    this.nh.classList.toggle("says-nothing", nothing !== null);
     this.nh.replaceChildren(
       ...(map?.hitOfAll === null || map === null
         ? []
