@@ -216,6 +216,17 @@ def nothing_told(report: Report, k: int) -> str | None:
     return "Each shape is alone in its class, so none can have another of it near on any map."
 
 
+def stand_in(report: Report) -> bool:
+    """Whether clusters are the active labels, because the database has none."""
+    return report.clusters is not None and report.clusters.stand_in
+
+
+def kind_of_group(report: Report, count: int = 1) -> str:
+    """What readers are told that the groups of shapes are."""
+    one, many = ("cluster", "clusters") if stand_in(report) else ("class", "classes")
+    return one if count == 1 else many
+
+
 def clusters_chunk(report: Report) -> Clusters | None:
     """The chunk "clusters": the groups that the features alone make; None where there are too few shapes."""
     found = report.clusters

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from shapeviz_report.order import natural
-from shapeviz_report.pages.base import class_names, map_title
+from shapeviz_report.pages.base import class_names, kind_of_group, map_title, stand_in
 from shapeviz_report.pages.chunks import Field
 from shapeviz_report.types import Clusters, FloatArray, Report, ShapeFacts
 
@@ -68,7 +68,7 @@ def describe_fields(report: Report) -> list[Field]:
         values = [shape.metadata.get(name) for shape in report.shapes]
         if values != columns.get(name):
             found.append(_column(f"column:{name}", name, values))
-    if report.clusters is not None and not report.clusters.stand_in:
+    if report.clusters is not None and not stand_in(report):
         found.append(_clusters(report.clusters))
     if report.copies:
         copied = {shape for copy in report.copies for shape in (copy.first, copy.second)}
@@ -83,10 +83,9 @@ def describe_fields(report: Report) -> list[Field]:
 
 def _active(report: Report) -> Field:
     """The active labels: classes, or the clusters that stand in for them; always a field, whatever they are."""
-    stand_in = report.clusters is not None and report.clusters.stand_in
-    field = _choices(f"label:{report.labeling}", "Cluster" if stand_in else "Class", report.labels)
+    field = _choices(f"label:{report.labeling}", kind_of_group(report).capitalize(), report.labels)
     field["active"] = True
-    if report.clusters is not None and stand_in:
+    if report.clusters is not None and stand_in(report):
         notes = _notes(report.clusters)
         field["notes"] = [notes[name] for name in field["names"] or ()]
     return field

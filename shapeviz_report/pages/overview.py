@@ -20,6 +20,7 @@ from shapeviz_report.pages.base import (
     rounded,
     search_of,
     share_steps,
+    stand_in,
 )
 from shapeviz_report.pages.chunks import (
     Chunks,
@@ -99,7 +100,7 @@ class OverviewPage:
                 "partSizes": {"details": DETAILS_A_PART, "pictures": PICTURES_A_PART},
                 "classes": list(classes),
                 "labeling": report.labeling,
-                "standIn": report.clusters is not None and report.clusters.stand_in,
+                "standIn": stand_in(report),
                 "methods": methods,
                 "separation": separation_chunk(report),
                 "subsets": _subsets(report),

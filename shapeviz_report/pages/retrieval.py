@@ -8,7 +8,7 @@ import numpy as np
 
 from shapeviz_report import charts
 from shapeviz_report.pages import chunks
-from shapeviz_report.pages.base import class_names, feature_marks
+from shapeviz_report.pages.base import class_names, feature_marks, kind_of_group
 from shapeviz_report.retrieval import MEASURES, RECALL_LEVELS, best_subset, highest_e_measures
 from shapeviz_report.types import FloatArray, Rating, Report, Retrieval
 
@@ -42,9 +42,17 @@ def retrieval_context(report: Report, retrieval: Retrieval) -> dict[str, object]
                 highest_e_measures(retrieval.queries, len(retrieval.rows) - 1), weights=retrieval.queries
             )
         ),
-        "measures": MEASURES,
+        "measures": _measures(report),
         "without_copies": _without_copies(report),
     }
+
+
+def _measures(report: Report) -> list[chunks.Measure]:
+    kind = kind_of_group(report)
+    return [
+        {"title": measure.title, "explanation": measure.explanation.replace("class", kind)}
+        for measure in MEASURES
+    ]
 
 
 def _without_copies(report: Report) -> dict[str, object] | None:
@@ -69,7 +77,7 @@ def retrieval_chunk(report: Report, retrieval: Retrieval) -> chunks.Retrieval:
         "order": sorted(range(len(reached)), key=lambda index: -reached[index]),
         "classes": [number[name] for name in retrieval.classes],
         "queries": retrieval.queries.tolist(),
-        "measures": [{"title": measure.title, "explanation": measure.explanation} for measure in MEASURES],
+        "measures": _measures(report),
         "recall": list(RECALL_LEVELS),
         "members": ["".join("1" if has else "0" for has in row) for row in retrieval.members],
         "best": best_subset(retrieval),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from shapeviz_report.pages.base import class_names, map_title, rounded
+from shapeviz_report.pages.base import class_names, map_title, rounded, stand_in
 from shapeviz_report.pages.chunks import ClassCounts, MapVerdict
 from shapeviz_report.pages.chunks import Separation as SeparationChunk
 from shapeviz_report.quality import share_of_range
@@ -25,7 +25,7 @@ HARD = 0.8
 
 def separation_of(report: Report) -> Separation | None:
     """What is to be told; None also of clusters, which the features themselves have made."""
-    return None if report.clusters is not None and report.clusters.stand_in else report.separation
+    return None if stand_in(report) else report.separation
 
 
 def _too_few(found: Separation) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from urllib.parse import urlencode
 
-from shapeviz_report.pages.base import class_names, feature_files, is_in_full
+from shapeviz_report.pages.base import class_names, feature_files, is_in_full, kind_of_group
 from shapeviz_report.pages.overview import thumbnail_name
 from shapeviz_report.publication.licence import LICENCE_COLUMNS, find_licence
 from shapeviz_report.types import Licence, Report, ShapeEntry, ShapeFacts
@@ -25,16 +25,11 @@ def describe(report: Report) -> str:
     if report.publication.description is not None:
         return report.publication.description
     classes = len(class_names(report))
-    one, many = ("cluster", "clusters") if _stand_in(report) else ("class", "classes")
-    groups = f" in {classes} {one if classes == 1 else many}" if classes else ""
+    groups = f" in {classes} {kind_of_group(report, classes)}" if classes else ""
     return (
         f"{len(report.shapes)} 3D shape{'' if len(report.shapes) == 1 else 's'}{groups}, laid out so that similar "
         "shapes lie close together: to browse, search and compare."
     )
-
-
-def _stand_in(report: Report) -> bool:
-    return report.clusters is not None and report.clusters.stand_in
 
 
 def dataset(report: Report, description: str, folder: str = "") -> dict[str, object]:

@@ -10,7 +10,7 @@ import jinja2
 from markupsafe import Markup
 
 from shapeviz_report.pages import PAGES, Page, PageContent
-from shapeviz_report.pages.base import change, class_names, grouped
+from shapeviz_report.pages.base import change, class_names, grouped, kind_of_group, stand_in
 from shapeviz_report.types import Report
 from shapeviz_report.writing import preview
 from shapeviz_report.writing.data import json_text
@@ -102,7 +102,9 @@ def describe_site(report: Report) -> dict[str, object]:
         "classes": len(class_names(report)),
         "version": version("shapeviz-report"),
         "source": _source(report),
-        "stand_in": report.clusters is not None and report.clusters.stand_in,
+        "stand_in": stand_in(report),
+        "kind": kind_of_group(report),
+        "kinds": kind_of_group(report, 2),
     }
 
 

@@ -88,6 +88,11 @@ SITES = {
     "one class searched": lambda: with_search(make_report(["ant"], 24, features=FEATURES[:2])),
     "no labels": lambda: make_report([None, None], 12),
     "clusters": lambda: with_clusters(make_report([None] * 4, 8, features=FEATURES[:3])),
+    "clusters searched": lambda: with_scores(
+        with_retrieval(
+            with_bin_search(with_search(with_clusters(make_report([None] * 4, 8, features=FEATURES))))
+        )
+    ),
     "many classes": lambda: make_report([f"class {number:02}" for number in range(45)], 4),
     "own map": lambda: with_exported(
         with_own_map(

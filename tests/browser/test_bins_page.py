@@ -155,7 +155,7 @@ def test_a_bin_is_told_and_pictured_on_a_contrast(bins, site):
     page = bins()
     words = page.locator("#bin-words")
     assert "What share of the surface" in words.locator(".exactly").text_content()
-    assert re.search(r"The middle shape of \w+ has [\d.<]+\u00a0%", words.locator(".who").inner_text())
+    assert re.search(r"Typical of \w+ is [\d.<]+\u00a0%", words.locator(".who").inner_text())
     pictures = page.locator(".painting")
     assert pictures.count() == 2
     shapes = pictures.evaluate_all("nodes => nodes.map((node) => Number(node.dataset.shape))")

@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { separationWords } from "../../site/scripts/workbench/separation.js";
 
 const groups = [0, 1, 2, 3, 4];
-const database = { className: (group) => "abcde"[group] };
+const database = { className: (group) => "abcde"[group], data: { standIn: false } };
 
 const words = (from, against, each) =>
   separationWords({ from: from && new Set(from), against: against && new Set(against), each }, groups, database);

@@ -8,6 +8,7 @@ import { count } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 import { UNPAINTED } from "./on-surface.js";
+import { kind, kinds } from "../database/kind.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -81,7 +82,7 @@ export class Look {
       database.className(group),
       [...new Set(sets.flatMap((found) => found.bins))],
     ]);
-    if (selection.path.length > 0) lists.push([-1, "all classes", selection.path.at(-1).bins]);
+    if (selection.path.length > 0) lists.push([-1, `all ${kinds(database)}`, selection.path.at(-1).bins]);
     const group = this.state.get("group") ?? -1;
     const known = lists.some(([own, , columns]) => own === group && columns.includes(column));
     /**
@@ -146,12 +147,12 @@ export class Look {
     const contrast = this.#contrast(column, rows, told, name);
     if (contrast !== null) return contrast;
     if (told(most.median) === told(least.median))
-      return [`Of each class, the middle shape has the same of it: ${told(most.median)}.`];
+      return [`Every ${kind(database)} typically has the same of it: ${told(most.median)}.`];
     const next = rest.slice(0, -1).slice(0, 2);
     return [
       bins.isShare(column) ? "Most of it is on " : "It is highest in ",
       name(most),
-      `: its middle shape has ${told(most.median)}`,
+      `: typically ${told(most.median)}`,
       ...next.flatMap((row, place) => [
         place > 0 ? " and " : `; next ${next.length > 1 ? "come" : "comes"} `,
         name(row),
@@ -179,17 +180,26 @@ export class Look {
     if (row === undefined || rival === undefined) return null;
     const rank = rows.indexOf(row);
     const [most, least] = [rows[0], rows.at(-1)].map(({ median }) => told(median));
-    const extreme = rank === 0 ? ", most of all classes" : rank === rows.length - 1 ? ", least of all classes" : "";
+    const extreme =
+      rank === 0
+        ? `, most of all ${kinds(this.database)}`
+        : rank === rows.length - 1
+          ? `, least of all ${kinds(this.database)}`
+          : "";
     const place = most === least ? "" : extreme;
     const [share, other] = this.bins.tell(column, [row.median, rival.median]);
     return [
-      "The middle shape of ",
+      "Typical of ",
       name(row),
-      ` has ${share}${place}; that of `,
+      ` is ${share}${place}; of `,
       name(rival),
-      `, its nearest class on the Overview, has ${share === other ? "as much" : other}.`,
+      `, its nearest ${kind(this.database)} on the Overview, it is ${share === other ? "as much" : other}.`,
       ...(rank > 0 && most !== told(row.median)
-        ? [this.bins.isShare(column) ? " Most of it is on " : " It is highest in ", name(rows[0]), `, with ${most}.`]
+        ? [
+            this.bins.isShare(column) ? " Most of it is on " : " It is highest in ",
+            name(rows[0]),
+            `, typically ${most}.`,
+          ]
         : []),
     ];
   }

@@ -6,6 +6,7 @@ import { count, figure } from "../base/words.js";
 import { pictured } from "../bins-kit/look.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { mapOf, Plot } from "../map/plot.js";
+import { kind } from "../database/kind.js";
 
 /** @import { BinsState } from "../addresses/bins.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -105,7 +106,7 @@ export class ClassCards {
           "p",
           {
             class: "nh",
-            title: `Neighbourhood hit of the class on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the class has others`}`,
+            title: `Neighbourhood hit of the ${kind(database)} on this map; ${figure(found.nhSpace)} in the space of the bins${ofAtMost(highest) && `; ${figure(highest)} at most, as many as the ${kind(database)} has others`}`,
           },
           element("span", { class: "unseen" }, "NH "),
           element("b", {}, figure(found.nh)),

@@ -1,7 +1,8 @@
 // What the Bins page shows, as tables.
 
 import { table } from "../base/tables.js";
-import { count, figure, grouped, percent } from "../base/words.js";
+import { capitalised, count, figure, grouped, percent } from "../base/words.js";
+import { kind, kinds } from "../database/kind.js";
 
 /** @import { BinsState } from "../addresses/bins.js" */
 /** @import { BinCard } from "../bins-kit/bin-card.js" */
@@ -44,8 +45,15 @@ export function binsTables(database, bins, selection, state, card) {
     tables: [
       selection.minimal.length > 0 &&
         table(
-          "Each class from the rest",
-          ["Class", "Bins", "NH of the class on their map", "in their space", "at most", "random shapes"],
+          `Each ${kind(database)} from the rest`,
+          [
+            capitalised(kind(database)),
+            "Bins",
+            `NH of the ${kind(database)} on their map`,
+            "in their space",
+            "at most",
+            "random shapes",
+          ],
           selection.minimal.flatMap(({ group, sets, highest, byChance }) =>
             sets.map((found) => [
               database.className(group),
@@ -59,7 +67,7 @@ export function binsTables(database, bins, selection, state, card) {
         ),
       selection.path.length > 0 &&
         table(
-          "All classes from each other, step by step",
+          `All ${kinds(database)} from each other, step by step`,
           ["Step", "Bins", "Added", "Removed", "NH of the map", "in their space"],
           selection.path.map((step, place) => [
             String(place + 1),
@@ -86,13 +94,13 @@ export function binsTables(database, bins, selection, state, card) {
           folds,
         ),
       table(
-        `${bins.names[bin]} by class`,
-        ["Class", "Median"],
+        `${bins.names[bin]} by ${kind(database)}`,
+        [capitalised(kind(database)), "Median"],
         card.rows(bin).map(({ name, median }) => [name, told(median)]),
       ),
       table(
         `The shapes with the most of ${bins.names[bin]}${bins.sample ? `, of ${grouped(bins.rows)} of ${count(database.count, "shape")}` : ""}`,
-        ["Shape", "Class", "Value"],
+        ["Shape", capitalised(kind(database)), "Value"],
         most(bins, bin).map((index) => [
           database.ids[index],
           database.className(database.groups[index]),

@@ -1,9 +1,10 @@
 // What the page shows, as tables.
 
 import { table } from "../base/tables.js";
-import { figure, grouped, percent } from "../base/words.js";
+import { capitalised, figure, grouped, percent } from "../base/words.js";
 import { highestOf } from "../database/hit-range.js";
 import { signed } from "./outliers.js";
+import { kind } from "../database/kind.js";
 
 /** @import { CompareState } from "../addresses/compare.js" */
 /** @import { Database } from "../database/database.js" */
@@ -100,12 +101,12 @@ function ofOutliers(database, data, outliers) {
   const ranked = outliers.list === null ? [] : outliers.ranked().slice(0, MOST_SHAPES);
   return [
     table(
-      "Shapes by how well they fit their class",
+      `Shapes by how well they fit their ${kind(database)}`,
       [
         "Shape",
-        "Class",
+        capitalised(kind(database)),
         "Fit",
-        "Closest other class",
+        `Closest other ${kind(database)}`,
         ...database.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"]),
       ],
       ranked.map((index) => [
@@ -132,8 +133,8 @@ function ofClasses(database, data, matrix) {
   const { order } = data;
   return [
     table(
-      "Of the nearest neighbours of a class (rows), the share in each class (columns)",
-      ["Class", ...order.map((column) => database.className(column))],
+      `Of the nearest neighbours of a ${kind(database)} (rows), the share in each ${kind(database)} (columns)`,
+      [capitalised(kind(database)), ...order.map((column) => database.className(column))],
       order.map((row) => [database.className(row), ...order.map((column) => figure(matrix.share(row, column)))]),
     ),
   ];

@@ -6,3 +6,8 @@
 export function kind({ data }) {
   return data.standIn ? "cluster" : "class";
 }
+
+/** @param {Database} database */
+export function kinds({ data }) {
+  return data.standIn ? "clusters" : "classes";
+}

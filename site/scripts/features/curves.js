@@ -85,7 +85,7 @@ export class Curves {
         TICKS.map((tick) =>
           svg("text", { x: x(tick), y: y(0) + 16, "text-anchor": tick === 1 ? "end" : "middle" }, String(tick)),
         ),
-        svg("text", { x: x(0.5), y: HEIGHT - 4, "text-anchor": "middle" }, "recall: share of the class found"),
+        svg("text", { x: x(0.5), y: HEIGHT - 4, "text-anchor": "middle" }, "recall: share of them found"),
         svg("text", { transform: `translate(11 ${y(0.5)}) rotate(-90)`, "text-anchor": "middle" }, "precision"),
       ),
       svg(

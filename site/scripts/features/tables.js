@@ -2,9 +2,10 @@
 
 import { dataLink, element } from "../base/dom.js";
 import { table } from "../base/tables.js";
-import { count, figure, grouped } from "../base/words.js";
+import { capitalised, count, figure, grouped } from "../base/words.js";
 import { shapesTable } from "../map/tables.js";
 import { measureTitle } from "./ranking.js";
+import { kind } from "../database/kind.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
 /** @import { Database } from "../database/database.js" */
@@ -44,8 +45,8 @@ export function subsetTables(database, subsets, state, retrieval) {
       ),
     classes.length > 0 &&
       table(
-        "Neighbourhood hit by class",
-        ["Class", "chosen", "least", "lower quartile", "median", "upper quartile", "most"],
+        `Neighbourhood hit by ${kind(database)}`,
+        [capitalised(kind(database)), "chosen", "least", "lower quartile", "median", "upper quartile", "most"],
         classes,
       ),
     table(

@@ -2,8 +2,9 @@
 
 import { dataLink, element } from "../base/dom.js";
 import { table } from "../base/tables.js";
-import { count, figure, grouped } from "../base/words.js";
+import { capitalised, count, figure, grouped } from "../base/words.js";
 import { highestOf, rangeOf } from "../database/hit-range.js";
+import { kind } from "../database/kind.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Database, ShapeMap } from "../database/database.js" */
@@ -30,8 +31,8 @@ export function mapTables(database, state, coloring = null) {
   const tables = [
     database.labelled &&
       table(
-        "Neighbourhood hit by class",
-        ["Class", "Shapes", "NH", "NH at most"],
+        `Neighbourhood hit by ${kind(database)}`,
+        [capitalised(kind(database)), "Shapes", "NH", "NH at most"],
         groups.map((group) => [
           database.className(group),
           grouped(database.sizes.get(group) ?? 0),

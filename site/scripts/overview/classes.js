@@ -10,6 +10,7 @@ import { isBelowOne, nothingTold, ofAtMost, rangeOf, shareOfRange } from "../dat
 import { holding } from "../database/search.js";
 import { drawShepard, tellFaith } from "./faith.js";
 import { tellSeparation } from "./separation.js";
+import { kind, kinds } from "../database/kind.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
@@ -117,7 +118,7 @@ export class ClassList {
       {
         type: "button",
         "data-group": group,
-        title: `${name}${most && `\nNH ${figure(hit)}${most}, as many as the class has others`}\nClick hides or shows it. Double-click, or click with Alt, shows it alone.`,
+        title: `${name}${most && `\nNH ${figure(hit)}${most}, as many as the ${kind(database)} has others`}\nClick hides or shows it. Double-click, or click with Alt, shows it alone.`,
         onclick: (event) => {
           if (event.detail === 2) unstep();
           if (event.altKey) this.#showOnly([group]);
@@ -192,10 +193,10 @@ export class ClassList {
    */
   #best(method) {
     const { highest } = rangeOf(this.database, method);
-    if (!isBelowOne(highest)) return "1 is a map whose classes never mix.";
+    if (!isBelowOne(highest)) return `1 is a map whose ${kinds(this.database)} never mix.`;
     const share = shareOfRange(method.hitOfAll, method.chance, highest);
     const stands = share === null ? "" : ` This one is ${wholePercent(share)} of the way there from chance.`;
-    return `Some classes are too small to fill ${count(method.neighbours, "place")}: a map whose classes never mix has ${figure(highest)}.${stands}`;
+    return `Some ${kinds(this.database)} are too small to fill ${count(method.neighbours, "place")}: a map whose ${kinds(this.database)} never mix has ${figure(highest)}.${stands}`;
   }
 
   #quality() {

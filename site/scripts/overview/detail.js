@@ -6,6 +6,7 @@ import { count, figure, grouped } from "../base/words.js";
 import { meshFacts, surfaceFacts } from "../database/facts.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { classLine, missingWords } from "../map/card.js";
+import { kind } from "../database/kind.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
@@ -114,7 +115,7 @@ export class Detail {
           {},
           "NH ",
           element("b", {}, figure(hit)),
-          `${ofAtMost(highestOf(database, method, index))}: the share of them in its own class.`,
+          `${ofAtMost(highestOf(database, method, index))}: the share of them in its own ${kind(database)}.`,
         ),
       this.#pictures(index, near),
       database.groups[index] >= 0 &&

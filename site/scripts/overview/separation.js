@@ -68,7 +68,10 @@ function hardestOf({ name, shapes, features, mistaken }) {
     " Hardest to tell by features is ",
     element("bdi", {}, name),
     `: the nearest shape is of this class for ${features || "none"} of its ${count(shapes, "shape")}`,
-    mistaken !== null && ["; for the others it is most often of ", element("bdi", {}, mistaken)],
+    mistaken !== null && [
+      `; ${features > 0 ? "for the others " : ""}it is most often of `,
+      element("bdi", {}, mistaken),
+    ],
     ".",
   ];
 }

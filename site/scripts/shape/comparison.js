@@ -28,7 +28,7 @@ export class Comparison {
         key: "selected",
         columns: selected,
         words: count(selected.length, "selected bin"),
-        title: "The bins that the Bins page found to separate all classes",
+        title: "The bins that the Bins page found to keep all groups apart",
       },
     ];
     this.sets = sets.filter((set) => set !== null);

@@ -204,7 +204,7 @@ export class BinChart {
     this.remove = action("bin-remove", "Remove the weakest", () => this.giveUp(this.#weakest()));
     this.clear = action("bin-clear", "Clear", () => this.giveUp([...this.chosen]));
     this.finder = action("bin-find", "Find a set", () => this.onFind?.());
-    this.finder.title = "Look for a few bins whose map keeps the classes in use apart better; a worse one is not taken";
+    this.finder.title = "Look for a few bins whose map keeps what is in use apart better; a worse one is not taken";
     this.finder.hidden = this.onFind === null;
     return element(
       "div",

@@ -6,6 +6,7 @@ import { change, difference } from "../base/figures.js";
 import { figure, grouped } from "../base/words.js";
 import { classMark } from "../colors/legend.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
+import { kind } from "../database/kind.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database } from "../database/database.js" */
@@ -91,7 +92,7 @@ export class ClassTable {
         tabindex: "-1",
         "data-key": `only ${group}`,
         "aria-label": `Only ${name}`,
-        title: "Only this class",
+        title: `Only this ${kind(database)}`,
         onclick: () => this.#only(group),
       },
       "only",
@@ -117,7 +118,10 @@ export class ClassTable {
       element("td", { class: "tick against" }, ticks.get("against")),
       element(
         "td",
-        { class: "number", title: most === "" ? null : `NH ${figure(hit)}${most}, as many as the class has others` },
+        {
+          class: "number",
+          title: most === "" ? null : `NH ${figure(hit)}${most}, as many as the ${kind(database)} has others`,
+        },
         group < 0 ? "" : figure(hit),
       ),
       element("td", { class: "number change" }, hit !== null && refined !== null && changeOf(hit, refined)),

@@ -4,6 +4,7 @@ import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
 import { watchDragging } from "../map/dragging.js";
 import { contests, separationWords } from "./separation.js";
+import { kind, kinds } from "../database/kind.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database } from "../database/database.js" */
@@ -82,7 +83,8 @@ function watchSeparation(database, state, desk) {
     const separation = state.get("separation");
     const groups = [...database.classes.keys()].filter((group) => !state.get("hidden").has(group));
     const asked = contests(separation, groups);
-    words.textContent = asked.length > 0 ? separationWords(separation, groups, database) : missing(separation, groups);
+    words.textContent =
+      asked.length > 0 ? separationWords(separation, groups, database) : missing(separation, groups, database);
     words.parentElement.classList.toggle("missing", asked.length === 0);
     for (const input of against.querySelectorAll("input"))
       input.checked = (input.value === "rest") === (separation.against === null);
@@ -105,12 +107,15 @@ function watchSeparation(database, state, desk) {
  * Why there is nothing to score.
  * @param {Separation} separation
  * @param {number[]} groups
+ * @param {Database} database
  */
-function missing({ from, against, each }, groups) {
-  if (groups.length < 2) return "needs two classes in use";
-  if (from !== null && !groups.some((group) => from.has(group))) return "which? Tick classes under “separate”";
-  if (against !== null && !groups.some((group) => against.has(group))) return "from which? Tick classes under “from”";
-  return each ? "from which? Tick another class" : "from which? All are on one side";
+function missing({ from, against, each }, groups, database) {
+  if (groups.length < 2) return `needs two ${kinds(database)} in use`;
+  if (from !== null && !groups.some((group) => from.has(group)))
+    return `which? Tick ${kinds(database)} under “separate”`;
+  if (against !== null && !groups.some((group) => against.has(group)))
+    return `from which? Tick ${kinds(database)} under “from”`;
+  return each ? `from which? Tick another ${kind(database)}` : "from which? All are on one side";
 }
 
 /**

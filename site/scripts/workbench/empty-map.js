@@ -4,6 +4,7 @@ import { element } from "../base/dom.js";
 import { count } from "../base/words.js";
 import { FEWEST_SHAPES } from "./desk.js";
 import { firstOffer, offering } from "./first-offer.js";
+import { kind, kinds } from "../database/kind.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Answers } from "./answers.js" */
@@ -23,7 +24,7 @@ export function emptyMap(which, state, answers, desk) {
     const words =
       answers.database.count < FEWEST_SHAPES
         ? `This database has ${count(answers.database.count, "shape")}; a map needs ${FEWEST_SHAPES}.`
-        : "A map needs three shapes: take more classes into use.";
+        : `A map needs three shapes: take more ${kinds(answers.database)} into use.`;
     return [element("p", {}, words)];
   }
   if (which === "original") return [];
@@ -38,7 +39,7 @@ export function emptyMap(which, state, answers, desk) {
       element(
         "p",
         {},
-        "One class alone has nothing to be kept apart from: take another into use, and bins are scored and found again.",
+        `One ${kind(answers.database)} alone has nothing to be kept apart from: take another into use, and bins are scored and found again.`,
       ),
     ];
   return firstOffer(intended, state, answers, desk);

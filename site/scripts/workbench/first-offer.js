@@ -5,6 +5,7 @@ import { element } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
 import { FOUND_BY, SEARCHED_SHAPES } from "./answers.js";
+import { kinds } from "../database/kind.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Database } from "../database/database.js" */
@@ -43,7 +44,7 @@ export function firstOffer(intended, state, answers, desk) {
         shapes > SEARCHED_SHAPES &&
           ` A search looks at ${grouped(SEARCHED_SHAPES)} of ${count(shapes, "shape")}; NH is then that of all of these.`,
       ),
-      offering("Find a few that keep these classes apart", desk.canFind, () => desk.findBins()),
+      offering(`Find a few that keep these ${kinds(database)} apart`, desk.canFind, () => desk.findBins()),
     ];
   const byOther = state.get("projection") === FOUND_BY ? "" : " on a t-SNE map, for which they were searched";
   // The map at hand may be better than the one of all features that the search knew.
@@ -67,7 +68,7 @@ export function firstOffer(intended, state, answers, desk) {
     element(
       "p",
       {},
-      `${intended} The build searched all bins for a few that keep the classes apart: `,
+      `${intended} The build searched all bins for a few that keep the ${kinds(database)} apart: `,
       element("b", {}, `NH ${figure(before)} → ${figure(found.nh)}`),
       `${byOther}${on}; on shapes that the search never saw, ${figure(found.heldOut)}. `,
       howFound(),
@@ -98,13 +99,21 @@ export function offering(words, possible, onclick) {
 function instead({ database, data }, desk) {
   const { example } = data;
   if (example === null || desk.history.current.hidden.size > 0 || database.classes.length < 3)
-    return [element("p", {}, "Choose bins below, or take other classes into use.")];
+    return [element("p", {}, `Choose bins below, or take other ${kinds(database)} into use.`)];
   const [one, other] = example.classes;
   const hidden = new Set([...database.sizes.keys()].filter((group) => group !== one && group !== other));
   /** @param {number} group */
   const name = (group) => element("b", {}, element("bdi", {}, database.className(group)));
   return [
-    element("p", {}, "Fewer classes are told apart by fewer bins. ", name(one), " and ", name(other), " mix most."),
+    element(
+      "p",
+      {},
+      `Fewer ${kinds(database)} are told apart by fewer bins. `,
+      name(one),
+      " and ",
+      name(other),
+      " mix most.",
+    ),
     offering("Show only these two", true, () => desk.use({ hidden })),
   ];
 }

@@ -7,6 +7,7 @@ import { readHash } from "../base/place.js";
 import { count, figure, wholePercent } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 import { inWords } from "../bins-kit/bin-name.js";
+import { kinds } from "../database/kind.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Children } from "../base/dom.js" */
@@ -189,14 +190,14 @@ export class Guide {
       }),
       () => ({
         words: finding("Looking for bins …") ?? this.#resultOfTwo(pair),
-        action: "Bring all classes back",
+        action: `Bring all ${kinds(this.database)} back`,
         todo: working("offer", "refined") ? null : () => act.use({ hidden: new Set(), separation: EVERY_CLASS }),
       }),
       () => ({
         words: settled("refined", "original")
-          ? this.#resultOfAll(" Other classes need other bins.")
-          : waiting("refined", "Making the map of all classes …"),
-        action: "Find bins for all classes",
+          ? this.#resultOfAll(` Other ${kinds(this.database)} need other bins.`)
+          : waiting("refined", `Making the map of all ${kinds(this.database)} …`),
+        action: `Find bins for all ${kinds(this.database)}`,
         todo: settled("scores") && act.canFind ? () => act.findBins() : null,
       }),
       () => ({
@@ -235,7 +236,12 @@ export class Guide {
         : moved === 0
           ? "these bins keep them apart as well as all features do"
           : "these bins alone keep them apart less well than all features do: try more of them, or another scorer";
-    return ["On the refined map of ", ...pair, ...words, `: ${verdict}. But what does it do to the other classes?`];
+    return [
+      "On the refined map of ",
+      ...pair,
+      ...words,
+      `: ${verdict}. But what does it do to the other ${kinds(this.database)}?`,
+    ];
   }
 
   /** @param {string} next */
@@ -243,7 +249,7 @@ export class Guide {
     const result = this.#result();
     if (result === null) return ["No bins are chosen.", next];
     return [
-      `The map of all classes by these ${count(this.state.get("bins").size, "bin")}: `,
+      `The map of all ${kinds(this.database)} by these ${count(this.state.get("bins").size, "bin")}: `,
       ...result.words,
       this.state.get("refused") === null ? "." : ". No few bins were found that make a better one.",
       next,

@@ -7,6 +7,7 @@ import { isBelowOne, nothingTold, rangeOf } from "../database/hit-range.js";
 import { MEASURES, measureOf } from "../map/measures.js";
 import { emptyMap } from "./empty-map.js";
 import { StatusLine } from "./status-line.js";
+import { kinds } from "../database/kind.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -146,8 +147,7 @@ class MapPanel {
                       "span",
                       {
                         class: "chance",
-                        title:
-                          "A map whose classes never mix: some of the classes have too few shapes here to fill all places around one",
+                        title: `A map whose ${kinds(this.database)} never mix: some of the ${kinds(this.database)} have too few shapes here to fill all places around one`,
                       },
                       `at most ${figure(most)}`,
                     ),

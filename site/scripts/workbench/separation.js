@@ -4,6 +4,7 @@
 // from (null: the rest), and whether each stands for itself or all together are one group.
 
 import { listed, shortened } from "../base/words.js";
+import { kinds } from "../database/kind.js";
 
 /** @import { Database } from "../database/database.js" */
 
@@ -65,8 +66,8 @@ export function separationWords(separation, groups, database) {
   const { positive, negative } = sides(separation, groups);
   /** @param {number[]} chosen */
   const names = (chosen) => {
-    if (chosen.length === groups.length && chosen.length > 2) return `all ${chosen.length} classes`;
-    if (chosen.length > MOST_NAMED) return `${chosen.length} classes`;
+    if (chosen.length === groups.length && chosen.length > 2) return `all ${chosen.length} ${kinds(database)}`;
+    if (chosen.length > MOST_NAMED) return `${chosen.length} ${kinds(database)}`;
     return listed(chosen.map((group) => shortened(database.className(group), 24)));
   };
   if (contests(separation, groups).length === 1 && separation.each) {
