@@ -2,6 +2,7 @@
 
 import re
 import xml.etree.ElementTree as ET
+from itertools import pairwise
 
 import pytest
 from PIL import Image
@@ -184,6 +185,36 @@ def test_what_colours_a_map_is_told_once_below_it(open_page, tmp_path, file):
     page.wait_for_selector("figure.map .save-figure")
     text = words(check(save(page, root, "SVG", tmp_path), root))
     assert text.count(page.locator(".ramp-texts span").last.inner_text()) == 1
+
+
+def test_names_above_columns_stand_upright_as_on_the_page(open_page, tmp_path):
+    page = open_page("plain", "compare.html#view=classes")
+    path = save(page, page.locator("[data-figure]:visible"), "SVG", tmp_path)
+    page.goto(path.as_uri())
+    boxes = page.evaluate(
+        """() => [...document.querySelectorAll("text")]
+            .filter(({ textContent }) => /^kind .$/.test(textContent))
+            .map((text) => text.getBoundingClientRect())
+            .map(({ left, right, top, bottom }) => ({ left, right, top, bottom }))"""
+    )
+    above = [box for box in boxes if box["bottom"] - box["top"] > box["right"] - box["left"]]
+    assert (len(above), len(boxes)) == (12, 24)
+    assert len({round(box["bottom"]) for box in above}) == 1
+    above.sort(key=lambda box: box["left"])
+    assert all(one["right"] <= other["left"] for one, other in pairwise(above))
+
+
+def test_what_columns_say_stands_above_them_without_the_title_beside(open_page, tmp_path):
+    page = open_page("searched", "features.html")
+    heads = page.locator(".by-class-head p")
+    lefts = heads.evaluate_all("nodes => nodes.map((node) => node.getBoundingClientRect().left)")
+    tree = ET.parse(save(page, page.locator(".by-class"), "SVG", tmp_path))
+    texts = [("".join(text.itertext()), float(text.get("x", "nan"))) for text in tree.iter(f"{SVG}text")]
+    told = [text for text, _ in texts]
+    of_map, of_all = texts[told.index("on this map") - 2], texts[told.index("over all")]
+    assert of_map[0] == "NH"
+    assert of_all[1] - of_map[1] == pytest.approx(lefts[1] - lefts[0], abs=1)
+    assert max(x for text, x in texts if text.startswith("kind")) < of_map[1]
 
 
 def test_a_picture_has_three_pixels_for_one_of_the_page(open_page, tmp_path):

@@ -268,23 +268,52 @@ class Taker {
     if (text.data.trim() === "") return;
     const cut = style.overflowX === "hidden" && node.scrollWidth > node.clientWidth;
     const { ascent, height } = fontOf(style);
+    const font = {
+      fill: style.color,
+      "font-family": style.fontFamily,
+      "font-size": style.fontSize,
+      "font-weight": style.fontWeight,
+      "font-style": style.fontStyle === "normal" ? null : style.fontStyle,
+      "letter-spacing": style.letterSpacing === "normal" ? null : style.letterSpacing,
+    };
+    if (style.writingMode.startsWith("vertical")) {
+      const { x, y, width, height: length } = this.#place(node.getBoundingClientRect());
+      const upwards = readsUpwards(node);
+      const attributes = {
+        ...font,
+        y: ascent - height / 2,
+        transform: `translate(${x + width / 2} ${upwards ? y + length : y}) rotate(${upwards ? -90 : 90})`,
+        textLength: node.scrollHeight > node.clientHeight ? length : null,
+        lengthAdjust: node.scrollHeight > node.clientHeight ? "spacingAndGlyphs" : null,
+      };
+      into.append(svg("text", attributes, text.data.trim()));
+      return;
+    }
     for (const { words, rect } of linesOf(text, style.whiteSpaceCollapse === "preserve")) {
       const { x, y, width } = this.#place(rect);
       const attributes = {
+        ...font,
         x,
         y: y + (rect.height - height) / 2 + ascent,
-        fill: style.color,
-        "font-family": style.fontFamily,
-        "font-size": style.fontSize,
-        "font-weight": style.fontWeight,
-        "font-style": style.fontStyle === "normal" ? null : style.fontStyle,
-        "letter-spacing": style.letterSpacing === "normal" ? null : style.letterSpacing,
         textLength: cut ? Math.min(width, node.clientWidth) : null,
         lengthAdjust: cut ? "spacingAndGlyphs" : null,
       };
       into.append(svg("text", attributes, style.textTransform === "uppercase" ? words.toUpperCase() : words));
     }
   }
+}
+
+/**
+ * Whether a vertical text is turned round, so that it begins at its foot.
+ * @param {Element | null} node
+ */
+function readsUpwards(node) {
+  for (let own = node; own !== null; own = own.parentElement) {
+    const { transform, writingMode } = getComputedStyle(own);
+    if (!writingMode.startsWith("vertical")) break;
+    if (transform !== "none") return new DOMMatrix(transform).a < 0;
+  }
+  return false;
 }
 
 /** @param {HTMLImageElement} image */

@@ -4,7 +4,7 @@ import { DEFAULT_SCORER, EVERY_CLASS } from "../addresses/workbench.js";
 import { element, swatch } from "../base/dom.js";
 import { change, difference } from "../base/figures.js";
 import { readHash } from "../base/place.js";
-import { count, figure, wholePercent } from "../base/words.js";
+import { count, figure, shortened, wholePercent } from "../base/words.js";
 import { ranked } from "../bins-kit/bin-list.js";
 import { inWords } from "../bins-kit/bin-name.js";
 import { kinds } from "../database/kind.js";
@@ -16,6 +16,9 @@ import { kinds } from "../database/kind.js";
 /** @import { Desk, Question } from "./desk.js" */
 
 const KEY = "shapeviz-guide";
+
+/** Letters of a name: with two of them, the sentence has two lines. */
+const LONGEST = 32;
 
 export class Guide {
   /** @type {number | null} */
@@ -275,7 +278,7 @@ export class Guide {
       "span",
       { class: "of-class" },
       swatch(database.symbol(group), database.color(group)),
-      element("bdi", {}, database.className(group)),
+      element("bdi", {}, shortened(database.className(group), LONGEST)),
     );
   }
 }
