@@ -30,10 +30,17 @@ def read_script(script: Path) -> tuple[str, Any]:
 
 
 def read_letters(letters: str, length: int) -> bytes:
-    """The bytes that letters of fifteen bits stand for."""
-    bits = "".join(f"{ord(letter) - 0x100:015b}" for letter in letters)
-    assert len(bits) - 8 * length in range(15)
-    return int(bits[: 8 * length] or "0", 2).to_bytes(length, "big")
+    """The bytes that groups of sixteen letters of fifteen bits stand for."""
+    values = [ord(letter) - 0x100 for letter in letters]
+    content = b"".join(
+        (value | (values[group + 15] >> place & 1) << 15).to_bytes(2, "little")
+        for group in range(0, len(values), 16)
+        for place, value in enumerate(values[group : group + 15])
+    )
+    assert len(values) % 16 == 0
+    assert len(content) - length in range(30)
+    assert not any(content[length:])
+    return content[:length]
 
 
 def unpack(kind: str, packed: bytes) -> Any:

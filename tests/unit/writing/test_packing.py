@@ -65,7 +65,7 @@ def test_a_script_hands_it_over(tmp_path):
     assert read_script(script) == ("parts-3", {"a": 1})
 
 
-@pytest.mark.parametrize("length", range(33))
+@pytest.mark.parametrize("length", [*range(33), 59, 60, 61])
 def test_fifteen_bits_are_a_letter(length):
     content = bytes((7 + 77 * place) % 256 for place in range(length))
     text = chunk_script("a", "stored", content).decode("utf-16")
@@ -76,7 +76,8 @@ def test_fifteen_bits_are_a_letter(length):
     assert all(0x100 <= ord(letter) < 0x8100 for letter in letters)
 
 
-def test_a_letter_has_the_first_bits_first():
-    script = chunk_script("a", "bytes", b"\1\0\xff")
-    assert script.decode("utf-16") == 'shapeviz.receive("a", "bytes", 3, () => {/*\u0180\u40c0*/});\n'
+def test_a_letter_is_a_number_of_two_bytes_and_the_last_of_sixteen_has_the_highest_bits():
+    script = chunk_script("a", "bytes", b"\1\0\2\xff")
+    letters = "\u0101\u8002" + 13 * "\u0100" + "\u0102"
+    assert script.decode("utf-16") == f'shapeviz.receive("a", "bytes", 4, () => {{/*{letters}*/}});\n'
     assert script.startswith(b"\xff\xfe")
