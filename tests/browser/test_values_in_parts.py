@@ -175,6 +175,14 @@ def test_nothing_is_read_but_what_is_shown(both, report):
     assert not {"columns", "bins"} & asked
 
 
+@pytest.mark.parametrize("file", ["index.html", "workbench.html", "bins.html"])
+def test_no_script_that_handed_data_over_is_kept(both, file):
+    for page in both(file).values():
+        kept = page.evaluate("() => [...document.scripts].map((script) => script.src)")
+        assert any("/assets/shared.js" in address for address in kept)
+        assert not any("chunk" in address for address in kept)
+
+
 def test_a_file_that_would_be_too_large_is_cut_and_read_as_one(open_page, sites, report, tmp_path):
     size = 2 * report.features.values.size
     with pytest.MonkeyPatch.context() as patch:

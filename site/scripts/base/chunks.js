@@ -23,7 +23,11 @@ export function openReception() {
     handed,
     // In a site of one file: what its scripts do, by their address in a folder.
     scripts: new Map(),
-    receive: (name, kind, length, holder) => handed.set(name, { kind, length, holder }),
+    receive(name, kind, length, holder) {
+      handed.set(name, { kind, length, holder });
+      // As long as its element is there, Chromium keeps the text of a script.
+      document.currentScript?.remove();
+    },
   };
 }
 
