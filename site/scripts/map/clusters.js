@@ -45,36 +45,45 @@ export class Thinning {
  */
 export function largestCluster(members, most) {
   const side = 2 * most + LINK;
-  /** @type {Map<number, Mark[]>} */
-  const cells = new Map();
-  for (const mark of members) {
-    const key = keyOf(Math.floor(mark.x / side), Math.floor(mark.y / side));
-    const cell = cells.get(key) ?? [];
-    if (cell.push(mark) === 1) cells.set(key, cell);
+  // The last mark in each cell, and the one before each; as lists, those of a crowd would be many megabytes.
+  /** @type {Map<number, number>} */
+  const last = new Map();
+  const before = new Int32Array(members.length);
+  for (let place = 0; place < members.length; place += 1) {
+    const key = keyOf(Math.floor(members[place].x / side), Math.floor(members[place].y / side));
+    before[place] = last.get(key) ?? -1;
+    last.set(key, place);
   }
-  /** @type {Mark[]} */
-  let largest = [];
-  for (const cell of cells.values()) {
-    while (cell.length > 0) {
-      const cluster = [/** @type {Mark} */ (cell.pop())];
-      for (const mark of cluster) {
+  // One cluster after the other.
+  const found = new Int32Array(members.length);
+  let [end, first, beyond] = [0, 0, 0];
+  for (const key of last.keys()) {
+    for (let next = last.get(key) ?? -1; next >= 0; next = last.get(key) ?? -1) {
+      const start = end;
+      last.set(key, before[next]);
+      found[end++] = next;
+      for (let at = start; at < end; at += 1) {
+        const mark = members[found[at]];
         for (let i = -1; i <= 1; i += 1) {
           for (let j = -1; j <= 1; j += 1) {
-            const near = cells.get(keyOf(Math.floor(mark.x / side) + i, Math.floor(mark.y / side) + j));
-            if (near === undefined) continue;
-            for (let place = near.length - 1; place >= 0; place -= 1) {
-              if (!linked(mark, near[place], most)) continue;
-              cluster.push(near[place]);
-              // What `splice` gives would be an array a mark.
-              near.copyWithin(place, place + 1).pop();
+            const cell = keyOf(Math.floor(mark.x / side) + i, Math.floor(mark.y / side) + j);
+            let kept = -1;
+            for (let near = last.get(cell) ?? -1; near >= 0; near = before[near]) {
+              if (!linked(mark, members[near], most)) {
+                kept = near;
+                continue;
+              }
+              found[end++] = near;
+              if (kept < 0) last.set(cell, before[near]);
+              else before[kept] = before[near];
             }
           }
         }
       }
-      if (cluster.length > largest.length) largest = cluster;
+      if (end - start > beyond - first) [first, beyond] = [start, end];
     }
   }
-  return largest;
+  return Array.from(found.subarray(first, beyond), (place) => members[place]);
 }
 
 /**

@@ -83,7 +83,7 @@ export function placeNames(marks, names, frame, radius, kept = []) {
     const anchor = cluster.find(({ index }) => index === place?.anchor);
     if (place === undefined || anchor === undefined) continue;
     const candidate = new Candidate(anchor, place.dx, place.dy, size, place.leader);
-    if (taken.hasRoom(candidate) && holds(candidate, group, field)) take(group, candidate);
+    if (taken.hasRoom(candidate.box, candidate.line) && holds(candidate, group, field)) take(group, candidate);
   }
   for (const { group, size, cluster } of groups)
     if (!places.has(group)) take(group, beside(heartOf(cluster, radius), group, size, field, taken));
@@ -101,17 +101,34 @@ class Candidate {
    * @param {{ width: number, height: number }} size
    * @param {boolean} leader
    */
-  constructor(anchor, dx, dy, { width, height }, leader) {
-    const [x, y] = [anchor.x + dx, anchor.y + dy];
+  constructor(anchor, dx, dy, size, leader) {
     this.anchor = anchor;
     this.dx = dx;
     this.dy = dy;
     this.leader = leader;
     /** @type {Box} */
-    this.box = { left: x - width / 2, right: x + width / 2, top: y - height / 2, bottom: y + height / 2 };
+    this.box = { left: 0, right: 0, top: 0, bottom: 0 };
+    setBox(this.box, anchor, dx, dy, size);
     /** @type {Line | null} */
     this.line = leader ? leaderOf(this.box, anchor) : null;
   }
+}
+
+/**
+ * Where a name stands.
+ *
+ * @param {Box} box is set to it
+ * @param {Mark} anchor
+ * @param {number} dx
+ * @param {number} dy
+ * @param {{ width: number, height: number }} size
+ */
+function setBox(box, anchor, dx, dy, { width, height }) {
+  const [x, y] = [anchor.x + dx, anchor.y + dy];
+  box.left = x - width / 2;
+  box.right = x + width / 2;
+  box.top = y - height / 2;
+  box.bottom = y + height / 2;
 }
 
 /**
@@ -154,11 +171,14 @@ function holds(candidate, group, field) {
  * @returns {Generator<{ candidate: Candidate, way: number }>}
  */
 function* placesAbout(heart, size, taken, most) {
+  // One for all that are tried, most of which have no room.
+  const box = { left: 0, right: 0, top: 0, bottom: 0 };
   for (const [cos, sin] of WAYS) {
     const [sideways, upwards] = [(cos * Math.abs(cos) * size.width) / 2, (sin * Math.abs(sin) * size.height) / 2];
     for (let way = 0; way < most(); way += STEP) {
-      const candidate = new Candidate(heart, cos * way + sideways, sin * way + upwards, size, false);
-      if (taken.hasRoom(candidate)) yield { candidate, way };
+      const [dx, dy] = [cos * way + sideways, sin * way + upwards];
+      setBox(box, heart, dx, dy, size);
+      if (taken.hasRoom(box, null)) yield { candidate: new Candidate(heart, dx, dy, size, false), way };
     }
   }
 }
@@ -175,9 +195,9 @@ function* placesAbout(heart, size, taken, most) {
  */
 function beside(heart, group, size, field, taken) {
   let [best, least] = [/** @type {Candidate | null} */ (null), Infinity];
+  /** @param {Dot} dot */
+  const foreign = (dot) => dot.group !== group;
   for (const { candidate, way } of placesAbout(heart, size, taken, () => Math.min(least, BESIDE))) {
-    /** @param {Dot} dot */
-    const foreign = (dot) => dot.group !== group;
     // What is close is told quickest.
     if (field.reaches(candidate.box, CLEARLY, foreign)) continue;
     const own = field.gap(candidate.box, SIGHT, (dot) => dot.group === group && dot.main);
@@ -207,16 +227,15 @@ function led(heart, cluster, group, size, field, taken) {
   let ends = null;
   for (const { candidate } of placesAbout(heart, size, taken, () => LED)) {
     if (field.reaches(candidate.box, FREE, () => true)) continue;
-    const x = heart.x + candidate.dx;
-    const y = heart.y + candidate.dy;
     // Many names have no free space at all.
     ends ??= endsIn(cluster, heart, field);
     for (const end of ends) {
-      const lined = new Candidate(end, x - end.x, y - end.y, size, true);
-      const line = /** @type {Line} */ (lined.line);
+      const line = leaderOf(candidate.box, end);
       if (lengthOf(line) >= least) continue;
       const cost = costOf(line, group, field, least);
-      if (cost < least && taken.hasRoom(lined)) [best, least] = [lined, cost];
+      if (cost >= least || !taken.hasRoom(candidate.box, line)) continue;
+      const [x, y] = [heart.x + candidate.dx, heart.y + candidate.dy];
+      [best, least] = [new Candidate(end, x - end.x, y - end.y, size, true), cost];
     }
   }
   return best;
@@ -424,8 +443,11 @@ class Taken {
     this.#all.push(candidate);
   }
 
-  /** @param {Candidate} candidate */
-  hasRoom({ box, line }) {
+  /**
+   * @param {Box} box
+   * @param {Line | null} line
+   */
+  hasRoom(box, line) {
     if (box.left < APART || box.top < APART) return false;
     if (box.right > this.frame.width - APART || box.bottom > this.frame.height - APART) return false;
     if (this.frame.covered?.some((own) => overlap(box, own))) return false;

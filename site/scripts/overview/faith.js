@@ -63,9 +63,9 @@ export function tellFaith(database, method, state) {
 function lost(database, { faith, neighbours, base, sample }) {
   const few = Math.floor(FEW * neighbours + 1e-9);
   if (!faith?.kept || few < 1) return [];
-  const rated = faith.kept.filter((share) => share !== null).length;
+  const rated = countOf(faith.kept, (share) => share !== null);
   /** @param {Pick<Faith, "kept"> | null | undefined} of */
-  const lostOn = (of) => (of?.kept ?? []).filter((share) => share !== null && share <= FEW + 1e-9).length;
+  const lostOn = (of) => countOf(of?.kept ?? [], (share) => share !== null && share <= FEW + 1e-9);
   const here = lostOn(faith);
   // What a sample keeps of its neighbours is not to be set beside what all shapes keep of theirs.
   const others = sample ? [] : database.projections.filter((other, index) => index !== base && other.faith);
@@ -79,6 +79,16 @@ function lost(database, { faith, neighbours, base, sample }) {
       ` on this map${there.map((words, place) => (place === there.length - 1 ? " and " : ", ") + words).join("")}.`,
     ),
   ];
+}
+
+/**
+ * @param {Exclude<Faith["kept"], null | undefined>} shares
+ * @param {(share: number | null) => boolean} counts
+ */
+function countOf(shares, counts) {
+  let sum = 0;
+  for (const share of shares) if (counts(share)) sum += 1;
+  return sum;
 }
 
 /** @param {number} number */
