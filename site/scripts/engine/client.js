@@ -64,7 +64,8 @@ export class Engine {
    * Run a task: "layout", "hit", "faith" or "score".
    *
    * @param {string} name
-   * @param {{ table?: FeatureValues, [name: string]: unknown }} parameters copied to the worker; a table that a task brings along goes there
+   * @param {{ table?: FeatureValues | null, [name: string]: unknown }} parameters copied to the worker; a table that a task
+   *   brings along goes there; null where this one needs none
    * @param {Listener} onProgress called a few dozen times a second at most
    * @param {{ buffer: ArrayBufferLike }[]} moved what else of the parameters goes there
    * @returns {Job}
@@ -74,7 +75,7 @@ export class Engine {
     if (!WITHOUT_TABLE.has(name) && table === undefined) this.#giveTable();
     const id = this.started++;
     const done = new Promise((resolve, reject) => this.jobs.set(id, { resolve, reject, onProgress }));
-    const all = table === undefined ? moved : [...moved, table.steps];
+    const all = table ? [...moved, table.steps] : moved;
     const buffers = all.map(({ buffer }) => /** @type {ArrayBuffer} */ (buffer));
     this.worker.postMessage({ run: { id, name, parameters } }, buffers);
     return { done, cancel: () => this.cancel(id) };

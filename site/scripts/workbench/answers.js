@@ -125,7 +125,7 @@ export class Answers {
    */
   inUse({ hidden }) {
     const { groups } = this.database;
-    return Int32Array.from(groups.keys()).filter((shape) => !hidden.has(groups[shape]));
+    return groups.map((_, shape) => shape).filter((shape) => !hidden.has(groups[shape]));
   }
 
   /**
@@ -540,7 +540,8 @@ export class Answers {
     const numbers = await (by === "bins"
       ? numbersOfBins(bins, columns)
       : numbersOfFeatures(this.#features(columns), this.database.count));
-    return { compared: { numbers } };
+    // The engines' table is of the sample.
+    return { table: null, compared: { numbers } };
   }
 
   /**
