@@ -18,7 +18,7 @@ from shapeviz_report.pages.base import is_in_full
 from shapeviz_report.types import FloatArray, Report
 
 #: Cells on a side of the grids over a map, from the coarsest.
-GRIDS = (64, 128, 256)
+GRIDS = (32, 64, 128, 256)
 
 #: Pictures on a side of a sheet.
 ACROSS = 8

@@ -18,9 +18,13 @@ const sheets = new Sheets(
 
 test("a grid is used down to where its cells would be too small", () => {
   assert.deepEqual([...sheets.shapes("tsne")], [7, 2, 5]);
-  assert.deepEqual([...sheets.shapes("tsne", 0.3)], [7, 2, 5]);
-  assert.deepEqual([...sheets.shapes("tsne", 0.25)], [7, 2, 5, 0, 3, 9]);
-  assert.deepEqual([...sheets.shapes("pca", 0.001)], [1, 7]);
+  assert.deepEqual(
+    [1, 0.3, 0.25, 0.001].map((cell) => sheets.grid(cell)),
+    [0, 0, 1, 1],
+  );
+  assert.deepEqual([...sheets.shapes("tsne", 0)], [7, 2, 5]);
+  assert.deepEqual([...sheets.shapes("tsne", 1)], [7, 2, 5, 0, 3, 9]);
+  assert.deepEqual([...sheets.shapes("pca", 1)], [1, 7]);
 });
 
 test("a picture is where the build put it", () => {

@@ -158,3 +158,13 @@ test("it is done within a frame or a few", () => {
     assert.ok(took < most, `${took} ms for ${groups * each} shapes`);
   }
 });
+
+test("those that stand for many others lie apart about their places, however few they are", () => {
+  const size = 40;
+  const { x, y } = makeMap({ seed: 5, groups: 1, each: 60, radius: 110 });
+  const found = spread(x, y, size, { frame: FRAME, crowd: true });
+  assertApart(found, size);
+  const rows = [...found.pictured.keys()].filter((row) => found.pictured[row] === 1);
+  assert.ok(rows.length >= 8 && rows.length < 30, `${rows.length} pictures`);
+  for (const row of rows) assert.ok(Math.hypot(found.x[row] - x[row], found.y[row] - y[row]) < size / 2);
+});

@@ -1,6 +1,7 @@
 // Small pictures of shapes on sheets, which maps of very many show: of each map those that its grids show, as
 // shapeviz_report/pages/map_pictures.py chooses them.
 
+import { entry } from "../base/entry.js";
 import { resource } from "../base/place.js";
 
 /**
@@ -15,7 +16,7 @@ const PLANE = 2;
 
 export class Sheets {
   /** @type {Map<string, Shown>} */
-  #maps = new Map();
+  #shown = new Map();
 
   /**
    * @param {Chunk.Sheets} data
@@ -24,11 +25,8 @@ export class Sheets {
   constructor({ grids, across, maps }, count) {
     this.grids = grids;
     this.across = across;
-    for (const [key, { rows, ends, sheets }] of Object.entries(maps)) {
-      const place = new Int32Array(count).fill(-1);
-      for (const [position, row] of rows.entries()) place[row] = position;
-      this.#maps.set(key, { rows, ends, sheets, place });
-    }
+    this.maps = maps;
+    this.count = count;
   }
 
   /**
@@ -37,21 +35,32 @@ export class Sheets {
    * @returns {Shown}
    */
   #of(key) {
-    return /** @type {Shown} */ (this.#maps.get(key) ?? this.#maps.values().next().value);
+    const own = key in this.maps ? key : Object.keys(this.maps)[0];
+    return entry(this.#shown, own, () => {
+      const place = new Int32Array(this.count).fill(-1);
+      for (const [position, row] of this.maps[own].rows.entries()) place[row] = position;
+      return { ...this.maps[own], place };
+    });
   }
 
   /**
-   * The shapes of a map that may have a picture where cells are to be no smaller than that: those of the coarsest grid at
-   * least.
-   * @param {string} key
-   * @param {number} [cell] in units of the plane
+   * The number of the finest grid whose cells are no smaller than that; of the coarsest, 0, where all are.
+   * @param {number} cell in units of the plane
    */
-  shapes(key, cell = Infinity) {
-    const { rows, ends } = this.#of(key);
-    const grid = Math.max(
+  grid(cell) {
+    return Math.max(
       this.grids.findLastIndex((cells) => PLANE / cells >= cell),
       0,
     );
+  }
+
+  /**
+   * The shapes of a map that a grid shows as pictures.
+   * @param {string} key
+   * @param {number} [grid]
+   */
+  shapes(key, grid = 0) {
+    const { rows, ends } = this.#of(key);
     return rows.subarray(0, ends[grid]);
   }
 

@@ -92,11 +92,14 @@ export class MapView {
     this.surface.append(this.node, this.overlay);
     drawnAs(this.surface, (picture) => mapFigure(this, picture));
     toldAs(figure, () => mapWords(this));
+    // Of a map without pictures; of a crowd, megabytes, were they made each time.
+    const nowhere = new Float64Array(this.database.count);
+    this.#none = { pictured: new Uint8Array(this.database.count), shift: { x: nowhere, y: nowhere } };
     /** @type {ArrayLike<number>} 1 for a shape that is drawn as a picture */
     this.pictured = [];
     // How far each picture stands from its place, in sizes of a picture.
     /** @type {{ x: Float64Array, y: Float64Array }} */
-    this.shift = { x: new Float64Array(this.database.count), y: new Float64Array(this.database.count) };
+    this.shift = this.#none.shift;
     /** @type {Map<string, any>} */
     this.sent = new Map();
     this.started = false;
@@ -112,6 +115,8 @@ export class MapView {
     this.stale = false;
     this.measure();
   }
+
+  #none;
 
   /** Whether a chart draws the marks when they are at rest. */
   get #onChart() {
@@ -517,48 +522,51 @@ export class MapView {
     }
   }
 
-  /** Which shapes are drawn as pictures, and where: beside each other, or at their places where the reader asks for it. */
+  /** Which shapes are drawn as pictures, and where. */
   #choosePictures() {
+    const { pictured, shift } = this.name === "thumbnail" ? this.#findPictures() : this.#none;
+    this.pictured = pictured;
+    this.#glide(shift);
+  }
+
+  /** Pictures beside each other, or at their places where the reader asks for it. */
+  #findPictures() {
     const { count } = this.database;
     const pictured = new Uint8Array(count);
     const shift = { x: new Float64Array(count), y: new Float64Array(count) };
-    if (this.name === "thumbnail") {
-      const { x, y } = this.scene;
-      const { zoom, ...camera } = this.scene.camera();
-      const [scale, size] = [this.scale, this.pictureSize + RIM];
-      // Beyond what is in view, too: a map that is moved a little shows the same pictures.
-      const [wide, high] = [this.width, this.height].map((room) => room / scale);
-      /** @param {number} index */
-      const near = (index) =>
-        this.scene.visible(index) && Math.abs(x[index] - camera.x) < wide && Math.abs(y[index] - camera.y) < high;
-      // Every group has a picture before any has two.
-      const middles = this.#middles();
-      const first = [...middles].filter(near);
-      const rows = [
-        ...first,
-        ...this.#drawable(size / 2 / scale).filter((index) => near(index) && !middles.has(index)),
-      ];
-      const places = [rows.map((index) => x[index] * scale), rows.map((index) => -y[index] * scale)];
-      const naming = this.#naming;
-      // Beside another map a shape is where it is on that one.
-      const found =
-        this.charted || this.state.get("exact")
-          ? thinned(places[0], places[1], size, EXACT_APART)
-          : spread(places[0], places[1], size, {
-              frame: this.#frameOf(this.scene.bounds, scale / zoom, zoom),
-              first: first.length,
-              groups: rows.length > MAKING_WAY ? null : rows.map((index) => naming.groupOf(index)),
-              dot: this.markRadius,
-            });
-      for (const [place, index] of rows.entries()) {
-        pictured[index] = found.pictured[place];
-        shift.x[index] = (found.x[place] - places[0][place]) / this.pictureSize;
-        shift.y[index] = (found.y[place] - places[1][place]) / this.pictureSize;
-      }
-      this.#addChosen(rows, places, pictured);
+    const { x, y } = this.scene;
+    const { zoom, ...camera } = this.scene.camera();
+    const [scale, size] = [this.scale, this.pictureSize + RIM];
+    // Beyond what is in view, too: a map that is moved a little shows the same pictures.
+    const [wide, high] = [this.width, this.height].map((room) => room / scale);
+    /** @param {number} index */
+    const near = (index) =>
+      this.scene.visible(index) && Math.abs(x[index] - camera.x) < wide && Math.abs(y[index] - camera.y) < high;
+    const grid = this.database.sheets?.grid(size / 2 / scale);
+    // Every group has a picture before any has two.
+    const middles = this.#middles();
+    const first = [...middles].filter(near);
+    const rows = [...first, ...this.#drawable(grid).filter((index) => near(index) && !middles.has(index))];
+    const places = [rows.map((index) => x[index] * scale), rows.map((index) => -y[index] * scale)];
+    const naming = this.#naming;
+    // Beside another map a shape is where it is on that one.
+    const found =
+      this.charted || this.state.get("exact")
+        ? thinned(places[0], places[1], size, EXACT_APART)
+        : spread(places[0], places[1], size, {
+            frame: this.#frameOf(this.scene.bounds, scale / zoom, zoom),
+            first: first.length,
+            groups: rows.length > MAKING_WAY ? null : rows.map((index) => naming.groupOf(index)),
+            dot: this.markRadius,
+            crowd: grid === 0,
+          });
+    for (const [place, index] of rows.entries()) {
+      pictured[index] = found.pictured[place];
+      shift.x[index] = (found.x[place] - places[0][place]) / this.pictureSize;
+      shift.y[index] = (found.y[place] - places[1][place]) / this.pictureSize;
     }
-    this.pictured = pictured;
-    this.#glide(shift);
+    this.#addChosen(rows, places, pictured);
+    return { pictured, shift };
   }
 
   /**
@@ -641,16 +649,16 @@ export class MapView {
 
   /**
    * The shapes whose pictures the map may show, in the order in which they come to one.
-   * @param {number} cell of so many units of the plane one is enough
+   * @param {number} [grid] where pictures lie on sheets
    */
-  #drawable(cell) {
+  #drawable(grid) {
     const { sheets, methods } = this.database;
-    return sheets ? [...sheets.shapes(methods[this.scene.target].key, cell)] : this.#scattered();
+    return sheets ? [...sheets.shapes(methods[this.scene.target].key, grid)] : this.#scattered();
   }
 
   /** All shapes in an order that favours no class and is always the same, so that pictures stay when others come. */
   #scattered() {
-    this.order ??= this.database.ids.map((_, index) => index).sort((a, b) => scatter(a) - scatter(b) || a - b);
+    this.order ??= [...this.database.ids.keys()].sort((a, b) => scatter(a) - scatter(b) || a - b);
     return this.order;
   }
 

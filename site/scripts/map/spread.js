@@ -42,10 +42,11 @@ const PULL = 0.06;
  * @param {number} [among.first] so many shapes, the first, have a picture wherever it finds a place within reach
  * @param {ArrayLike<number> | null} [among.groups] dots of one group are left to be seen by pictures of others
  * @param {number} [among.dot] radius of a dot
+ * @param {boolean} [among.crowd] whether each stands for many others, wherever it lies
  * @returns {Spread} shapes that come first come first to a picture
  */
-export function spread(x, y, size, { frame = null, first = 0, groups = null, dot = 0 } = {}) {
-  const pictured = chosen(x, y, size, first);
+export function spread(x, y, size, { frame = null, first = 0, groups = null, dot = 0, crowd = false } = {}) {
+  const pictured = chosen(x, y, size, first, crowd);
   for (let round = 1; ; round += 1) {
     /** @type {number[][]} */
     const [rows, dots] = [[], []];
@@ -132,8 +133,9 @@ export function thinned(x, y, size, distance) {
  * @param {ArrayLike<number>} y
  * @param {number} size
  * @param {number} first so many have one in any case
+ * @param {boolean} everywhere whether all is a crowd
  */
-function chosen(x, y, size, first) {
+function chosen(x, y, size, first, everywhere) {
   const reach = AROUND * size;
   const room = FULLEST * 4 * AROUND ** 2 - 1;
   const all = new Cells(x, y, reach);
@@ -141,7 +143,7 @@ function chosen(x, y, size, first) {
   taken.clear();
   const pictured = new Uint8Array(x.length);
   for (let row = 0; row < x.length; row += 1) {
-    const crowd = all.count(x[row], y[row], reach, CROWD * room) > CROWD * room;
+    const crowd = everywhere || all.count(x[row], y[row], reach, CROWD * room) > CROWD * room;
     if (
       row >= first &&
       (crowd ? taken.any(x[row], y[row], APART * size) : taken.count(x[row], y[row], reach, room) > room)
