@@ -59,3 +59,10 @@ def unpack(kind: str, packed: bytes) -> Any:
             holder = holder[key]
         holder[place["way"][-1]] = np.frombuffer(arrays, "<" + place["type"], place["length"], place["start"])
     return head["value"]
+
+
+def texts_of(held: Mapping[str, np.ndarray]) -> list[str]:
+    """Very many texts as `texts_chunk` of pages/base.py holds them, each with a byte that ends its line behind it."""
+    content = held["bytes"].tobytes()
+    ends = np.cumsum(held["lengths"] + 1) - 1
+    return [content[end - length : end].decode() for end, length in zip(ends, held["lengths"], strict=True)]

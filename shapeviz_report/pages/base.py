@@ -16,7 +16,7 @@ from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.global_descriptors import GlobalDescriptor
 from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
 from shapeviz_report.order import classes_of
-from shapeviz_report.pages.chunks import Chunks, Clusters, FeatureMarks, ThemeName
+from shapeviz_report.pages.chunks import Chunks, Clusters, FeatureMarks, Texts, ThemeName
 from shapeviz_report.projections.registry import ALL_PROJECTIONS
 from shapeviz_report.quality import hit_range
 from shapeviz_report.search.certainty import measure_distinct_gain
@@ -295,6 +295,16 @@ def share_steps(shares: npt.NDArray[np.floating]) -> npt.NDArray[np.uint16]:
     return np.where(np.isnan(shares), NO_SHARE, np.round(np.nan_to_num(shares) * SHARE_STEPS)).astype(
         np.uint16
     )
+
+
+def texts_chunk(texts: Sequence[str]) -> Texts:
+    """Very many texts for a chunk: as a list, each would be an object that the browser makes and keeps."""
+    # Halves of letters, which stand for bytes in names of files that are no text, have no UTF-8.
+    whole = [text.encode("utf-16", "surrogatepass").decode("utf-16", "replace").encode() for text in texts]
+    return {
+        "bytes": np.frombuffer(b"\n".join(whole), np.uint8),
+        "lengths": np.array([len(text) for text in whole], np.uint32),
+    }
 
 
 def rounded(values: FloatArray, decimals: int) -> list[float | None]:

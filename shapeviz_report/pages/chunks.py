@@ -17,20 +17,27 @@ from shapeviz_report.charts import ThemeName
 Spec = dict[str, Any]
 
 
+class Texts(TypedDict):
+    """As many texts as there are shapes, in UTF-8 with a line each, and how many bytes each has."""
+
+    bytes: npt.NDArray[np.uint8]
+    lengths: npt.NDArray[np.uint32]
+
+
 class ShapeList(TypedDict):
     """The shapes, one list a fact.
 
     Attributes
     ----------
-    ids, names : list of str
+    ids, names : Texts
     groups : (n,) int32 array
         The numbers of classes, -1 without one.
     pictures : list of str, or None
         The files below ``thumbnails``; None where there are too many shapes for files.
     """
 
-    ids: list[str]
-    names: list[str]
+    ids: Texts
+    names: Texts
     groups: npt.NDArray[np.int32]
     pictures: list[str] | None
 
@@ -858,7 +865,7 @@ class Chunks(TypedDict, total=False):
         Empty where every shape has a picture of its own.
     best : BestMap
         Where the search laid out a sample.
-    texts : list of str
+    texts : Texts
         What a search finds a shape by beside its id, name and class: labels and metadata.
     scores : bytes
         The score of every scorer, class and column in 65,535 steps; uint16.
@@ -874,7 +881,7 @@ class Chunks(TypedDict, total=False):
     trust: dict[str, Trust]
     sheets: Sheets
     best: BestMap
-    texts: list[str]
+    texts: Texts
     clusters: Clusters | None
     fields: Fields
     hierarchy: Hierarchy

@@ -21,6 +21,7 @@ from shapeviz_report.pages.base import (
     search_of,
     share_steps,
     stand_in,
+    texts_chunk,
 )
 from shapeviz_report.pages.chunks import (
     Chunks,
@@ -113,7 +114,7 @@ class OverviewPage:
                 "marks": _marks(len(classes)),
             },
             "trust": {key: _trust(report.faithfulness.get(key)) for key in report.projections},
-            "texts": [_text(report, row) for row in range(len(report.shapes))],
+            "texts": texts_chunk([_text(report, row) for row in range(len(report.shapes))]),
             "sheets": _sheets(report),
             "clusters": clusters_chunk(report),
         }
@@ -149,8 +150,8 @@ def thumbnail_name(thumbnail: bytes) -> str:
 
 def _shapes(report: Report) -> ShapeList:
     return {
-        "ids": [shape.id for shape in report.shapes],
-        "names": [shape.name for shape in report.shapes],
+        "ids": texts_chunk([shape.id for shape in report.shapes]),
+        "names": texts_chunk([shape.name for shape in report.shapes]),
         "groups": class_codes(report),
         "pictures": [thumbnail_name(thumbnail) for thumbnail in report.thumbnails]
         if is_in_full(report)

@@ -1,10 +1,15 @@
 // Made of shapeviz_report/pages/chunks.py by `make chunks`. Only the type checker reads this file.
 
 declare namespace Chunk {
+  /** As many texts as there are shapes, in UTF-8 with a line each, and how many bytes each has. */
+  interface Texts {
+    bytes: Uint8Array;
+    lengths: Uint32Array;
+  }
   /** The shapes, one list a fact. */
   interface ShapeList {
-    ids: string[];
-    names: string[];
+    ids: Texts;
+    names: Texts;
     groups: Int32Array;
     pictures: string[] | null;
   }
@@ -561,7 +566,7 @@ declare namespace Chunk {
     trust: Record<string, Trust>;
     sheets: Sheets;
     best: BestMap;
-    texts: string[];
+    texts: Texts;
     clusters: Clusters | null;
     fields: Fields;
     hierarchy: Hierarchy;

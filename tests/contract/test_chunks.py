@@ -92,7 +92,7 @@ def test_what_is_missing_from_a_report_is_missing_by_type(page, classes):
         (lambda held: held["shapes"].pop("ids"), "overview.shapes.ids is missing"),
         (lambda held: held.update(title="Ants"), "overview.title is not declared"),
         (lambda held: held["shapes"].update(groups=[0]), "overview.shapes.groups is no array of int32"),
-        (lambda held: held["shapes"]["ids"].append(None), "is None, no str"),
+        (lambda held: held["classes"].append(None), "is None, no str"),
         (lambda held: held["marks"]["themes"].update(blue=None), "overview.marks.themes 'blue' is 'blue'"),
         (lambda held: held["methods"][0].update(hitOfAll="0.5"), "overview.methods[0].hitOfAll is '0.5'"),
     ],

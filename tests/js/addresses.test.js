@@ -13,6 +13,7 @@ import { galleryAddress } from "../../site/scripts/addresses/shapes.js";
 import { workAddress } from "../../site/scripts/addresses/workbench.js";
 import { commonTo } from "../../site/scripts/base/address.js";
 import { missingWords } from "../../site/scripts/base/missing.js";
+import { textsOf } from "./texts.js";
 
 const FEATURES = [
   { name: "Gc", start: 0, dimensions: 1, bins: 10 },
@@ -76,7 +77,7 @@ const IDS = ["ant/1", "ant/2", "bee/1", "cup & plate/1", "lost"];
 const CLASSES = ["ant", "bee", "cup & plate"];
 
 const database = {
-  ids: IDS,
+  ids: textsOf(...IDS),
   count: IDS.length,
   indexOfId: new Map(IDS.map((id, index) => [id, index])),
   classes: CLASSES,

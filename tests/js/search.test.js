@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { findWords, holding, lineOf, plain, searchable } from "../../site/scripts/database/search.js";
+import { linesOf } from "../../site/scripts/database/texts.js";
 
 /** The slow way. */
 function expected(texts, query) {
@@ -13,7 +14,7 @@ function expected(texts, query) {
 }
 
 /** Texts as they are searched. */
-const among = (...all) => all.map((texts) => searchable(texts.length, (line) => texts[line]));
+const among = (...all) => all.map((texts) => searchable(linesOf(texts), texts.length));
 
 const TEXTS = [
   "cups/1 Münze aus Gold",
@@ -64,8 +65,16 @@ test("words may stand in texts beside each other", () => {
   assert.deepEqual(findWords(among(names, classes), "leaf vase"), []);
 });
 
+test("what many shapes share is searched once for all of them", () => {
+  const [names] = among(["cup", "vase", "cup of gold"]);
+  const classes = { ...among(["gold", "clay"])[0], of: Int32Array.of(1, 0, -1) };
+  assert.deepEqual(findWords([names, classes], "gold"), [1, 2]);
+  assert.deepEqual(findWords([names, classes], "cup clay"), [0]);
+  assert.deepEqual(findWords([names, classes], ""), [0, 1, 2]);
+});
+
 test("lines are the texts", () => {
-  const searched = searchable(TEXTS.length, (line) => TEXTS[line]);
+  const searched = searchable(linesOf(TEXTS), TEXTS.length);
   assert.deepEqual(
     TEXTS.map((_, line) => lineOf(searched, line)),
     TEXTS.map((text) => plain(text.replaceAll("\n", " "))),

@@ -108,7 +108,7 @@ function shapeOrEnd(database) {
     },
     write(query, shape) {
       if (ENDS.includes(shape)) query.set("shape", shape);
-      else query.set("id", database.ids[shape]);
+      else query.set("id", database.ids.at(shape));
     },
   };
 }

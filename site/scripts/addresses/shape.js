@@ -99,7 +99,7 @@ export function shapeAddress(database, state, shape) {
  * @param {number} beside
  */
 export function besideAddress(database, shape, beside) {
-  return pageAddress("shape.html", { id: database.ids[shape], beside: database.ids[beside] });
+  return pageAddress("shape.html", { id: database.ids.at(shape), beside: database.ids.at(beside) });
 }
 
 /**
@@ -126,11 +126,12 @@ function shapeOrUnknown(database) {
   return {
     read(query) {
       const id = query.get("id") || null;
-      const shape = database.indexOfId.get(id ?? "") ?? null;
+      const found = database.ids.indexOf(id ?? "");
+      const shape = found < 0 ? null : found;
       return { shape, unknown: shape === null ? id : null };
     },
     write(query, { shape, unknown }) {
-      const id = shape === null ? unknown : database.ids[shape];
+      const id = shape === null ? unknown : database.ids.at(shape);
       if (id !== null) query.set("id", id);
     },
   };

@@ -171,21 +171,18 @@ export function within(least, most) {
 
 /**
  * The place of a name among others, from 0.
- * @param {string[]} names
+ * @param {{ indexOf(name: string): number, at(place: number): string | undefined }} names
  * @param {string} noun what each of them is
  * @returns {Kind}
  */
 export function named(names, noun) {
-  // Most addresses name none of them, which may be very many.
-  /** @type {Map<string, number> | undefined} */
-  let places;
   /** @param {string} word */
   const placeOf = (word) => {
-    places ??= new Map(names.map((name, place) => [name, place]));
-    return places.get(word);
+    const place = names.indexOf(word);
+    return place < 0 ? undefined : place;
   };
   return {
     read: (words, miss) => lookUp(words, placeOf, noun, miss)[0],
-    write: (place) => [names[place]],
+    write: (place) => [/** @type {string} */ (names.at(place))],
   };
 }

@@ -227,7 +227,7 @@ export class Look {
           type: "button",
           class: "painting",
           "data-shape": shape,
-          title: `${database.names[shape]}: show in the 3D view`,
+          title: `${database.names.at(shape)}: show in the 3D view`,
           onclick: () => this.state.set({ shape }),
         },
         element("span", { class: "whose" }, shapeLine(database, bins, column, shape, share)),
@@ -240,7 +240,7 @@ export class Look {
             { class: "reading" },
             element("img", {
               src: resource(address),
-              alt: `${database.names[shape]}, ${alt}`,
+              alt: `${database.names.at(shape)}, ${alt}`,
               width: 320,
               height: 320,
               decoding: "async",
@@ -281,7 +281,7 @@ export function shapeLine(database, bins, column, shape, share) {
   const group = database.groups[shape];
   return [
     database.labelled && swatch(database.symbol(group), database.color(group)),
-    element("bdi", {}, database.labelled ? database.className(group) : database.names[shape]),
+    element("bdi", {}, database.labelled ? database.className(group) : database.names.at(shape)),
     !Number.isNaN(share) &&
       element("span", { class: "quiet" }, `${bins.telling(column)(share)}${bins.isShare(column) ? " in the bin" : ""}`),
   ].filter(Boolean);

@@ -17,7 +17,7 @@ export const UNPAINTED = "A value of the whole shape: it lies on no part of the 
  * @returns {Showing}
  */
 export function showingBin(shape, column, { database, bins, paint, inside }) {
-  const label = `${database.names[shape]} in 3D`;
+  const label = `${database.names.at(shape)} in 3D`;
   const dimension = bins.dimensionOf(column);
   if (dimension === null) return { label, paint: (solid) => paint.plain(solid) };
   return inside

@@ -121,7 +121,7 @@ export class Stage {
       solid = await this.#solid(shape);
     } catch {
       if (latest === this.latest)
-        this.#say(shape, `There is no 3D data of ${this.database.names[shape]} in this site.`);
+        this.#say(shape, `There is no 3D data of ${this.database.names.at(shape)} in this site.`);
       return false;
     }
     const colors = await paint(solid);

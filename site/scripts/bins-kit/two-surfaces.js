@@ -66,7 +66,7 @@ export class TwoSurfaces {
         // Who asks where two shapes differ asks for their surfaces.
         stage.asked = true;
         return stage.show(pair[side], {
-          label: `${database.names[pair[side]]} in 3D, coloured where it differs from ${database.names[pair[1 - side]]}`,
+          label: `${database.names.at(pair[side])} in 3D, coloured where it differs from ${database.names.at(pair[1 - side])}`,
           paint: (solid) => (found ? paint.density(solid, found.densities[side], found.strongest) : paint.plain(solid)),
         });
       }),

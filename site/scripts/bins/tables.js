@@ -102,7 +102,7 @@ export function binsTables(database, bins, selection, state, card) {
         `The shapes with the most of ${bins.names[bin]}${bins.sample ? `, of ${grouped(bins.rows)} of ${count(database.count, "shape")}` : ""}`,
         ["Shape", capitalised(kind(database)), "Value"],
         most(bins, bin).map((index) => [
-          database.ids[index],
+          database.ids.at(index),
           database.className(database.groups[index]),
           told(bins.share(bin, index)),
         ]),

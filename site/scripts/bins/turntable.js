@@ -106,8 +106,12 @@ export class Turntable {
     const bin = state.get("bin");
     const page = element(
       "a",
-      { class: "which", href: pageAddress("shape.html", { id: database.ids[shape] }), title: "All about this shape" },
-      element("bdi", {}, database.labelled ? database.names[shape] : "its page"),
+      {
+        class: "which",
+        href: pageAddress("shape.html", { id: database.ids.at(shape) }),
+        title: "All about this shape",
+      },
+      element("bdi", {}, database.labelled ? database.names.at(shape) : "its page"),
     );
     /** @param {number} share */
     const tell = (share) => this.name.replaceChildren(...shapeLine(database, bins, bin, shape, share), page);
@@ -130,7 +134,7 @@ export class Turntable {
     document.getElementById("readings").hidden = !bins.isShare(bin);
     const inside = state.get("reading") === "inside";
     const shown = await this.stage.show(shape, showingBin(shape, bin, { database, bins, paint: this.paint, inside }));
-    if (shown) this.announce(`${database.names[shape]}, ${bins.names[bin]}`);
+    if (shown) this.announce(`${database.names.at(shape)}, ${bins.names[bin]}`);
   }
 
   #watchReadings() {

@@ -150,7 +150,7 @@ export function nameOf(spec, database, among = null) {
  */
 function selectionName(shapes, database) {
   const [first] = shapes;
-  if (shapes.size === 1) return shortened(database.names[first], LONGEST);
+  if (shapes.size === 1) return shortened(database.names.at(first), LONGEST);
   const [[group], ...others] = database.census(shapes);
   return group < 0 || others.length > 0
     ? count(shapes.size, "shape")

@@ -337,9 +337,9 @@ export class Matrix {
     return element(
       "a",
       {
-        href: pageAddress("shape.html", { id: database.ids[index] }),
-        title: database.names[index],
-        "aria-label": database.names[index],
+        href: pageAddress("shape.html", { id: database.ids.at(index) }),
+        title: database.names.at(index),
+        "aria-label": database.names.at(index),
       },
       picture(database, index, 64),
     );

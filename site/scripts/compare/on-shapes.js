@@ -106,7 +106,7 @@ export class OnShapes {
     const { view, database, chosen, state } = this;
     if (view === null) return "";
     const { bins, bin } = view;
-    const pair = SIDES.map((side) => database.names[chosen[side]]).join(" and ");
+    const pair = SIDES.map((side) => database.names.at(chosen[side])).join(" and ");
     const { title } = bins.features[bins.featureOf(bin)];
     const called = `${bins.names[bin]}${bins.called[bin] ? ` (${bins.called[bin]})` : ""}`;
     if (state.get("reading") === "apart")
@@ -230,8 +230,8 @@ export class OnShapes {
           {},
           element(
             "a",
-            { href: pageAddress("shape.html", { id: database.ids[shape] }) },
-            element("bdi", {}, database.names[shape]),
+            { href: pageAddress("shape.html", { id: database.ids.at(shape) }) },
+            element("bdi", {}, database.names.at(shape)),
           ),
           " ",
           element("span", { class: "quiet" }, told(shape)),
@@ -245,8 +245,8 @@ export class OnShapes {
             type: "button",
             class: "example",
             "aria-pressed": String(index === shape),
-            "aria-label": [database.names[index], told(index)].filter(Boolean).join(", "),
-            title: database.names[index],
+            "aria-label": [database.names.at(index), told(index)].filter(Boolean).join(", "),
+            title: database.names.at(index),
             onclick: () => {
               this.chosen[side] = index;
               this.draw();
@@ -285,7 +285,7 @@ export class OnShapes {
           ? picture(this.database, shape, 320)
           : element("img", {
               src: resource(inside ? painting.inside : painting.value),
-              alt: `${this.database.names[shape]}, ${inside ? "what falls into the bin" : "its values in colours"}`,
+              alt: `${this.database.names.at(shape)}, ${inside ? "what falls into the bin" : "its values in colours"}`,
               width: 320,
               height: 320,
             }),

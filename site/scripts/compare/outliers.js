@@ -164,8 +164,8 @@ export class Outliers {
         "a",
         {
           class: "face",
-          href: pageAddress("shape.html", { id: database.ids[index] }),
-          "aria-label": database.names[index],
+          href: pageAddress("shape.html", { id: database.ids.at(index) }),
+          "aria-label": database.names.at(index),
         },
         picture(database, index, 128),
       ),
@@ -177,8 +177,8 @@ export class Outliers {
           { class: "name" },
           element(
             "a",
-            { href: pageAddress("shape.html", { id: database.ids[index] }) },
-            element("bdi", {}, database.names[index]),
+            { href: pageAddress("shape.html", { id: database.ids.at(index) }) },
+            element("bdi", {}, database.names.at(index)),
           ),
           " ",
           name(database, own),
@@ -214,9 +214,9 @@ export class Outliers {
             element(
               "a",
               {
-                href: pageAddress("shape.html", { id: database.ids[other] }),
-                title: `${database.names[other]}, ${database.className(database.groups[other])}`,
-                "aria-label": `${database.names[other]}, ${database.className(database.groups[other])}`,
+                href: pageAddress("shape.html", { id: database.ids.at(other) }),
+                title: `${database.names.at(other)}, ${database.className(database.groups[other])}`,
+                "aria-label": `${database.names.at(other)}, ${database.className(database.groups[other])}`,
               },
               picture(database, other, 56),
               element("i", {}, swatch(database.symbol(database.groups[other]), database.color(database.groups[other]))),

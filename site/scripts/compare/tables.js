@@ -110,7 +110,7 @@ function ofOutliers(database, data, outliers) {
         ...database.methods.flatMap(({ title }) => [`NH on ${title}`, "at most"]),
       ],
       ranked.map((index) => [
-        database.names[index],
+        database.names.at(index),
         database.className(database.groups[index]),
         signed(data.fit[index]),
         database.className(data.rival[index]),

@@ -5,6 +5,7 @@ import { picturesOf } from "../base/pictures.js";
 import { reachOf } from "./hit-range.js";
 import { sharesOf } from "./shares.js";
 import { Sheets } from "./sheets.js";
+import { textsOf } from "./texts.js";
 
 /** @import { Theme } from "../base/theme.js" */
 /** @import { Choice } from "./similarity.js" */
@@ -47,9 +48,9 @@ export class Database {
   constructor(data, theme) {
     this.data = data;
     this.theme = theme;
-    this.count = data.shapes.ids.length;
-    this.ids = data.shapes.ids;
-    this.names = data.shapes.names;
+    this.count = data.shapes.groups.length;
+    this.ids = textsOf(data.shapes.ids);
+    this.names = textsOf(data.shapes.names);
     this.groups = data.shapes.groups;
     this.classes = data.classes;
     this.pictures = picturesOf(data);
@@ -105,9 +106,9 @@ export class Database {
   /** @type {Map<string, number> | undefined} */
   #indexOfId;
 
-  /** Most pages are opened without the name of a shape. */
+  /** For who looks for very many. */
   get indexOfId() {
-    this.#indexOfId ??= new Map(this.ids.map((id, index) => [id, index]));
+    this.#indexOfId ??= new Map(Array.from(this.ids, (id, index) => [id, index]));
     return this.#indexOfId;
   }
 
@@ -203,7 +204,7 @@ export class Database {
 
   /** One row a shape, as the map charts want them. */
   rows() {
-    return this.ids.map((_, index) => ({
+    return Array.from({ length: this.count }, (_, index) => ({
       index,
       group: this.groups[index],
       x: this.methods.map((method) => method.x[index]),

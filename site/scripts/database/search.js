@@ -2,12 +2,14 @@
 
 import { chunk } from "../base/chunks.js";
 import { entry } from "../base/entry.js";
+import { linesOf, textsOf } from "./texts.js";
 
 /** @import { Database } from "./database.js" */
 
 /**
- * Texts to be searched, one a line, and where each line starts; the last start is where a further one would.
- * @typedef {{ text: string, starts: Int32Array }} Searchable
+ * Texts to be searched, one a line, and where each line starts; the last start is where a further one would. Each is of one
+ * shape, or `of` says which of them a shape has, -1 where it has none.
+ * @typedef {{ text: string, starts: Int32Array, of?: Int32Array }} Searchable
  */
 
 /** @type {WeakMap<Database, Searchable[]>} */
@@ -17,14 +19,15 @@ const atHand = new WeakMap();
 const known = new WeakMap();
 
 /**
- * What of the shapes is searched without waiting: their names; their ids and classes.
+ * What of the shapes is searched without waiting: their names, their ids, and their classes.
  * @param {Database} database
  */
 export function textsAtHand(database) {
   const { count, ids, names, groups, classes } = database;
   return entry(atHand, database, () => [
-    searchable(count, (index) => names[index]),
-    searchable(count, (index) => `${ids[index]} ${classes[groups[index]] ?? ""}`),
+    searchable(names.lines(), count),
+    searchable(ids.lines(), count),
+    { ...searchable(linesOf(classes), classes.length), of: groups },
   ]);
 }
 
@@ -34,29 +37,19 @@ export function textsAtHand(database) {
  */
 export function searchTexts(database) {
   return entry(known, database, async () => {
-    const more = await chunk("texts");
-    return [...textsAtHand(database), searchable(database.count, (index) => more[index] ?? "")];
+    const more = textsOf(await chunk("texts"));
+    return [...textsAtHand(database), searchable(more.lines(), database.count)];
   });
 }
 
-/** Lines that are made at a time: all at once they would take as much memory again. */
-const AT_ONCE = 1000;
-
 /**
  * Texts in one: going through it is far quicker than from text to text.
- * @param {number} count
- * @param {(index: number) => string} textOf
+ * @param {string} lines
+ * @param {number} count of them
  * @returns {Searchable}
  */
-export function searchable(count, textOf) {
-  const pieces = [];
-  for (let start = 0; start < count; start += AT_ONCE) {
-    const lines = [];
-    for (let index = start; index < Math.min(start + AT_ONCE, count); index += 1)
-      lines.push(textOf(index).replaceAll("\n", " "));
-    pieces.push(plain(lines.join("\n")));
-  }
-  const text = pieces.join("\n");
+export function searchable(lines, count) {
+  const text = plain(lines);
   const starts = new Int32Array(count + 1);
   for (let line = 1; line < count; line += 1) starts[line] = text.indexOf("\n", starts[line - 1]) + 1;
   starts[count] = text.length + 1;
@@ -73,8 +66,8 @@ export function lineOf({ text, starts }, line) {
 }
 
 /**
- * The numbers of the lines that hold all words of a query in one text or another, parts of words included.
- * @param {Searchable[]} searched texts of as many lines
+ * The numbers of the shapes that have all words of a query in one text or another, parts of words included.
+ * @param {Searchable[]} searched the first of which has a line a shape
  * @param {string} query
  */
 export function findWords(searched, query) {
@@ -82,18 +75,31 @@ export function findWords(searched, query) {
   const count = searched[0].starts.length - 1;
   const held = new Uint16Array(count);
   for (const [place, word] of words.entries())
-    for (const { text, starts } of searched) {
-      let line = 0;
-      for (let at = text.indexOf(word); at >= 0 && line < count; at = text.indexOf(word, starts[line])) {
-        line = lineAt(starts, at, line);
-        if (held[line] === place) held[line] += 1;
-        line += 1;
-      }
+    for (const one of searched) {
+      const lines = linesWith(one, word);
+      for (let index = 0; index < count; index += 1)
+        if (held[index] === place && lines[one.of ? one.of[index] : index]) held[index] += 1;
     }
   /** @type {number[]} */
   const found = [];
-  for (let line = 0; line < count; line += 1) if (held[line] === words.length) found.push(line);
+  for (let index = 0; index < count; index += 1) if (held[index] === words.length) found.push(index);
   return found;
+}
+
+/**
+ * 1 for every line that holds a word.
+ * @param {Searchable} searched
+ * @param {string} word
+ */
+function linesWith({ text, starts }, word) {
+  const lines = new Uint8Array(starts.length - 1);
+  let line = 0;
+  for (let at = text.indexOf(word); at >= 0 && line < lines.length; at = text.indexOf(word, starts[line])) {
+    line = lineAt(starts, at, line);
+    lines[line] = 1;
+    line += 1;
+  }
+  return lines;
 }
 
 /**

@@ -38,7 +38,7 @@ export function writeSelection(query, database, selection) {
   if (selection.size === 0) return;
   // In the order of the database: the same shapes are the same address.
   if (selection.size <= MOST_NAMED)
-    for (const index of [...selection].sort((a, b) => a - b)) query.append("select", database.ids[index]);
+    for (const index of [...selection].sort((a, b) => a - b)) query.append("select", database.ids.at(index));
   else query.set("selected", `${mark(database)}.${packed(database, selection)}`);
 }
 
@@ -125,29 +125,19 @@ const marks = new WeakMap();
  * @param {Database} database
  */
 export function mark(database) {
-  return entry(marks, database, () => hashed(database.ids));
+  return entry(marks, database, () => hashed(`${database.ids.lines()}\n`));
 }
 
-/** What ends an id. */
-const LINE = 10;
-
 /**
- * FNV-1a of all ids.
- * @param {string[]} ids
+ * FNV-1a of a text.
+ * @param {string} text
  */
-function hashed(ids) {
+function hashed(text) {
   let hash = 0x811c9dc5;
-  /** @param {number} letter */
-  const add = (letter) => {
+  for (let place = 0; place < text.length; place += 1) {
+    const letter = /** @type {number} */ (text.codePointAt(place));
+    if (letter > 0xffff) place += 1;
     hash = Math.imul(hash ^ letter, 0x01000193);
-  };
-  for (const id of ids) {
-    for (let place = 0; place < id.length; place += 1) {
-      const letter = /** @type {number} */ (id.codePointAt(place));
-      if (letter > 0xffff) place += 1;
-      add(letter);
-    }
-    add(LINE);
   }
   return (hash >>> 0).toString(36);
 }

@@ -37,7 +37,7 @@ export function findShapes(database, choose, { field, list } = { field: "shape-s
     label: (index) =>
       [
         picture(database, index, PICTURE),
-        element("bdi", {}, database.names[index]),
+        element("bdi", {}, database.names.at(index)),
         database.labelled &&
           element(
             "span",

@@ -78,7 +78,7 @@ export class ChosenMap {
     watchLines(state);
     this.gestures = new Gestures(this.view, {
       open: (shape) => this.toggle(shape),
-      announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
+      announce: (index) => announce(`${database.names.at(index)}, ${database.className(database.groups[index])}`),
     });
     watchMapKeys(this.view.surface, state, this.gestures);
     this.colors = chosenColors(database, state);

@@ -65,7 +65,7 @@ export class Card {
       element(
         "div",
         {},
-        element("p", { class: "name", dir: "auto" }, shortened(database.names[index], 48)),
+        element("p", { class: "name", dir: "auto" }, shortened(database.names.at(index), 48)),
         database.labelled && classLine(database, group),
         coloring &&
           element("p", {}, `${coloring.title}: `, element("b", { dir: "auto" }, shortened(coloring.textOf(index), 60))),

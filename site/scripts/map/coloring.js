@@ -118,7 +118,7 @@ export function trustColoring(database, kind, current) {
     kind === "kept" ? 1 : known.reduce((most, share) => Math.max(/** @type {number} */ (most), share ?? 0), LEAST_END);
   /** @param {number} share */
   const textOf = (share) => percent(share);
-  const nothing = database.ids.map(() => null);
+  const nothing = new Array(database.count).fill(null);
   const options = { range: /** @type {[number, number]} */ ([0, /** @type {number} */ (end)]), open: kind !== "kept" };
   /** @type {WeakMap<object, Coloring>} */
   const made = new WeakMap();
@@ -308,7 +308,7 @@ const TOGETHER = 0.5;
  * @param {number} method
  */
 export function placedGroups({ groupOf }, database, method) {
-  const groups = database.ids.map((_, index) => groupOf(index));
+  const groups = Array.from(database.ids.keys(), groupOf);
   const stride = Math.ceil(groups.length / ASKED);
   /** @type {Map<number, { near: number, own: number }>} */
   const found = new Map();

@@ -65,7 +65,7 @@ export class Pointing {
         element(
           "div",
           {},
-          element("p", { class: "name", dir: "auto" }, database.names[index]),
+          element("p", { class: "name", dir: "auto" }, database.names.at(index)),
           database.labelled &&
             element(
               "p",

@@ -23,9 +23,9 @@ export function mapTables(database, state, coloring = null) {
   const method = database.methods[state.get("method")];
   const selection = state.get("selection");
   const hidden = state.get("hidden");
-  const shown = database.ids
-    .map((_, index) => index)
-    .filter((index) => !hidden.has(database.groups[index]) && (selection.size === 0 || selection.has(index)));
+  const shown = [...database.ids.keys()].filter(
+    (index) => !hidden.has(database.groups[index]) && (selection.size === 0 || selection.has(index)),
+  );
   const groups = database.classes.map((_, group) => group);
   groups.sort((a, b) => (method.hitOfClass[b] ?? -1) - (method.hitOfClass[a] ?? -1) || a - b);
   const tables = [
@@ -68,7 +68,7 @@ export function shapesTable(title, database, method, indices, coloring = null) {
     indices
       .slice(0, MOST_ROWS)
       .map((index) => [
-        database.ids[index],
+        database.ids.at(index),
         database.className(database.groups[index]),
         ...(coloring ? [coloring.textOf(index)] : []),
         figure(method.hit[index]),

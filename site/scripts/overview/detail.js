@@ -62,14 +62,14 @@ export class Detail {
       element(
         "div",
         { class: "detail-head" },
-        element("h2", { dir: "auto" }, database.names[index]),
+        element("h2", { dir: "auto" }, database.names.at(index)),
         element(
           "button",
           { type: "button", class: "plain", "aria-label": "Close", onclick: () => this.state.set({ opened: null }) },
           "Close",
         ),
       ),
-      element("div", { class: "portrait" }, picture(database, index, 256, database.names[index])),
+      element("div", { class: "portrait" }, picture(database, index, 256, database.names.at(index))),
       element(
         "p",
         {},
@@ -79,7 +79,7 @@ export class Detail {
       ...this.#neighbours(index, method),
       others.length > 0 && facts("Other labels", others),
       known.metadata.length > 0 && facts("From the database", known.metadata),
-      facts("Mesh", [["id", database.ids[index]], ...surfaceFacts(known), ...meshFacts(known)]),
+      facts("Mesh", [["id", database.ids.at(index)], ...surfaceFacts(known), ...meshFacts(known)]),
       known.repairs.length > 0 &&
         facts(
           "Repairs",
@@ -95,7 +95,7 @@ export class Detail {
   #pageQuery(index) {
     const { ids, methods } = this.database;
     const { base } = methods[this.state.get("method")];
-    return { id: ids[index], ...(base > 0 && { map: methods[base].key }) };
+    return { id: ids.at(index), ...(base > 0 && { map: methods[base].key }) };
   }
 
   /**
@@ -159,8 +159,8 @@ export class Detail {
               database.groups[other] === database.groups[index] || database.groups[index] < 0
                 ? "shape"
                 : "shape stranger",
-            "aria-label": `Open ${database.names[other]}, ${database.className(database.groups[other])}`,
-            title: `${database.names[other]}\n${database.className(database.groups[other])}`,
+            "aria-label": `Open ${database.names.at(other)}, ${database.className(database.groups[other])}`,
+            title: `${database.names.at(other)}\n${database.className(database.groups[other])}`,
             onclick: () => this.state.set({ opened: other }),
             onpointerenter: () => this.point(other),
             onpointerleave: () => this.point(null),

@@ -136,7 +136,7 @@ export class OverviewMaps {
     const { database, state, announce } = this;
     const gestures = new Gestures(view, {
       open: (opened) => state.set({ opened }),
-      announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
+      announce: (index) => announce(`${database.names.at(index)}, ${database.className(database.groups[index])}`),
     });
     this.gestures.set(view, gestures);
     watchSize([view.surface], () => {

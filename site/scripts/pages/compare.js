@@ -45,7 +45,7 @@ async function main() {
   const matrix = new Matrix(database, data, neighbours, state, { announce });
   new Tabs(state);
   /** @param {number} index */
-  const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
+  const open = (index) => follow(pageAddress("shape.html", { id: database.ids.at(index) }));
   new Tray(database, state, { open, take: (side, group) => groups.chooser.choose(side, group) });
   carryView(written);
   outliers.render();

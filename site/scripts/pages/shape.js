@@ -45,7 +45,7 @@ async function main() {
   const told = Promise.all(views.map((view) => view.render()));
   state.listen((changed) => {
     if (!changed.has("shape")) return;
-    announce(state.get("shape") === null ? "No such shape" : database.names[state.get("shape")]);
+    announce(state.get("shape") === null ? "No such shape" : database.names.at(state.get("shape")));
     // The browser's own way back also finds the place on the page again.
     if (opened) {
       window.scrollTo(0, 0);

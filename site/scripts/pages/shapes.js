@@ -23,7 +23,7 @@ async function main() {
   });
   const gallery = new Gallery(database, fields, state, announce);
   /** @param {number} index */
-  const open = (index) => follow(pageAddress("shape.html", { id: database.ids[index] }));
+  const open = (index) => follow(pageAddress("shape.html", { id: database.ids.at(index) }));
   new Tray(database, state, { open });
   carryView(written);
   watchTables(() => galleryTables(database, fields, gallery.sieve, gallery.grid.groups));

@@ -54,7 +54,7 @@ export class Facts {
      * @param {number} place
      */
     const named = (name, place) =>
-      shapes ? this.links.link(shapes[place], { title: this.database.ids[shapes[place]] }, name) : name;
+      shapes ? this.links.link(shapes[place], { title: this.database.ids.at(shapes[place]) }, name) : name;
     return element(
       "section",
       {},
@@ -74,7 +74,7 @@ export class Facts {
 
   /** @param {string} file */
   #download(file) {
-    const name = this.database.ids[this.state.get("shape") ?? 0].replaceAll("/", "-");
+    const name = this.database.ids.at(this.state.get("shape") ?? 0).replaceAll("/", "-");
     return element("a", { href: `gltf/${file}`, download: `${name}.glb` }, "Download the surface (glTF)");
   }
 }
@@ -103,7 +103,7 @@ function factGroups(database, shape, known, clusters) {
     { title: "Licence and source", rows: rights },
     {
       title: "The same shape as",
-      rows: known.copies.map(([other, evidence]) => [database.names[other], evidence]),
+      rows: known.copies.map(([other, evidence]) => [database.names.at(other), evidence]),
       shapes: known.copies.map(([other]) => other),
     },
     { title: labels.length > 1 ? "Labels" : "", rows: labels.length > 1 ? labels : [] },
@@ -111,7 +111,7 @@ function factGroups(database, shape, known, clusters) {
     {
       title: "Shape",
       rows: [
-        ["id", database.ids[shape]],
+        ["id", database.ids.at(shape)],
         ["size", `${wide} × ${high} × ${deep}`],
         ["area", measured(known.area)],
         ["volume", known.volume === null && !known.watertight ? "– (it is not closed)" : measured(known.volume)],

@@ -32,7 +32,7 @@ export class Heading {
   render() {
     const { database, state } = this;
     const shape = state.get("shape");
-    const name = shape === null ? "No such shape" : database.names[shape];
+    const name = shape === null ? "No such shape" : database.names.at(shape);
     document.title = `${name} · ${this.site}`;
     document.getElementById("name").textContent = name;
     document
@@ -65,7 +65,7 @@ export class Heading {
     const query = new URLSearchParams();
     writeSelection(query, this.database, this.state.get("selection"));
     const shape = this.state.get("shape");
-    if (shape !== null) query.set("at", this.database.ids[shape]);
+    if (shape !== null) query.set("at", this.database.ids.at(shape));
     return pageAddress("shapes.html", query);
   }
 

@@ -44,7 +44,7 @@ export class Histograms {
     this.section = document.getElementById("histograms");
     this.grid = document.getElementById("histogram-grid");
     toldAs(this.section, () => {
-      const name = database.names[state.get("shape") ?? 0];
+      const name = database.names.at(state.get("shape") ?? 0);
       return {
         title: `The features of ${name}`,
         words: `${count(bins.features.length, "feature")} of ${name}, one of ${count(database.count, "shape")}: how much of the surface has values from low (left) to high (right); of features of the whole shape, where its value lies between the least and the most of all. Of many parts, the one in which it stands out most.`,

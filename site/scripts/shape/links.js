@@ -51,7 +51,9 @@ export class ShapeLinks {
   pictured(shape, size, { stranger = false, ...attributes } = {}) {
     const { database } = this;
     const group = database.groups[shape];
-    const words = database.labelled ? [database.names[shape], database.className(group)] : [database.names[shape]];
+    const words = database.labelled
+      ? [database.names.at(shape), database.className(group)]
+      : [database.names.at(shape)];
     return this.link(
       shape,
       {

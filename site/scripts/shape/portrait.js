@@ -77,7 +77,7 @@ export class Portrait {
     this.#shown = shape;
     for (const input of looks.querySelectorAll("input")) input.checked = (input.value === "clay") === clay;
     this.stage.show(shape, {
-      label: `${database.names[shape]} in 3D${dimension === null ? "" : `, values of ${this.state.get("bin")}`}`,
+      label: `${database.names.at(shape)} in 3D${dimension === null ? "" : `, values of ${this.state.get("bin")}`}`,
       paint: async (solid) => {
         this.#paint ??= new Paint(await chunk("selection"));
         return dimension === null ? this.#paint.plain(solid, { clay }) : this.#paint.values(solid, dimension);
@@ -116,7 +116,7 @@ export class Portrait {
         action("Find shapes with as much of it", () => comparison.compareBins([column])),
         element(
           "a",
-          { href: pageAddress("bins.html", { bin: bins.names[column], id: database.ids[shape] }) },
+          { href: pageAddress("bins.html", { bin: bins.names[column], id: database.ids.at(shape) }) },
           "Open on the Bins page",
         ),
         action(dimension === null ? "Close" : "Plain again", () => state.set({ bin: null })),

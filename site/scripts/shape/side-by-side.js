@@ -121,7 +121,7 @@ export class SideBySide extends Comparing {
 
   /** @param {number} row */
   #name(row) {
-    return element("bdi", {}, shortened(this.database.names[row], LONGEST));
+    return element("bdi", {}, shortened(this.database.names.at(row), LONGEST));
   }
 
   /**

@@ -61,7 +61,7 @@ export class SimilarShapes extends Comparing {
   #asked = null;
 
   get #called() {
-    return this.database.names[this.state.get("shape") ?? 0];
+    return this.database.names.at(this.state.get("shape") ?? 0);
   }
 
   /** What is compared, in few words. */
@@ -213,7 +213,7 @@ export class SimilarShapes extends Comparing {
       element(
         "div",
         {},
-        element("p", { class: "name", dir: "auto" }, this.links.link(row, {}, shortened(database.names[row], 60))),
+        element("p", { class: "name", dir: "auto" }, this.links.link(row, {}, shortened(database.names.at(row), 60))),
         database.labelled &&
           element(
             "p",

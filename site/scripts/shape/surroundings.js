@@ -43,7 +43,7 @@ export class Surroundings {
     surface.append(this.plot.node);
     toldAs(this.section, () => {
       const { title, neighbours } = database.methods[state.get("method")];
-      const shape = database.names[state.get("shape") ?? 0];
+      const shape = database.names.at(state.get("shape") ?? 0);
       const words = `${title} map of ${count(database.count, "shape")}: ${shape}, ringed, and its ${count(neighbours, "nearest neighbour")}, in full colour.`;
       return { title: `${shape} on the map`, words, onPaper: true };
     });
@@ -114,7 +114,7 @@ export class Surroundings {
     const query = new URLSearchParams();
     const { methods, ids } = this.database;
     if (this.state.get("method") > 0) query.set("map", methods[this.state.get("method")].key);
-    query.set("open", ids[shape]);
+    query.set("open", ids.at(shape));
     return pageAddress("index.html", query);
   }
 

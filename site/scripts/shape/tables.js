@@ -21,8 +21,8 @@ export function shapeTables(database, state, { facts, similar, beside, histogram
   if (shape === null) return { title: "No such shape", tables: [] };
   /** @param {number} index */
   const named = (index) => [
-    database.ids[index],
-    database.names[index],
+    database.ids.at(index),
+    database.names.at(index),
     ...(database.labelled ? [database.className(database.groups[index])] : []),
   ];
   const heads = ["Shape", "Name", ...(database.labelled ? [database.data.standIn ? "Cluster" : "Class"] : [])];
@@ -30,7 +30,7 @@ export function shapeTables(database, state, { facts, similar, beside, histogram
   const near = database.count > 1 ? database.neighbours(shape, state.get("method")) : [];
   const { found = [], bins } = similar ?? {};
   return {
-    title: `${database.names[shape]} in figures`,
+    title: `${database.names.at(shape)} in figures`,
     tables: [
       ...facts.groups.map(({ title, rows }) => table(title, ["Fact", "Value"], rows)),
       near.length > 0 &&
@@ -47,7 +47,7 @@ export function shapeTables(database, state, { facts, similar, beside, histogram
         ),
       beside?.pair &&
         table(
-          `Where it and ${database.names[beside.pair[1]]} differ: shares of their squared distance`,
+          `Where it and ${database.names.at(beside.pair[1])} differ: shares of their squared distance`,
           ["Feature", "Of all", "On this shape", "On the other"],
           beside.rows(),
         ),

@@ -21,7 +21,7 @@ export function watchActions(database, sieve, grid, state) {
   const [select, map, compare, fold] = ["select-shown", "on-map", "compare-shown", "fold"].map((id) =>
     document.getElementById(id),
   );
-  const shown = () => database.ids.map((_, row) => row).filter((row) => sieve.passes(row));
+  const shown = () => [...database.ids.keys()].filter((row) => sieve.passes(row));
   select.addEventListener("click", () => state.set({ selection: new Set(shown()) }));
   fold.addEventListener("click", () => {
     const closed = state.get("closed").size > 0 ? [] : grid.groups.map(({ key }) => key);

@@ -33,7 +33,7 @@ export class Cells {
    */
   shape(row, selected) {
     const { database } = this;
-    const name = database.names[row];
+    const name = database.names.at(row);
     const said = [name, database.labelled && this.#className(row), this.showsNumber && this.#number(row)];
     return element(
       "div",
@@ -41,7 +41,7 @@ export class Cells {
       element(
         "a",
         {
-          href: pageAddress("shape.html", { id: database.ids[row] }),
+          href: pageAddress("shape.html", { id: database.ids.at(row) }),
           tabindex: "-1",
           draggable: "false",
           title: name,

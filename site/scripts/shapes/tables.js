@@ -24,7 +24,7 @@ export function galleryTables(database, fields, sieve, groups) {
   const columns = fields.all.filter(({ numbers, names, active }) => active || numbers !== null || names !== null);
   const shapes = rows
     .slice(0, MOST_SHAPES)
-    .map((row) => [database.names[row], database.ids[row], ...columns.map((field) => cell(field, row))]);
+    .map((row) => [database.names.at(row), database.ids.at(row), ...columns.map((field) => cell(field, row))]);
   return {
     title: `${grouped(sieve.size)} of ${count(database.count, "shape")}`,
     tables: [

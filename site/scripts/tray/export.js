@@ -12,8 +12,8 @@ import { highestOf } from "../database/hit-range.js";
 export function saveCsv(database, chosen) {
   const header = ["id", "name", "class", ...database.projections.flatMap(({ key }) => [`nh:${key}`, `nh_max:${key}`])];
   const rows = chosen.map((index) => [
-    database.ids[index],
-    database.names[index],
+    database.ids.at(index),
+    database.names.at(index),
     database.groups[index] < 0 ? "" : database.className(database.groups[index]),
     ...database.projections.flatMap((method) => [method.hit[index] ?? "", highestOf(database, method, index) ?? ""]),
   ]);
@@ -26,8 +26,8 @@ export function saveCsv(database, chosen) {
  */
 export function saveJson(database, chosen) {
   const shapes = chosen.map((index) => ({
-    id: database.ids[index],
-    name: database.names[index],
+    id: database.ids.at(index),
+    name: database.names.at(index),
     class: database.groups[index] < 0 ? null : database.className(database.groups[index]),
     nh: Object.fromEntries(database.projections.map(({ key, hit }) => [key, hit[index]])),
     nh_max: Object.fromEntries(database.projections.map((method) => [method.key, highestOf(database, method, index)])),

@@ -37,7 +37,7 @@ export class Pair {
    */
   keep(taken) {
     this.#taken = taken;
-    const ids = taken && [...taken.shapes].map((index) => this.database.ids[index]);
+    const ids = taken && [...taken.shapes].map((index) => this.database.ids.at(index));
     try {
       if (taken) sessionStorage.setItem(this.#key, JSON.stringify({ side: taken.side, ids }));
       else sessionStorage.removeItem(this.#key);

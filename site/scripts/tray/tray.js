@@ -229,8 +229,8 @@ export class Tray {
   #item(index) {
     const { database } = this;
     const name = database.labelled
-      ? `${database.names[index]}, ${database.className(database.groups[index])}`
-      : database.names[index];
+      ? `${database.names.at(index)}, ${database.className(database.groups[index])}`
+      : database.names.at(index);
     return element(
       "button",
       {

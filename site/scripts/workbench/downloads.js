@@ -131,7 +131,7 @@ function mapsCsv(database, original, refined) {
   ];
   /** @param {number | null} value */
   const number = (value) => (value === null || Number.isNaN(value) ? "" : value);
-  const rows = database.ids.map((id, index) => [
+  const rows = Array.from(database.ids, (id, index) => [
     id,
     database.groups[index] < 0 ? "" : database.className(database.groups[index]),
     ...maps.flatMap(({ map }) => [
@@ -178,9 +178,12 @@ function allJson(database, bins, { chosen, scores, words, originalMap, refinedMa
       nh_c_max: Object.fromEntries(
         [...rangeOf(database, one).highestOfClass].map(([group, highest]) => [database.classes[group], highest]),
       ),
-      shapes: database.ids
-        .map((id, index) => ({ id, x: number(one.x[index]), y: number(one.y[index]), nh: number(one.hit[index]) }))
-        .filter(({ x }) => x !== null),
+      shapes: Array.from(database.ids, (id, index) => ({
+        id,
+        x: number(one.x[index]),
+        y: number(one.y[index]),
+        nh: number(one.hit[index]),
+      })).filter(({ x }) => x !== null),
     };
   const names = [...chosen].sort((a, b) => a - b).map((column) => bins.names[column]);
   const scored = scores && [...ranked(scores)].map((column) => ({ bin: bins.names[column], score: scores[column] }));

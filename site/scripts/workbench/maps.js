@@ -54,7 +54,7 @@ export class WorkMaps {
     /** @type {ConstructorParameters<typeof Gestures>[1]} */
     const does = {
       open: (shape) => this.toggle(shape),
-      announce: (index) => announce(`${database.names[index]}, ${database.className(database.groups[index])}`),
+      announce: (index) => announce(`${database.names.at(index)}, ${database.className(database.groups[index])}`),
     };
     this.gestures = new Map(this.views.map((view) => [view.surface, new Gestures(view, does)]));
     state.listen((changed) => {

@@ -39,10 +39,7 @@ export function workTables(database, bins, state) {
   const hits = (group) =>
     row(database.className(group), original?.hitOfClass[group] ?? null, refined?.hitOfClass[group] ?? null);
   const scores = state.get("scores");
-  const shapes = database.ids
-    .map((_, index) => index)
-    .filter((index) => !hidden.has(database.groups[index]))
-    .slice(0, MOST_ROWS);
+  const shapes = [...database.ids.keys()].filter((index) => !hidden.has(database.groups[index])).slice(0, MOST_ROWS);
   /**
    * @param {ShapeMap | null} map
    * @param {number} index
@@ -75,7 +72,7 @@ export function workTables(database, bins, state) {
         "Shapes",
         ["Shape", "Class", "original x", "y", "refined x", "y"],
         shapes.map((index) => [
-          database.ids[index],
+          database.ids.at(index),
           database.className(database.groups[index]),
           ...place(original, index),
           ...place(refined, index),

@@ -6,7 +6,7 @@ from dataclasses import replace
 from hashlib import sha256
 
 import pytest
-from packed_chunks import unpack
+from packed_chunks import texts_of, unpack
 from page_markup import Markup
 from reports import NASTY_LABELS, make_report, picture, with_models
 
@@ -102,7 +102,7 @@ def test_data_and_pictures_are_those_of_the_folder(report, markup, tmp_path):
     for path in (p for p in folder if p.startswith(("thumbnails/", "paintings/", "data/"))):
         assert base64.b64decode(held[path]) == folder[path] or path == "data/summary.json"
     chunk = held_chunk(markup, "overview")
-    assert chunk["shapes"]["ids"] == [shape.id for shape in report.shapes]
+    assert texts_of(chunk["shapes"]["ids"]) == [shape.id for shape in report.shapes]
 
 
 def test_it_holds_no_models_and_says_so(markup):

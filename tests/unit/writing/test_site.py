@@ -7,13 +7,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from packed_chunks import read_script
+from packed_chunks import read_script, texts_of
 from packed_models import unpack
 from page_markup import Markup
 from reports import NASTY_LABELS, make_report, with_bin_search, with_models, with_paintings, with_scores
 
 from shapeviz_report.errors import SiteError
-from shapeviz_report.pages.base import NO_SHARE, SHARE_STEPS
+from shapeviz_report.pages.base import NO_SHARE, SHARE_STEPS, texts_chunk
 from shapeviz_report.pages.workbench import WorkbenchPage
 from shapeviz_report.types import Failure, Projection
 from shapeviz_report.writing import check_destination, write_site
@@ -60,7 +60,7 @@ def test_a_chunk_holds_the_maps(tmp_path):
     data = chunk(tmp_path, "overview")
     assert data["classes"] == ["ant", "bird"]
     assert data["shapes"]["groups"].tolist() == [0] * 5 + [-1] * 5 + [1] * 5
-    assert data["shapes"]["ids"] == [shape.id for shape in report.shapes]
+    assert texts_of(data["shapes"]["ids"]) == [shape.id for shape in report.shapes]
     assert [method["key"] for method in data["methods"]] == ["tsne", "umap", "pca"]
     projection, quality = report.projections["tsne"]
     np.testing.assert_allclose(data["methods"][0]["x"], projection.xy[:, 0], atol=1e-6)
@@ -140,6 +140,12 @@ def test_text_from_the_database_is_never_markup(tmp_path):
         assert all("src" in a or a["type"] == "application/ld+json" for tag, a in tags if tag == "script")
 
 
+def test_texts_of_shapes_are_what_they_were():
+    texts = ["cups/1", "", "M\u00fcnze \u6771\u4eac", "\U0001f600", "a\nb", ""]
+    assert texts_of(texts_chunk(texts)) == texts
+    assert texts_of(texts_chunk([])) == []
+
+
 def test_a_file_name_that_is_no_text_does_not_stop_the_site(tmp_path):
     report = make_report(["ant"], 1)
     strange = dataclasses.replace(report.shapes[0], name="\udcff bad name")
@@ -150,7 +156,7 @@ def test_a_file_name_that_is_no_text_does_not_stop_the_site(tmp_path):
     )
     write_site(report, tmp_path)
     assert "db \\udcff" in (tmp_path / "index.html").read_text(encoding="utf-8")
-    assert chunk(tmp_path, "overview")["shapes"]["names"] == ["\udcff bad name"]
+    assert texts_of(chunk(tmp_path, "overview")["shapes"]["names"]) == ["\ufffd bad name"]
 
 
 def test_every_page_forbids_all_requests_elsewhere(tmp_path):
