@@ -496,6 +496,19 @@ def with_columns(report: Report, columns: Mapping[str, Sequence[str]]) -> Report
     return replace(report, shapes=shapes, database=replace(report.database, shapes=shapes))
 
 
+def with_labeling(report: Report, name: str, labels: Sequence[str]) -> Report:
+    """The report with another labeling beside the active one, from a column of metadata of the same name."""
+    report = with_columns(report, {name: labels})
+    shapes = tuple(
+        replace(shape, labels={**shape.labels, name: label})
+        for shape, label in zip(report.shapes, labels, strict=True)
+    )
+    labelings = (*report.database.labelings, name)
+    return replace(
+        report, shapes=shapes, database=replace(report.database, shapes=shapes, labelings=labelings)
+    )
+
+
 def with_parents(report: Report, parents: Mapping[str, str]) -> Report:
     """The report with a hierarchy of its active classes: class -> parent."""
     return replace(report, database=replace(report.database, parents={report.labeling: parents}))

@@ -25,6 +25,7 @@ from reports import (
     with_copies,
     with_exported,
     with_external,
+    with_labeling,
     with_models,
     with_own_map,
     with_paintings,
@@ -134,6 +135,10 @@ SITES = {
         )
     ),
     "long names": lambda: with_everything(make_report([*LONG_LABELS, None], 6, features=FEATURES)),
+    "long texts": lambda: with_columns(
+        with_labeling(make_report(["ant", "bird"], 6), "author", ["Ada", "Bob"] * 6),
+        {"author": ["Ada", "Bob"] * 6, "note": ["Lorem ipsum dolor sit amet. " * 40] * 12},
+    ),
     "museum": lambda: with_columns(
         with_parents(
             make_report(["ant", "bee", "cup", "plate", "table", None], 24, name="A museum"),

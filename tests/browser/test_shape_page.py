@@ -613,3 +613,17 @@ def test_the_surface_can_be_taken_away(open_page, reports):
     eventually(
         page, lambda: "The places on the drawer map were brought along" in page.locator("#nh").inner_text()
     )
+
+
+def test_a_long_text_is_folded_and_an_author_is_told_once(open_page):
+    page = open_page("long texts", "shape.html#id=class000/0000")
+    folded = page.locator("#facts .long-text")
+    assert folded.count() == 1
+    assert len(folded.inner_text()) < 200
+    folded.get_by_text("Show all").click()
+    assert folded.inner_text().count("Lorem ipsum") == 40
+    folded.get_by_text("Show less").click()
+    assert "Lorem ipsum" in folded.inner_text()
+    assert len(folded.inner_text()) < 200
+    names = page.locator("#facts dt").all_inner_texts()
+    assert names.count("author") == 1

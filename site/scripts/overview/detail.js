@@ -1,6 +1,7 @@
 // What is known of one shape: picture, labels, facts, and its nearest neighbours on the map.
 
 import { element, focused, picture } from "../base/dom.js";
+import { longText } from "../base/long-text.js";
 import { pageAddress } from "../base/place.js";
 import { count, figure, grouped } from "../base/words.js";
 import { meshFacts, surfaceFacts } from "../database/facts.js";
@@ -184,7 +185,10 @@ function facts(title, rows) {
     element(
       "dl",
       {},
-      rows.map(([name, value]) => [element("dt", { dir: "auto" }, name), element("dd", { dir: "auto" }, value)]),
+      rows.map(([name, value]) => [
+        element("dt", { dir: "auto" }, name),
+        element("dd", { dir: "auto" }, value && longText(value)),
+      ]),
     ),
   );
 }

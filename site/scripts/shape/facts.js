@@ -2,6 +2,7 @@
 
 import { chunk } from "../base/chunks.js";
 import { element } from "../base/dom.js";
+import { longText } from "../base/long-text.js";
 import { grouped } from "../base/words.js";
 import { meshFacts, surfaceFacts } from "../database/facts.js";
 
@@ -91,7 +92,8 @@ function factGroups(database, shape, known, clusters) {
   /** @param {[string, string]} parts */
   const rank = ([name]) => RIGHTS.indexOf(name.trim().toLowerCase());
   const rights = known.metadata.filter((pair) => rank(pair) >= 0).sort((a, b) => rank(a) - rank(b));
-  const labels = [...known.labels];
+  const ofRights = new Set(rights.map(([name]) => name));
+  const labels = known.labels.filter(([labeling]) => !ofRights.has(labeling));
   // A column that is a labeling is told among the labels.
   const told = new Set(labels.length > 1 ? labels.map(([labeling]) => labeling) : []);
   const others = known.metadata.filter((pair) => rank(pair) < 0 && !told.has(pair[0]));
@@ -130,11 +132,11 @@ function factGroups(database, shape, known, clusters) {
 }
 
 /**
- * A value that is a web address, whole, as a link to it.
+ * A value; one that is a web address, whole, as a link to it.
  * @param {string} value
  */
 function linked(value) {
-  if (!/^https?:\/\/\S+$/i.test(value) || !URL.canParse(value)) return value;
+  if (!/^https?:\/\/\S+$/i.test(value) || !URL.canParse(value)) return longText(value);
   return element("a", { href: value, rel: "noopener noreferrer external" }, value);
 }
 
