@@ -228,13 +228,13 @@ class Config:
             ("edge_length", 0.002, 0.1),
             ("thumbnail_size", 32, 2048),
             ("seed", 0, 2**32 - 1),
-            ("time_limit", 1, 1e6),
-            ("memory_limit", 0.5, 1e6),
+            ("time_limit", 1, 1_000_000),
+            ("memory_limit", 0.5, 1_000_000),
             ("jobs", 1, 10_000),
         ):
             value = getattr(self, name)
             if value is not None and not low <= value <= high:
-                raise ConfigError(f"{name} must be from {low:g} to {high:g}, not {value:g}")
+                raise ConfigError(f"{name} must be from {low:,} to {high:,}, not {value:,}")
 
     @property
     def worker_count(self) -> int:

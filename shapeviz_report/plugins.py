@@ -61,7 +61,7 @@ class Plugin:
         """The object. Raises :class:`PluginError`."""
         try:
             return self.entry.load()
-        except Exception as error:  # whatever it does when it is imported
+        except (Exception, SystemExit) as error:  # whatever it does when it is imported
             raise PluginError(
                 f"{self.words} cannot be loaded ({type(error).__name__}: {error}): mend, update or uninstall the "
                 "package"

@@ -38,6 +38,8 @@ def build(options: argparse.Namespace) -> int:
     report = build_report(options.database, options.output, config, _progress(options, config))
     if not options.quiet:
         print_summary(report, options.output)
+    else:
+        print_failures(report.failures, most=10)
     return 0
 
 
@@ -74,6 +76,8 @@ def check(options: argparse.Namespace) -> int:
         say(*json_text(checked_record(result), indent=1).splitlines())
     elif not options.quiet:
         print_check(result)
+    else:
+        print_failures(result.failures)
     return 1 if result.failures else 0
 
 
@@ -86,8 +90,8 @@ def describe(options: argparse.Namespace) -> int:
     check_feature_file(options.output, options.database)
     found = describe_database(options.database, config, _progress(options, config))
     write_feature_file(options.output, found.database, found.shapes, found.features, found.edges)
+    print_failures(found.failures)
     if not options.quiet:
-        print_failures(found.failures)
         shapes = counted(len(found.shapes), "shape", "shapes")
         columns = counted(len(found.features.columns), "feature value", "feature values")
         say("", f"{options.output}: {shapes}, {columns} each")

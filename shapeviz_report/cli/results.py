@@ -45,9 +45,7 @@ def print_summary(report: Report, destination: Path) -> None:
     say("")
     for name, value in rows:
         say(f"{name:>12}  {value}")
-    print_failures(report.failures[:10])
-    if len(report.failures) > 10:
-        say(f"  ... and {len(report.failures) - 10} more: see the About page")
+    print_failures(report.failures, most=10)
     for warning in report.database.warnings:
         say("", f"Note: {warning}")
     page = destination if destination.is_file() else destination / "index.html"
@@ -140,12 +138,15 @@ def print_database(database: Database) -> None:
         say("", f"Note: {warning}")
 
 
-def print_failures(failures: Sequence[Failure]) -> None:
+def print_failures(failures: Sequence[Failure], most: int | None = None) -> None:
+    """What cannot be used, and why; of a site, whose About page has all of it, so many at most."""
     if not failures:
         return
     say("", f"Cannot be used: {counted(len(failures), 'file', 'files')}")
-    for failure in failures:
+    for failure in failures[:most]:
         say(f"  {failure.path}: {failure.reason}")
+    if most is not None and len(failures) > most:
+        say(f"  ... and {len(failures) - most} more: see the About page")
 
 
 def print_found(result: QueryResult, mesh: Path) -> None:

@@ -21,6 +21,9 @@ from shapeviz_report.writing.record import (
 )
 from shapeviz_report.writing.swap import mend
 
+_PAGES = (".html", ".htm")
+"""How a site in one file ends, and a folder hardly."""
+
 
 def check_destination(
     destination: Path, *, single_file: bool = False, kept: Mapping[str, Path] | None = None
@@ -68,7 +71,7 @@ def _is_loop(path: Path) -> bool:
 
 
 def _check_file(destination: Path) -> None:
-    if destination.suffix.lower() not in (".html", ".htm"):
+    if destination.suffix.lower() not in _PAGES:
         raise SiteError(f"a site in a single file needs a name that ends in .html, unlike {destination}")
     if os.path.isdir(destination):
         raise SiteError(f"{destination} is a folder: name a file for a site in a single file")
@@ -91,6 +94,10 @@ def _check_file(destination: Path) -> None:
 def _check_folder(destination: Path) -> None:
     if os.path.exists(destination) and not os.path.isdir(destination):
         raise SiteError(f"{destination} is a file: choose a folder for the site")
+    if destination.suffix.lower() in _PAGES and not os.path.exists(destination):
+        raise SiteError(
+            f"{destination} would be a folder: add --single-file for a site in one file, or choose another name"
+        )
     real = Path(os.path.realpath(destination))
     if holds(real, Path()):
         raise SiteError(

@@ -102,6 +102,7 @@ def test_failures_do_not_fail_the_build(tmp_path, flags) -> None:
         (["build", "solids", "-o", "site", "--labeling", "style"], "style"),
         (["build", "solids", "-o", "site", "--edge-length", "5"], "edge_length must be from"),
         (["build", "solids", "-o", "solids"], "solids"),
+        (["build", "solids", "-o", "site.html"], "site.html would be a folder: add --single-file"),
         (["build", "solids", "-o", "solids/box/0.off"], "file"),
         (["build", "solids", "-o", "site", "--external", "none.npy"], "none.npy"),
         (["check", "nowhere"], "nowhere"),
@@ -272,6 +273,11 @@ def test_how_much_is_said(database, cache, tmp_path) -> None:
     for said in ("jobs = 1\n", f"results are kept in {cache}\n", "computed by 1 process of this machine\n"):
         assert said in loud.stderr
     assert re.search(r"^Checking meshes: \d+\.\d s$", loud.stderr, re.MULTILINE)
+    (tmp_path / "flawed").mkdir()
+    (tmp_path / "flawed" / "a.off").write_text("OFF\n")
+    quiet = run("check", tmp_path / "flawed", "--quiet", "--cache", cache, "--jobs", 1)
+    assert quiet.returncode == 1
+    assert quiet.stdout.startswith("\nCannot be used: 1 file\n  a.off: ")
     (tmp_path / "empty").mkdir()
     quiet = run("check", tmp_path / "empty", "--quiet")
     assert quiet.returncode == 1

@@ -161,7 +161,7 @@ def test_the_file_lies_beside_a_table(database) -> None:
         ("sead = 1", r"no option 'sead'.*seed"),
         ("seed = 1.5", "seed must be a whole number"),
         ("seed = true", "seed must be a whole number"),
-        ("seed = -1", "seed must be from 0"),
+        ("seed = -1", "seed must be from 0 to 4,294,967,295, not -1"),
         ('title = ["a"]', "title must be text"),
         ('edge_length = "small"', "edge_length must be a number"),
         ("edge_length = 0.5", r"edge_length must be from 0\.002 to 0\.1"),

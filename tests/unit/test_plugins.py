@@ -85,6 +85,7 @@ def test_a_descriptor_computes(install) -> None:
     ("text", "said"),
     [
         ("raise ValueError('no luck')", r"cannot be loaded \(ValueError: no luck\)"),
+        ("raise SystemExit(3)", r"cannot be loaded \(SystemExit: 3\)"),
         ("import nowhere_to_be_found", r"cannot be loaded \(ModuleNotFoundError: .*nowhere_to_be_found"),
         ("OTHER = 1", "cannot be loaded .AttributeError"),
         ("HEIGHT = 3", "it is of the type int, not Descriptor"),
