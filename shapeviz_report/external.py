@@ -30,6 +30,9 @@ MOST_EXTERNAL_BYTES = 256 * 1024**2
 MOST_EXTERNAL_COLUMNS = 2000
 """Columns of a user's own feature, each of which is scored and shown: as many as all of the descriptors have."""
 
+_LARGEST = 1e100
+"""Numbers and differences between this and its reciprocal have squares, and sums of them, that are numbers too."""
+
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(e[+-]?\d+)?", re.IGNORECASE | re.ASCII)
 
 DESCRIBING = ("class", "label:", "metadata:")
@@ -59,7 +62,18 @@ def load_external(path: Path, ids: Sequence[str]) -> FloatArray:
             f"the feature file {path} has {values.shape[1]:,} columns, more than {MOST_EXTERNAL_COLUMNS:,}; keep those "
             "that tell most"
         )
+    if np.abs(values).max(initial=0.0) > _LARGEST or np.any(_extents(values) < 1 / _LARGEST):
+        raise ConfigError(
+            f"the feature file {path} has numbers above {_LARGEST:g}, or that differ by less than {1 / _LARGEST:g}; "
+            "scale them"
+        )
     return values
+
+
+def _extents(values: FloatArray) -> FloatArray:
+    """How far the numbers of each column that has different ones reach."""
+    extents = values.max(axis=0, initial=-np.inf) - values.min(axis=0, initial=np.inf)
+    return np.asarray(extents[extents > 0])
 
 
 def load_coordinates(path: Path, ids: Sequence[str]) -> FloatArray:

@@ -47,6 +47,17 @@ def test_numbers_of_rows_are_no_part_of_a_feature(tmp_path) -> None:
         assert load_external(tmp_path / name, IDS).tolist() == [[1], [2], [3]]
 
 
+@pytest.mark.parametrize("scale", [1e-320, 1e-200, 1e200])
+def test_numbers_whose_squares_are_none_are_refused(tmp_path, scale) -> None:
+    np.save(tmp_path / "own.npy", np.array([[0, 1], [1, 1], [2, 1]]) * scale)
+    with pytest.raises(
+        ConfigError, match=r"numbers above 1e\+100, or that differ by less than 1e-100; scale them"
+    ):
+        load_external(tmp_path / "own.npy", IDS)
+    np.save(tmp_path / "own.npy", np.array([[0, 1e-320], [1e-99, 1e-320], [1e99, 1e-320]]))
+    assert load_external(tmp_path / "own.npy", IDS).shape == (3, 2)
+
+
 def test_ids_as_other_programs_write_them(tmp_path) -> None:
     np.savez(tmp_path / "own.npz", shape_ids=np.array([shape.encode() for shape in IDS]), values=[1, 2, 3])
     assert load_external(tmp_path / "own.npz", IDS).tolist() == [[1], [2], [3]]
