@@ -502,6 +502,16 @@ class TestSimilarClasses:
             assert page.locator(".behind-list li").count() == len(behind)
         assert "by=tsne" in address(page)
 
+    def test_names_that_go_on_to_the_left_leave_the_sentence_its_order(self, compare):
+        page = compare("long names", wait="#matrix td", view="classes")
+        chair, stool = (page.locator(f"#matrix th[scope=row][title^={word}]") for word in ("كرسي", "כיסא"))
+        start = "\u2068{}\u2069 to \u2068{}\u2069: ".format(
+            *(name.get_attribute("title") for name in (chair, stool))
+        )
+        cell = page.locator(f"#matrix [aria-label^='{start}']")
+        cell.hover()
+        assert page.locator("#cell-words").text_content() == f"{cell.get_attribute('aria-label')}."
+
     def test_arrow_keys_go_from_cell_to_cell(self, compare):
         page = compare("plain", wait="#matrix td", view="classes")
         page.locator("#matrix [tabindex='0']").focus()

@@ -39,7 +39,8 @@ ADDRESSES = {
     ),
     "bins.html": (
         {"bin": "Gc:11", "of": "dragon", "id": "ghost", "map": "mds"},
-        "This link names the bin “Gc:11”, the class “dragon” and the shape “ghost”, which are not in this database.",
+        "This link names the bin “Gc:11”, the class “dragon”, the shape “ghost” and the map “mds”, which this site "
+        "does not offer.",
     ),
     "shapes.html": (
         {"is.planet": "Mars", "sort": "nh:mds", "select": "ghost", "hide": "dragon"},
@@ -123,11 +124,21 @@ def test_the_line_goes_with_what_the_reader_does_and_comes_back_with_the_address
         ("compare.html#a=nope", "the group “nope”"),
         ("index.html#view=bar", "the view “bar”"),
         ("bins.html#size=many", "the setting “many”"),
+        ("bins.html#shape=none", "the setting “none”"),
+        ("bins.html#map=mds", "the map “mds”"),
+        ("compare.html#map=mds", "the map “mds”"),
+        ("shapes.html#size=99999", "the setting “99999”"),
+        ("index.html#at=9,0,1", "the part of a map “9,0,1”"),
     ],
 )
 def test_what_a_page_passes_over_is_told(open_page, link, name) -> None:
     page = open_page("bins", link)
     eventually(page, lambda: said(page).startswith(f"This link names {name}, which "))
+
+
+def test_a_size_that_was_not_searched_is_told(open_page) -> None:
+    page = open_page("everything", "features.html#s=99")
+    eventually(page, lambda: said(page).startswith("This link names the setting “99”, which "))
 
 
 def test_an_address_of_no_id_names_no_shape(open_page) -> None:

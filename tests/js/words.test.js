@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { changeWords, difference } from "../../site/scripts/base/figures.js";
-import { count, grouped, measured, percent, percents } from "../../site/scripts/base/words.js";
+import { count, grouped, isolated, measured, percent, percents } from "../../site/scripts/base/words.js";
 import { waysToDeal } from "../../site/scripts/compare/answer.js";
 import { asSure, Contrast, ENOUGH, worth } from "../../site/scripts/compare/contrasts.js";
 import { pairs } from "../../site/scripts/compare/words.js";
@@ -109,4 +109,10 @@ test("a difference is that of the figures as they are shown", () => {
   assert.equal(difference(0.50049, 0.49951), "±0.000");
   assert.equal(changeWords(0.50049, 0.50051), "up 0.001");
   assert.equal(changeWords(0.4, 0.4), "unchanged");
+});
+
+test("a name that goes on to the left is kept apart from the sentence about it", () => {
+  assert.equal(isolated("כיסא 2"), "\u2068כיסא 2\u2069");
+  assert.equal(isolated("\u202egnp.exe"), "\u2068\u202egnp.exe\u2069");
+  assert.equal(isolated("Stühle 2"), "Stühle 2");
 });

@@ -3,7 +3,7 @@
 import { Address, choice, named } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { shortNames } from "./bin-names.js";
-import { classesElsewhere, classNoun } from "./classes.js";
+import { namedElsewhere, classNoun } from "./classes.js";
 import { selected } from "./selected.js";
 
 /** @import { Kind, Ways } from "../base/address.js" */
@@ -45,7 +45,7 @@ export function binsAddress(database, bins, selection, first) {
     { name: "shape", ...shapeOrEnd(database), standard: null },
     { name: "reading", key: "reading", kind: choice(READINGS, "setting"), standard: READINGS[0] },
     selected(database),
-    classesElsewhere(database),
+    namedElsewhere(database),
   ]);
 }
 
@@ -104,7 +104,9 @@ function shapeOrEnd(database) {
   return {
     read(query, miss) {
       const end = query.get("shape");
-      return end !== null && ENDS.includes(end) ? end : ofId.read(query.getAll("id"), miss);
+      if (end !== null && ENDS.includes(end)) return end;
+      if (end) miss("setting", end);
+      return ofId.read(query.getAll("id"), miss);
     },
     write(query, shape) {
       if (ENDS.includes(shape)) query.set("shape", shape);

@@ -16,11 +16,13 @@ export const CAMERA = {
   often: true,
   words: "the zoom",
   kind: {
-    read([word = ""]) {
+    read([word = ""], miss) {
       const numbers = word.split(",").map(Number);
       const [x, y, zoom] = numbers;
       const inside = Math.abs(x) <= FARTHEST && Math.abs(y) <= FARTHEST && zoom >= 1 && zoom <= LARGEST_ZOOM;
-      return numbers.length === 3 && inside ? { x, y, zoom } : undefined;
+      if (numbers.length === 3 && inside) return { x, y, zoom };
+      if (word !== "") miss("part of a map", word);
+      return undefined;
     },
     /** @param {Camera} camera */
     write: ({ x, y, zoom }) => [[x, y, zoom].map((value) => Number(value.toPrecision(5))).join(",")],

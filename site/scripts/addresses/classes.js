@@ -1,6 +1,7 @@
 // Classes in an address, by name; or the clusters that stand in for them.
 
 import { lookUp } from "../base/missing.js";
+import { missMap } from "./maps.js";
 
 /** @import { Ways } from "../base/address.js" */
 /** @import { Miss } from "../base/missing.js" */
@@ -30,15 +31,16 @@ export function classesNamed(names, database, miss) {
 const OF_CLASSES = ["class", "hide", "separate", "from"];
 
 /**
- * Classes that an address names for other pages are nothing here; but who reads is told of those that no page has.
+ * Classes and maps that an address names for other pages are nothing here; but who reads is told of those that no page has.
  * @param {Pick<Database, "data" | "classes">} database
  * @returns {Ways & { names: [] }}
  */
-export function classesElsewhere(database) {
+export function namedElsewhere(database) {
   return {
     names: [],
     read(query, miss) {
       for (const key of OF_CLASSES) classesNamed(query.getAll(key), database, miss);
+      missMap(query.get("map"), database, miss);
       return {};
     },
     write() {},

@@ -3,7 +3,7 @@
 import { Address, choice, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { readSelection, writeSelection } from "../database/selection.js";
-import { classesElsewhere, classesNamed, classNoun } from "./classes.js";
+import { namedElsewhere, classesNamed, classNoun } from "./classes.js";
 import { selected } from "./selected.js";
 
 /** @import { Miss } from "../base/missing.js" */
@@ -50,7 +50,7 @@ export function comparePageAddress(database, data, neighbours, clusters) {
   const ofClass = named(database.classes, classNoun(database));
   return new Address([
     selected(database),
-    classesElsewhere(database),
+    namedElsewhere(database),
     { name: "view", key: "view", kind: choice(VIEWS, "view"), standard: VIEWS[0], place: true, words: "the view" },
     { names: ["a", "b"], ...twoGroups(database, neighbours, clusters), place: true, words: "the two groups" },
     { name: "bin", key: "bin", kind: text, standard: null, place: true, words: "the bin" },

@@ -2,12 +2,13 @@
 
 import { Address, choice, named } from "../base/address.js";
 import { CAMERA } from "./camera.js";
-import { classesElsewhere } from "./classes.js";
+import { namedElsewhere } from "./classes.js";
 import { coloredBy } from "./colors.js";
 import { LINES } from "./lines.js";
 import { joinNames, splitNames } from "./names.js";
 import { selected } from "./selected.js";
 
+/** @import { Miss } from "../base/missing.js" */
 /** @import { State } from "../base/state.js" */
 /** @import { Database } from "../database/database.js" */
 /** @import { Shared } from "../database/selection.js" */
@@ -55,7 +56,12 @@ export function featuresAddress(subsets, database) {
       name: "s",
       key: "s",
       kind: {
-        read: (/** @type {string[]} */ [word]) => (word === "none" ? null : sizes.find((s) => s === Number(word))),
+        read(/** @type {string[]} */ [word], /** @type {Miss} */ miss) {
+          if (word === "none") return null;
+          const size = sizes.find((s) => s === Number(word));
+          if (size === undefined && word) miss("setting", word);
+          return size;
+        },
         write: (/** @type {number | null} */ s) => [String(s ?? "none")],
       },
       standard: sizes[0] ?? null,
@@ -80,7 +86,7 @@ export function featuresAddress(subsets, database) {
     },
     coloredBy(database),
     selected(database),
-    classesElsewhere(database),
+    namedElsewhere(database),
     {
       name: "opened",
       key: "open",

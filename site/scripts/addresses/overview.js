@@ -3,7 +3,7 @@
 import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { CAMERA } from "./camera.js";
-import { classesElsewhere, classesNamed } from "./classes.js";
+import { namedElsewhere, classesNamed } from "./classes.js";
 import { colors, OWN_COLORS } from "./colors.js";
 import { LINES } from "./lines.js";
 import { missMap } from "./maps.js";
@@ -46,7 +46,7 @@ export function overviewAddress(database) {
     { name: "exact", key: "exact", kind: flag, standard: false, place: true },
     { name: "hidden", ...hiddenClasses(database), place: true, words: "which classes are hidden" },
     selected(database),
-    classesElsewhere(database),
+    namedElsewhere(database),
     {
       name: "opened",
       key: "open",

@@ -5,7 +5,7 @@ import { Address, flag, named, text } from "../base/address.js";
 import { pageAddress } from "../base/place.js";
 import { binNames } from "../database/bins.js";
 import { readShortNames } from "./bin-names.js";
-import { classesElsewhere } from "./classes.js";
+import { namedElsewhere } from "./classes.js";
 import { missMap } from "./maps.js";
 import { splitNames } from "./names.js";
 import { selected } from "./selected.js";
@@ -52,7 +52,7 @@ export function shapePageAddress(database) {
     { name: "beside", key: "beside", kind: named(database.ids, "shape"), standard: null, words: "the shape beside it" },
     { name: "within", key: "within", kind: text, standard: "" },
     selected(database),
-    classesElsewhere(database),
+    namedElsewhere(database),
   ]);
 }
 

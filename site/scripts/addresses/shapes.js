@@ -5,7 +5,7 @@ import { pageAddress } from "../base/place.js";
 import { lookUp } from "../base/missing.js";
 import { NONE } from "../database/fields.js";
 import { readSelection, writeSelection } from "../database/selection.js";
-import { classesElsewhere, classNoun } from "./classes.js";
+import { namedElsewhere, classNoun } from "./classes.js";
 import { missField } from "./fields.js";
 import { asNamed } from "./names.js";
 import { selected } from "./selected.js";
@@ -83,7 +83,7 @@ export function galleryAddress(database, fields) {
     { name: "size", key: "size", kind: within(SIZES.least, SIZES.most), standard: SIZES.usual, often: true },
     { name: "closed", key: "closed", kind: texts },
     selected(database),
-    classesElsewhere(database),
+    namedElsewhere(database),
     { name: "at", key: "at", kind: named(database.ids, "shape"), standard: null },
   ]);
 }

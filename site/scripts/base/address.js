@@ -164,7 +164,11 @@ export const flag = { read: (words) => words.length > 0 || undefined, write: () 
  */
 export function within(least, most) {
   return {
-    read: ([word]) => (Number(word) >= least && Number(word) <= most ? Number(word) : undefined),
+    read([word], miss) {
+      if (Number(word) >= least && Number(word) <= most) return Number(word);
+      if (word) miss("setting", word);
+      return undefined;
+    },
     write: (number) => [String(number)],
   };
 }

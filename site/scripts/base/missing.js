@@ -13,10 +13,13 @@ const MOST_NAMED = 3;
 const LONGEST = 40;
 
 /** What more than one of a kind is called, where that is not its name with an "s". */
-const MANY = new Map([["class", "classes"]]);
+const MANY = new Map([
+  ["class", "classes"],
+  ["part of a map", "parts of a map"],
+]);
 
 /** What is no part of a database, or may be one that shapes cannot be told apart by. */
-const OF_SITE = new Set(["column", "map", "measure", "scorer", "setting", "step", "view"]);
+const OF_SITE = new Set(["column", "map", "measure", "part of a map", "scorer", "setting", "step", "view"]);
 
 /** What stands for a selection that is of no names. */
 export const SELECTION = "selection";

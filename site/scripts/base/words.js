@@ -91,6 +91,17 @@ export function percents(...shares) {
   return shares.map((share) => percent(share, more));
 }
 
+/** Letters that go on to the left, and marks that turn the way of those after them. */
+const TURNING = /[\u0590-\u08ff\u200f\u202a-\u202e\ufb1d-\ufdff\ufe70-\ufeff]/;
+
+/**
+ * A name in a sentence that is no element, as `<bdi>` has it in one: what stands beside it keeps its place.
+ * @param {string} name
+ */
+export function isolated(name) {
+  return TURNING.test(name) ? `\u2068${name}\u2069` : name;
+}
+
 /**
  * "one", "one and two", "one, two and three".
  * @param {string[]} words

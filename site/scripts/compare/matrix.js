@@ -5,7 +5,7 @@ import { galleryOf } from "../addresses/shapes.js";
 import { element, picture, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, grouped, shortened, wholePercent } from "../base/words.js";
+import { count, grouped, isolated, shortened, wholePercent } from "../base/words.js";
 import { kind } from "../database/kind.js";
 import { writeSelection } from "../database/selection.js";
 
@@ -195,7 +195,7 @@ export class Matrix {
    */
   #sentence(row, column) {
     const { database, neighbours } = this;
-    const names = [row, column].map((group) => database.className(group));
+    const names = [row, column].map((group) => isolated(database.className(group)));
     const all = (database.sizes.get(row) ?? 0) * neighbours.k;
     return row === column
       ? `${names[0]}: ${wholePercent(this.share(row, row))} of the neighbours of its shapes are of its own ${kind(database)}`

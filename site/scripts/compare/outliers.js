@@ -5,7 +5,7 @@ import { element, picture, swatch } from "../base/dom.js";
 import { entry } from "../base/entry.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, figure, grouped } from "../base/words.js";
+import { count, figure, grouped, isolated } from "../base/words.js";
 import { inWords } from "../bins-kit/bin-name.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { kind } from "../database/kind.js";
@@ -215,7 +215,7 @@ export class Outliers {
               "a",
               {
                 href: pageAddress("shape.html", { id: database.ids.at(other) }),
-                title: `${database.names.at(other)}, ${database.className(database.groups[other])}`,
+                title: `${isolated(database.names.at(other))}, ${isolated(database.className(database.groups[other]))}`,
                 "aria-label": `${database.names.at(other)}, ${database.className(database.groups[other])}`,
               },
               picture(database, other, 56),

@@ -1,7 +1,7 @@
 // What the figures of a comparison are called, and what they show.
 
 import { toldAs } from "../base/snapshot.js";
-import { count } from "../base/words.js";
+import { count, isolated } from "../base/words.js";
 
 /** @import { View } from "./groups-view.js" */
 /** @import { OnShapes } from "./on-shapes.js" */
@@ -22,8 +22,10 @@ export function tellFigures(current, seen) {
       const view = current();
       return view === null ? { words: "" } : tell(view);
     });
+  /** @param {View} view */
+  const pair = ({ a, b }) => `${isolated(a.name)} and ${isolated(b.name)}`;
   part("apart-title", (view) => ({
-    title: `Where ${view.a.name} and ${view.b.name} differ most`,
+    title: `Where ${pair(view)} differ most`,
     words: `${bins("apart-bins")} in which ${sized(view)} differ most, ${
       view.contrast.beyond.length === 0
         ? "though no more than bins do when the shapes are dealt out at random"
@@ -31,22 +33,22 @@ export function tellFigures(current, seen) {
     }. ${MARKS}`,
   }));
   part("seen-title", (view) => ({
-    title: `${view.a.name} and ${view.b.name}, seen on two shapes`,
+    title: `${pair(view)}, seen on two shapes`,
     words: seen.caption(),
   }));
   part("shared-title", (view) => ({
-    title: `What ${view.a.name} and ${view.b.name} have in common`,
+    title: `What ${pair(view)} have in common`,
     words: `${bins("shared-bins")} in which ${sized(view)} are unlike ${count(view.rest.count, "other shape")}, and like each other. ${MARKS}`,
   }));
   part("features-title", (view) => ({
-    title: `${view.a.name} and ${view.b.name}, feature by feature`,
+    title: `${pair(view)}, feature by feature`,
     words: `How much of all that ${sized(view)} differ in, by each feature, goes with the group. Up to the mark, chance reaches it too: it is passed in one of 100 random deals.`,
   }));
 }
 
 /** @param {View} view */
 function sized({ a, b }) {
-  return [a, b].map(({ name, shapes }) => `${name} (${count(shapes.length, "shape")})`).join(" and ");
+  return [a, b].map(({ name, shapes }) => `${isolated(name)} (${count(shapes.length, "shape")})`).join(" and ");
 }
 
 /** @param {string} list */

@@ -2,7 +2,7 @@
 
 import { svg } from "../base/dom.js";
 import { snapshot, styled } from "../base/snapshot.js";
-import { count } from "../base/words.js";
+import { count, isolated } from "../base/words.js";
 import { classNaming } from "./coloring.js";
 import { FADED, FULL } from "./marks.js";
 import { CHOSEN, FAINT, NORMAL } from "./scene.js";
@@ -73,10 +73,10 @@ export function mapWords({ scene, database, chosenColoring, name }) {
     name === "hit"
       ? `Colour: how many of a shape’s ${count(neighbours, "nearest neighbour")} are of its ${kind}, from none (red) to all (yellow).`
       : chosenColoring !== null
-        ? `Colour: ${chosenColoring.title}.`
+        ? `Colour: ${isolated(chosenColoring.title)}.`
         : database.labelled && `${name === "thumbnail" ? "Colour" : "Colour and mark"}: ${kind}.`;
   return [
-    `${title} map of ${count(shown, "shape")}${brought ? ", brought along" : `, compared by ${by.join(", ")}`}.`,
+    `${title} map of ${count(shown, "shape")}${brought ? ", brought along" : `, compared by ${by.map(isolated).join(", ")}`}.`,
     colored,
     chosen > 0 && `${count(chosen, "shape")} ${chosen === 1 ? "stands" : "stand"} out.`,
     shown < database.count && `${count(database.count - shown, "shape")} left out.`,

@@ -3,7 +3,7 @@
 // A separation is { from, against, each }: the classes to set apart (null: all in use), the classes to set them apart
 // from (null: the rest), and whether each stands for itself or all together are one group.
 
-import { listed, shortened } from "../base/words.js";
+import { isolated, listed, shortened } from "../base/words.js";
 import { kinds } from "../database/kind.js";
 
 /** @import { Database } from "../database/database.js" */
@@ -68,7 +68,7 @@ export function separationWords(separation, groups, database) {
   const names = (chosen) => {
     if (chosen.length === groups.length && chosen.length > 2) return `all ${chosen.length} ${kinds(database)}`;
     if (chosen.length > MOST_NAMED) return `${chosen.length} ${kinds(database)}`;
-    return listed(chosen.map((group) => shortened(database.className(group), 24)));
+    return listed(chosen.map((group) => isolated(shortened(database.className(group), 24))));
   };
   if (contests(separation, groups).length === 1 && separation.each) {
     const [
