@@ -1,6 +1,7 @@
 """The About page in a browser."""
 
 import pytest
+from waiting import eventually
 
 from shapeviz_report.writing.record import RECORD
 
@@ -19,6 +20,21 @@ def test_downloads_are_there(open_page, site):
     )
     folder = site("plain")
     assert {folder / link for link in links} == set((folder / "data").iterdir()) - {folder / RECORD}
+
+
+@pytest.mark.parametrize("file", ["about.html", "index.html"])
+def test_pages_in_other_tabs_take_the_theme_along(open_page, site, serve, file):
+    address = serve(site("plain"), "shapes")
+    here = open_page("plain", "about.html", f"{address}/about.html")
+    there = here.context.new_page()
+    there.goto(f"{address}/{file}")
+    there.wait_for_selector("#theme")
+    if file == "index.html":
+        there.wait_for_selector("html[data-ready]", state="attached")
+    ground = "getComputedStyle(document.documentElement).colorScheme"
+    for theme in ("dark", "light"):
+        here.click("#theme")
+        eventually(there, lambda theme=theme: there.evaluate(ground) == theme)
 
 
 def test_the_theme_button_works(open_page):

@@ -89,4 +89,10 @@ export function watchTheme(work) {
     restyle();
   });
   system().addEventListener("change", restyle);
+  // A page in another tab goes along.
+  window.addEventListener("storage", ({ key }) => {
+    if (key !== KEY) return;
+    applyStoredTheme();
+    restyle();
+  });
 }
