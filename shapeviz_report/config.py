@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import datetime
+import difflib
 import os
 import reprlib
 import tomllib
@@ -330,12 +331,19 @@ def _check_inside(path: Path, what: str, folder: Path) -> None:
 
 
 def _environment_options() -> dict[str, Any]:
-    """The options of the machine that stand in the environment, such as ``SHAPEVIZ_CACHE``; empty ones do not count."""
+    """The options that stand in the environment, such as ``SHAPEVIZ_CACHE``; empty ones do not count."""
+    options = {ENVIRONMENT_PREFIX + option.name.upper(): option for option in dataclasses.fields(Config)}
     values = {}
-    for option in dataclasses.fields(Config):
-        variable = ENVIRONMENT_PREFIX + option.name.upper()
-        text = os.environ.get(variable, "")
-        if not option.metadata["of_machine"] or not text:
+    for variable, text in os.environ.items():
+        if not variable.startswith(ENVIRONMENT_PREFIX) or not text:
+            continue
+        option = options.get(variable)
+        if option is None:
+            # others may have variables that begin so; one that is nearly an option was meant to be it
+            for near in difflib.get_close_matches(variable.upper(), options, n=1, cutoff=0.9):
+                raise ConfigError(
+                    f"there is no option {variable} (in the environment); the nearest is {near}"
+                )
             continue
         kind = str(option.type)
         value: Any = text

@@ -8,12 +8,17 @@ so that the order is the same everywhere.
 from __future__ import annotations
 
 import functools
+import inspect
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any, TypeVar
+from numbers import Integral, Real
+from types import UnionType
+from typing import Any, ClassVar, TypeVar, get_args, get_origin, get_type_hints
+
+import numpy as np
 
 from shapeviz_report.errors import PluginError, ShapevizError
 
@@ -31,6 +36,17 @@ GROUPS: Mapping[str, tuple[str, str]] = {
     "shapeviz_report.layouts": ("layout", "shapeviz_report.database.registry"),
 }
 """Group of entry points -> what one of them is, and the module that takes them up."""
+
+
+_LARGEST = 1e30
+"""Of the numbers that a plug-in gives: surfaces and painted bins have them with 32 bits."""
+
+
+_WHAT_TO_DO = "mend, update or uninstall the package"
+
+
+class Unfit(Exception):
+    """What a plug-in gave cannot be used; the message says why."""
 
 
 @dataclass(frozen=True)
@@ -63,21 +79,32 @@ class Plugin:
             return self.entry.load()
         except (Exception, SystemExit) as error:  # whatever it does when it is imported
             raise PluginError(
-                f"{self.words} cannot be loaded ({type(error).__name__}: {error}): mend, update or uninstall the "
-                "package"
+                f"{self.words} cannot be loaded ({type(error).__name__}: {error}); {_WHAT_TO_DO}"
             ) from error
 
 
 @cache
 def find_plugins() -> tuple[Plugin, ...]:
-    """All that is installed, group by group as in :data:`GROUPS`."""
+    """All that is installed, group by group as in :data:`GROUPS`.
+
+    Raises
+    ------
+    PluginError
+        A package has no name or version, as where it was half removed: results could not be told from those of others.
+    """
     found = []
-    for group in GROUPS:
-        own = [
-            Plugin(group, entry.name, _normal(entry.dist.name), entry.dist.version, entry)
-            for entry in entry_points(group=group)
-            if entry.dist is not None
-        ]
+    for group, (kind, _) in GROUPS.items():
+        own = []
+        for entry in entry_points(group=group):
+            if entry.dist is None:
+                continue
+            name, version = entry.dist.metadata["Name"], entry.dist.metadata["Version"]
+            if not (name and version):
+                raise PluginError(
+                    f"the package of the {kind} {entry.name!r} ({entry.value}) has no name or no version: install it "
+                    "anew, or remove what is left of it"
+                )
+            own.append(Plugin(group, entry.name, _normal(name), version, entry))
         found += sorted(own, key=lambda plugin: (plugin.package, plugin.name))
     return tuple(found)
 
@@ -90,12 +117,16 @@ def load_plugins(group: str, kinds: type[T] | tuple[type[T], ...]) -> tuple[tupl
     PluginError
         One cannot be loaded, or is something else.
     """
+    wanted = kinds if isinstance(kinds, tuple) else (kinds,)
     loaded = []
     for plugin in find_plugins():
         if plugin.group == group:
             part = plugin.load()
-            names = " or ".join(kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,)))
-            require(plugin, isinstance(part, kinds), f"it is of the type {type(part).__name__}, not {names}")
+            kind = next((each for each in wanted if isinstance(part, each)), type(None))
+            names = " or ".join(each.__name__ for each in wanted)
+            require(plugin, isinstance(part, kind), f"it is of the type {type(part).__name__}, not {names}")
+            wrong = _wrong_field(part, kind)
+            require(plugin, not wrong, wrong)
             loaded.append((plugin, part))
     return tuple(loaded)
 
@@ -138,34 +169,85 @@ def with_plugins(
 def require(plugin: Plugin, holds: bool, what: str) -> None:
     """Refuse a plug-in that is not as it should be. Raises :class:`PluginError`."""
     if not holds:
-        raise PluginError(f"{plugin.words} cannot be used: {what}; mend, update or uninstall the package")
+        raise PluginError(f"{plugin.words} cannot be used: {what}; {_WHAT_TO_DO}")
 
 
-def guarded(plugin: Plugin, function: Callable[..., T], check: Callable[..., str]) -> Callable[..., T]:
+def guarded(plugin: Plugin, function: Callable[..., Any], take: Callable[..., T]) -> Callable[..., T]:
     """A function of a plug-in whose failures name the package.
 
     Parameters
     ----------
     plugin : Plugin
     function : callable
-    check : callable
-        Gets what the function gave and its arguments; says what is wrong with it, or nothing.
+    take : callable
+        Gets what the function gave and its arguments, and gives it as it is to be used, or raises :class:`Unfit`.
     """
 
     @functools.wraps(function)
     def call(*arguments: Any) -> T:
         try:
-            value = function(*arguments)
+            return take(function(*arguments), *arguments)
         except (MemoryError, ShapevizError):
             raise
-        except Exception as error:
-            raise PluginError(f"{plugin.words} failed ({type(error).__name__}: {error})") from error
-        wrong = check(value, *arguments)
-        if wrong:
-            raise PluginError(f"{plugin.words} failed: {wrong}")
-        return value
+        except Unfit as error:
+            raise PluginError(f"{plugin.words} failed: {error}; {_WHAT_TO_DO}") from error
+        except (Exception, SystemExit) as error:
+            told = f"{plugin.words} failed ({type(error).__name__}: {error}); {_WHAT_TO_DO}"
+            raise PluginError(told) from error
 
     return call
+
+
+def take_numbers(found: Any, size: tuple[int, ...], what: str, lowest: float = -_LARGEST) -> np.ndarray:
+    """What a plug-in gave as an array of numbers.
+
+    Parameters
+    ----------
+    found : any
+    size : tuple of int
+        That it is to have.
+    what : str
+        What the numbers are, as a sentence about them begins: "its values".
+    lowest : float, optional
+
+    Raises
+    ------
+    Unfit
+        It is no array of that size, or has what is no number, or not finite or out of bounds.
+    """
+    values = np.asarray(found)
+    if values.shape != size:
+        raise Unfit(f"{what} are an array {values.shape}, and not {size}")
+    if values.dtype.kind not in "biuf":
+        raise Unfit(f"{what} are of the type {values.dtype}, and no real numbers")
+    if not np.isfinite(values).all():
+        raise Unfit(f"not all of {what} are finite")
+    if values.size and not (values.min() >= lowest and values.max() <= _LARGEST):
+        raise Unfit(f"{what} are not all from {lowest:g} to {_LARGEST:g}")
+    return values.astype(np.float64, copy=False)
+
+
+def _wrong_field(part: Any, kind: type) -> str:
+    """What is wrong with the first field of a record that is not of its declared type; nothing if all are."""
+    told = inspect.get_annotations(kind)
+    for name, declared in get_type_hints(kind).items():
+        if not hasattr(part, name):
+            return f"it has no {name!r}"
+        if not _is_of(value := getattr(part, name), declared):
+            return f"its {name!r} is of the type {type(value).__name__}, not {told[name]}"
+    return ""
+
+
+def _is_of(value: Any, declared: Any) -> bool:
+    """Whether a value is of a declared type, as far as the records of plug-ins need it."""
+    origin, inner = get_origin(declared) or declared, get_args(declared)
+    if origin in (ClassVar, UnionType):
+        return any(_is_of(value, each) for each in inner)
+    if origin is Callable:
+        return callable(value)
+    if origin is tuple:
+        return isinstance(value, tuple) and all(_is_of(part, inner[0]) for part in value)
+    return isinstance(value, {int: Integral, float: Real}.get(origin, origin))
 
 
 def _normal(name: str) -> str:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
-from shapeviz_report.plugins import Plugin, guarded, require, with_plugins
+from shapeviz_report.plugins import Plugin, guarded, require, take_numbers, with_plugins
+from shapeviz_report.types import FloatArray
 
 
 def _prepare(plugin: Plugin, descriptor: Descriptor) -> Descriptor:
@@ -30,13 +31,10 @@ def _prepare(plugin: Plugin, descriptor: Descriptor) -> Descriptor:
         "its edges are not 11 rising numbers",
     )
 
-    def check(values: Any, surface: Surface) -> str:
-        size = (len(surface.vertices), descriptor.dimensions)
-        if np.shape(values) != size:
-            return f"its values are an array {np.shape(values)}, and not {size}"
-        return "" if np.isfinite(values).all() else "a value is not finite"
+    def take(values: Any, surface: Surface) -> FloatArray:
+        return take_numbers(values, (len(surface.vertices), descriptor.dimensions), "its values")
 
-    return replace(descriptor, compute=guarded(plugin, descriptor.compute, check))
+    return replace(descriptor, compute=guarded(plugin, descriptor.compute, take))
 
 
 ALL_DESCRIPTORS = with_plugins("shapeviz_report.descriptors", DESCRIPTORS, Descriptor, _prepare)

@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor, PosedShape
-from shapeviz_report.plugins import Plugin, guarded, require, with_plugins
+from shapeviz_report.plugins import Plugin, guarded, require, take_numbers, with_plugins
+from shapeviz_report.types import FloatArray
 
 
 def _prepare(plugin: Plugin, descriptor: GlobalDescriptor) -> GlobalDescriptor:
@@ -30,12 +29,10 @@ def _prepare(plugin: Plugin, descriptor: GlobalDescriptor) -> GlobalDescriptor:
     )
     require(plugin, descriptor.width >= 1, "it has no value")
 
-    def check(values: Any, shape: PosedShape) -> str:
-        if np.shape(values) != (descriptor.width,):
-            return f"its values are an array {np.shape(values)}, and not {(descriptor.width,)}"
-        return "" if np.isfinite(values).all() else "a value is not finite"
+    def take(values: Any, shape: PosedShape) -> FloatArray:
+        return take_numbers(values, (descriptor.width,), "its values")
 
-    return replace(descriptor, compute=guarded(plugin, descriptor.compute, check))
+    return replace(descriptor, compute=guarded(plugin, descriptor.compute, take))
 
 
 ALL_GLOBAL_DESCRIPTORS = with_plugins(

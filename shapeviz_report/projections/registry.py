@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from shapeviz_report.plugins import Plugin, guarded, require, with_plugins
+from shapeviz_report.plugins import Plugin, guarded, require, take_numbers, with_plugins
 from shapeviz_report.projections import PROJECTIONS, Method
 from shapeviz_report.types import FloatArray
 
@@ -23,15 +21,13 @@ def _prepare(plugin: Plugin, method: Method) -> Method:
         plugin, method.rounds == 0, "its rounds are not 0: features are searched by our own methods alone"
     )
 
-    def check(xy: Any, rows: FloatArray, seed: int) -> str:
-        if np.shape(xy) != (len(rows), 2):
-            return f"its map is an array {np.shape(xy)}, and not {(len(rows), 2)}"
-        return "" if np.isfinite(xy).all() else "a place on its map is not finite"
+    def take(xy: Any, rows: FloatArray, seed: int) -> FloatArray:
+        return take_numbers(xy, (len(rows), 2), "the places on its map")
 
     return replace(
         method,
-        arrange=guarded(plugin, method.arrange, check),
-        embed=None if method.embed is None else guarded(plugin, method.embed, check),
+        arrange=guarded(plugin, method.arrange, take),
+        embed=None if method.embed is None else guarded(plugin, method.embed, take),
     )
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache, partial
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +13,7 @@ from shapeviz_report.descriptors import DESCRIPTORS, Descriptor
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor
 from shapeviz_report.global_descriptors.registry import ALL_GLOBAL_DESCRIPTORS
-from shapeviz_report.plugins import load_plugins, require
+from shapeviz_report.plugins import Unfit, guarded, load_plugins, require
 from shapeviz_report.wording import GLOBAL_WORDINGS, WORDINGS
 from shapeviz_report.wording.base import GlobalWording, Said, Wording, span
 
@@ -27,7 +29,11 @@ def all_wordings() -> Mapping[str, Wording]:
             size = brought[plugin.name].dimensions
             parts = (wording.topics, wording.quantities, wording.sought)
             require(plugin, all(len(part) == size for part in parts), f"it is not for {size} dimensions")
-            words[plugin.name] = wording
+            words[plugin.name] = replace(
+                wording,
+                shown=guarded(plugin, wording.shown, lambda shown, *_: np.asarray(shown, np.float64)),
+                say=guarded(plugin, wording.say, _take_said),
+            )
     return {**WORDINGS, **words}
 
 
@@ -42,8 +48,20 @@ def all_global_wordings() -> Mapping[str, GlobalWording]:
             size = brought[plugin.name].width
             parts = (wording.names, wording.quantities)
             require(plugin, all(len(part) == size for part in parts), f"it is not for {size} values")
-            words[plugin.name] = wording
+            words[plugin.name] = replace(wording, seek=guarded(plugin, wording.seek, _take_text))
     return {**GLOBAL_WORDINGS, **words}
+
+
+def _take_said(said: Any, *_: object) -> Said:
+    if not isinstance(said, Said):
+        raise Unfit(f"what it says is of the type {type(said).__name__}, not Said")
+    return said
+
+
+def _take_text(text: Any, *_: object) -> str:
+    if not isinstance(text, str):
+        raise Unfit(f"other words for a value are of the type {type(text).__name__}, not str")
+    return text
 
 
 def _plain(descriptor: Descriptor) -> Wording:

@@ -87,6 +87,36 @@ def test_who_wins(database, monkeypatch) -> None:
         load_config(database, {})
 
 
+def test_any_option_may_stand_in_the_environment(database, monkeypatch) -> None:
+    for variable, text in (("EDGE_LENGTH", "0.03"), ("TITLE", "Cups"), ("MESHES", ""), ("EXTERNAL", "a.npz")):
+        monkeypatch.setenv(f"SHAPEVIZ_{variable}", text)
+    config = load_config(database, {})
+    assert (config.edge_length, config.title, config.external) == (0.03, "Cups", (Path("a.npz"),))
+
+
+@pytest.mark.parametrize(
+    ("variable", "nearest"),
+    [
+        ("SHAPEVIZ_CAHCE", "SHAPEVIZ_CACHE"),
+        ("SHAPEVIZ_JOB", "SHAPEVIZ_JOBS"),
+        ("SHAPEVIZ_NEIGHBORS", "SHAPEVIZ_NEIGHBOURS"),
+        ("SHAPEVIZ_TIMELIMIT", "SHAPEVIZ_TIME_LIMIT"),
+    ],
+)
+def test_a_misspelt_variable_is_told_with_the_nearest(database, monkeypatch, variable, nearest) -> None:
+    monkeypatch.setenv(variable, "3")
+    with pytest.raises(ConfigError, match=f"no option {variable} .*; the nearest is {nearest}$"):
+        load_config(database, {})
+
+
+def test_variables_of_others_are_nobodys_options(database, monkeypatch) -> None:
+    usual = load_config(database, {})
+    monkeypatch.setenv(
+        "SHAPEVIZ_SOURCE", "git+https://example.org/shapeviz-report.git"
+    )  # of the guide's workflow
+    assert load_config(database, {}) == usual
+
+
 def test_paths_of_the_database_stay_inside(tmp_path) -> None:
     database = tmp_path / "database"
     (database / "sub").mkdir(parents=True)

@@ -93,6 +93,19 @@ def test_a_descriptor_computes(install) -> None:
         (HEIGHT.format(name="two words"), "letters and digits only"),
         (HEIGHT.format(name="H").replace("11", "12"), "its edges are not 11 rising numbers"),
         (HEIGHT.format(name="H").replace("high a point is.", "high"), "ends with a full stop"),
+        (HEIGHT.format(name="H").replace('"H"', "5"), "its 'name' is of the type int, not str"),
+        (
+            HEIGHT.format(name="H").replace(" 1, tuple", " '1', tuple"),
+            "its 'dimensions' is of the type str, not int",
+        ),
+        (
+            HEIGHT.format(name="H").replace("tuple(", "list("),
+            r"'edges' is of the type list, not tuple\[float",
+        ),
+        (
+            HEIGHT.format(name="H").replace(", compute)", ", None)"),
+            "'compute' is of the type NoneType, not Call",
+        ),
     ],
 )
 def test_what_cannot_be_used_is_told_with_its_package(install, text, said) -> None:
@@ -113,7 +126,12 @@ def test_a_name_that_two_packages_have(install) -> None:
     ("body", "said"),
     [
         ("surface.vertices", r"its values are an array \(\d+, 3\), and not \(\d+, 1\)"),
-        ("surface.vertices[:, 2:] / 0", "a value is not finite"),
+        ("surface.vertices[:, 2:] / 0", "not all of its values are finite"),
+        ("surface.vertices[:, 2:].astype(str)", "its values are of the type .*, and no real numbers"),
+        ("surface.vertices[:, 2:] + 1j", "its values are of the type complex128, and no real numbers"),
+        ("surface.vertices[:, 2:] * 1e40", r"its values are not all from -1e\+30 to 1e\+30"),
+        ("[[1], [2, 3]]", ".ValueError: .*inhomogeneous"),
+        ("exit(3)", ".SystemExit: 3"),
         ("surface.nothing", r"\(AttributeError: 'Surface' object has no attribute 'nothing'\)"),
     ],
 )
@@ -121,7 +139,11 @@ def test_what_fails_on_a_shape_is_told_with_its_package(install, body, said) -> 
     install(
         "heights", HEIGHT.format(name="Hgt").replace("surface.vertices[:, 2:]", body), descriptors="HEIGHT"
     )
-    with np.errstate(all="ignore"), pytest.raises(PluginError, match=rf"heights 1\.0 failed.*{said}"):
+    ending = "; mend, update or uninstall the package$"
+    with (
+        np.errstate(all="ignore"),
+        pytest.raises(PluginError, match=rf"heights 1\.0 failed.*{said}.*{ending}"),
+    ):
         all_descriptors()[-1].compute(Surface(lump()))
 
 
@@ -148,6 +170,59 @@ ODD = Odd()
     assert found[0].recognises(tmp_path, False)
     with pytest.raises(PluginError, match=r"odd-layout 1\.0 failed: what it gives is of the type NoneType"):
         found[0].read(tmp_path, False)
+
+
+SHAPES = """
+from pathlib import Path
+from shapeviz_report.database import Layout
+from shapeviz_report.types import Database, ShapeEntry
+class Odd(Layout):
+    name, description = "odd", "an odd one"
+    def recognises(self, path, outside): return True
+    def read(self, path, outside): return Database("d", path, "odd", tuple(ShapeEntry(*facts) for facts in FACTS))
+ODD = Odd()
+FACTS = """
+
+
+@pytest.mark.parametrize(
+    ("facts", "said"),
+    [
+        ("[('a', Path('a.off'), 'a'), ('a', Path('b.off'), 'b')]", "2 shapes have the id 'a'"),
+        ("[(7, Path('a.off'), 'a')]", "of the shape 7 the id, the name, a label or metadata is no text"),
+        ("[('a', Path('a.off'), 'a', {'class': 1})]", "of the shape 'a' the id, .* is no text"),
+        ("[('a', 'a.off', 'a')]", "the path of the shape 'a' is of the type str"),
+    ],
+)
+def test_shapes_of_a_layout_that_cannot_be_used(install, tmp_path, facts, said) -> None:
+    install("odd-layout", SHAPES + facts, layouts="ODD")
+    found = with_plugins("shapeviz_report.layouts", LAYOUTS, Layout, layouts._prepare, first=True)
+    with pytest.raises(PluginError, match=rf"odd-layout 1\.0 failed: {said}"):
+        found[0].read(tmp_path, False)
+
+
+def test_shapes_of_a_layout_come_in_order(install, tmp_path) -> None:
+    facts = "[(f'cup {n}', path / 'a.off', 'a') for n in (10, 2)]".replace("path", "Path()")
+    install("odd-layout", SHAPES + facts, layouts="ODD")
+    found = with_plugins("shapeviz_report.layouts", LAYOUTS, Layout, layouts._prepare, first=True)
+    assert [shape.id for shape in found[0].read(tmp_path, False).shapes] == ["cup 2", "cup 10"]
+
+
+def test_a_layout_without_a_name(install) -> None:
+    install(
+        "odd-layout", SHAPES.replace('name, description = "odd", ', "description = ") + "[]", layouts="ODD"
+    )
+    with pytest.raises(PluginError, match=r"odd-layout 1\.0 cannot be used: it has no 'name'"):
+        with_plugins("shapeviz_report.layouts", LAYOUTS, Layout, layouts._prepare, first=True)
+
+
+@pytest.mark.parametrize("lost", ["Name: heights\n", "Version: 1.0\n"])
+def test_what_is_left_of_a_package(install, tmp_path, lost) -> None:
+    install("heights", HEIGHT.format(name="Hgt"), descriptors="HEIGHT")
+    (metadata,) = tmp_path.glob("*.dist-info/METADATA")
+    metadata.write_text(metadata.read_text().replace(lost, ""))
+    find_plugins.cache_clear()
+    with pytest.raises(PluginError, match=r"the package of the descriptor 'HEIGHT' .* no name or no version"):
+        find_plugins()
 
 
 def test_every_group_has_its_registry() -> None:
