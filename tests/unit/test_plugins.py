@@ -18,6 +18,7 @@ from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
 from shapeviz_report.descriptors import registry as descriptors
 from shapeviz_report.errors import MeshError, PluginError
 from shapeviz_report.plugins import find_plugins, load_plugins, with_plugins
+from shapeviz_report.wording import registry as wordings
 
 Install = Callable[..., None]
 
@@ -170,6 +171,20 @@ ODD = Odd()
     assert found[0].recognises(tmp_path, False)
     with pytest.raises(PluginError, match=r"odd-layout 1\.0 failed: what it gives is of the type NoneType"):
         found[0].read(tmp_path, False)
+
+
+def test_words_that_fail_are_told_with_their_package(install, monkeypatch) -> None:
+    text = """
+import numpy as np
+from shapeviz_report.wording.base import Wording
+Hgt = Wording("height", ("height",), ("the height",), "", np.asarray, "low", "high", (("low", "high"),), 1.0,
+              lambda dimension, low, high: "high")
+"""
+    install("heights", HEIGHT.format(name="Hgt") + text, descriptors="HEIGHT", wordings="Hgt")
+    monkeypatch.setattr(wordings, "ALL_DESCRIPTORS", all_descriptors())
+    words = wordings.all_wordings.__wrapped__()["Hgt"]
+    with pytest.raises(PluginError, match=r"'Hgt' of the package heights 1\.0 failed: .* str, not Said"):
+        words.say(0, 0.1, 0.2)
 
 
 SHAPES = """
