@@ -58,8 +58,10 @@ export class Texts {
 
   /** All in one, a line each. */
   lines() {
-    const breaks = this.#bytes.reduce((sum, byte) => sum + Number(byte === BREAK), 0);
-    return breaks < this.length ? DECODER.decode(this.#bytes) : linesOf(this);
+    const bytes = this.#bytes;
+    let breaks = 0;
+    for (let place = 0; place < bytes.length; place += 1) if (bytes[place] === BREAK) breaks += 1;
+    return breaks < this.length ? DECODER.decode(bytes) : linesOf(this);
   }
 
   *[Symbol.iterator]() {
