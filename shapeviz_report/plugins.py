@@ -98,7 +98,9 @@ def find_plugins() -> tuple[Plugin, ...]:
         for entry in entry_points(group=group):
             if entry.dist is None:
                 continue
-            name, version = entry.dist.metadata["Name"], entry.dist.metadata["Version"]
+            # What is missing is None to one reader of metadata and an error to another, which may take its place.
+            said = entry.dist.metadata
+            name, version = (said.get_all(field, [""])[0] for field in ("Name", "Version"))
             if not (name and version):
                 raise PluginError(
                     f"the package of the {kind} {entry.name!r} ({entry.value}) has no name or no version: install it "
