@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from reports import make_report
+from screenshots import pixels_of
 from waiting import drawn_again, eventually
 
 from shapeviz_report.presets import PRESETS, compared_values
@@ -119,10 +120,6 @@ def drag(page, start, end, selector=SURFACE) -> None:
     page.mouse.up()
 
 
-def drawn(page, selector) -> np.ndarray:
-    return np.asarray(Image.open(io.BytesIO(page.locator(selector).screenshot())).convert("RGB")).astype(int)
-
-
 class TestReading:
     def test_a_bar_tells_its_bin_its_rank_and_its_score(self, page, ranking):
         names, scores = ranking
@@ -182,7 +179,7 @@ class TestReading:
 
     def test_bars_rise_with_their_scores(self, page, report, ranking):
         _, scores = ranking
-        rows = drawn(page, SURFACE)
+        rows = pixels_of(page, SURFACE)
         ground = rows[8, -4]
         step = rows.shape[1] / 50
         heights = []
@@ -222,7 +219,7 @@ class TestChoosing:
         assert name_at(page, 1) == names[0]
         page.mouse.move(5, 5)
         drawn_again(page)
-        rows = drawn(page, SURFACE)
+        rows = pixels_of(page, SURFACE)
         border = np.abs(rows - ACCENT).max(axis=2) < 12
         step = rows.shape[1] // 50
         assert border[:, :step].sum() > 100
@@ -377,15 +374,15 @@ class TestFinding:
         assert page.locator("#bin-take").is_hidden()
 
     def test_matches_stand_out(self, page):
-        before = drawn(page, SURFACE)
+        before = pixels_of(page, SURFACE)
         page.fill("#bin-search", "gc:1")
         drawn_again(page)
-        changed = np.abs(drawn(page, SURFACE) - before).max(axis=2) > 20
+        changed = np.abs(pixels_of(page, SURFACE) - before).max(axis=2) > 20
         assert changed.mean() > 0.05
         page.press("#bin-search", "Escape")
         drawn_again(page)
         assert page.input_value("#bin-search") == ""
-        assert (drawn(page, SURFACE) == before).all()
+        assert (pixels_of(page, SURFACE) == before).all()
 
 
 class TestLookingCloser:
@@ -435,7 +432,7 @@ class TestReaders:
     def test_bars_take_the_colours_of_the_dark_and_of_forced_colours(self, open_page, address):
         for options, ground in (({"color_scheme": "dark"}, 0x1B), ({"forced_colors": "active"}, None)):
             page = opened(open_page, address, **options)
-            rows = drawn(page, SURFACE)
+            rows = pixels_of(page, SURFACE)
             ground = rows[8, -4].mean() if ground is None else ground
             base = rows[:, rows.shape[1] // 2]
             assert np.abs(rows[8, -4] - ground).max() < 10
@@ -445,9 +442,9 @@ class TestReaders:
     def test_who_asks_for_less_movement_sees_the_new_order_at_once(self, page):
         page.click("#bin-order >> text=By feature")
         drawn_again(page)
-        first = drawn(page, SURFACE)
+        first = pixels_of(page, SURFACE)
         page.wait_for_timeout(200)
-        assert (drawn(page, SURFACE) == first).all()
+        assert (pixels_of(page, SURFACE) == first).all()
 
     def test_bars_that_move_end_in_their_places(self, open_page, address, page):
         moving = opened(open_page, address, reduced_motion="no-preference")
@@ -455,8 +452,8 @@ class TestReaders:
             reader.mouse.click(*point_on(reader, 30))
             reader.mouse.move(5, 5)
         drawn_again(page)
-        still = drawn(page, SURFACE)
-        eventually(page, lambda: (drawn(moving, SURFACE) == still).all())
+        still = pixels_of(page, SURFACE)
+        eventually(page, lambda: (pixels_of(moving, SURFACE) == still).all())
 
 
 @pytest.fixture(scope="module")

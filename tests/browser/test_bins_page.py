@@ -1,12 +1,11 @@
 """The Bins page as a reader uses it: from file://, with real 3D."""
 
-import io
 import re
 import shutil
 
 import numpy as np
 import pytest
-from PIL import Image
+from screenshots import pixels_of
 from waiting import drawn_again, eventually
 
 
@@ -32,8 +31,7 @@ def turn_on(page) -> None:
 
 def seen(page) -> np.ndarray:
     """What the 3D view shows, without its rim, where the mark of the focus lies; (h, w, 3)."""
-    picture = Image.open(io.BytesIO(page.locator("#stage canvas").screenshot()))
-    return np.asarray(picture.convert("RGB"), dtype=float)[6:-6, 6:-6]
+    return pixels_of(page, "#stage canvas")[6:-6, 6:-6]
 
 
 def change(before: np.ndarray, after: np.ndarray) -> float:

@@ -8,6 +8,7 @@ from urllib.parse import unquote_plus
 import numpy as np
 import pytest
 from reports import make_report, with_search
+from screenshots import pixels_of
 from waiting import drawn_again, eventually
 
 from shapeviz_report.faithfulness import rate_maps
@@ -54,19 +55,11 @@ def place_on_screen(page, place, count) -> tuple[float, float]:
     return box["x"] + (place + 0.5) * box["width"] / count, box["y"] + 100
 
 
-def drawn(page, selector) -> np.ndarray:
-    import io
-
-    from PIL import Image
-
-    return np.asarray(Image.open(io.BytesIO(page.locator(selector).screenshot())).convert("RGB")).astype(int)
-
-
 def changes(page, selector, act) -> None:
     """Do something, and wait until a place on the screen looks different."""
-    before = drawn(page, selector)
+    before = pixels_of(page, selector)
     act()
-    eventually(page, lambda: (drawn(page, selector) != before).any())
+    eventually(page, lambda: not np.array_equal(pixels_of(page, selector), before))
 
 
 class TestFirstLook:
@@ -85,7 +78,7 @@ class TestFirstLook:
             "#boxes svg",
             "#seed-dots svg",
         ):
-            picture = drawn(page, selector)
+            picture = pixels_of(page, selector)
             assert (np.abs(picture - picture[0, -1]).max(axis=2) > 30).mean() > 0.002, selector
 
     def test_the_best_subset_is_chosen_and_all_is_explained(self, open_page, site):
@@ -139,9 +132,9 @@ class TestChoosing:
     def test_a_click_shows_map_and_classes_of_a_subset_and_names_it_in_the_address(self, open_page, site):
         page = open_page("searched", "features.html")
         subset = subsets_of(site("searched"))[9]
-        before = drawn(page, MAP)
+        before = pixels_of(page, MAP)
         page.mouse.click(*place_on_screen(page, 9, 15))
-        eventually(page, lambda: (drawn(page, MAP) != before).any())
+        eventually(page, lambda: not np.array_equal(pixels_of(page, MAP), before))
         assert value(page) == f"{subset['nh_s']:.3f}"
         names = page.locator("#legend .name").all_inner_texts()
         shown = page.eval_on_selector_all("#bars text", "nodes => nodes.map(node => node.textContent)")
@@ -435,10 +428,10 @@ class TestOfThePaper:
 class TestTheme:
     def test_all_is_drawn_anew(self, open_page):
         page = open_page("searched", "features.html", color_scheme="light")
-        before = drawn(page, "#feature-matrix svg")
+        before = pixels_of(page, "#feature-matrix svg")
         page.click("#theme")
-        eventually(page, lambda: (drawn(page, "#feature-matrix svg") != before).any())
-        eventually(page, lambda: drawn(page, MAP)[5, 5].mean() < 60)
+        eventually(page, lambda: not np.array_equal(pixels_of(page, "#feature-matrix svg"), before))
+        eventually(page, lambda: pixels_of(page, MAP)[5, 5].mean() < 60)
 
 
 class TestOverview:
@@ -634,9 +627,9 @@ class TestStates:
         page = open_page("searched without labels", "features.html")
         assert "no labels" in page.locator(".lead").inner_text()
         assert page.locator(".chip").count() == 3
-        before = drawn(page, MAP)
+        before = pixels_of(page, MAP)
         page.locator(".chip").first.click()
-        eventually(page, lambda: (drawn(page, MAP) != before).any())
+        eventually(page, lambda: not np.array_equal(pixels_of(page, MAP), before))
         # What needs no labels ranks all the same.
         kept = kept_of(site("searched without labels"))
         best = max(kept, key=kept.get)

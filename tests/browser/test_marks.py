@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from PIL import Image
 from reports import make_report
+from screenshots import pixels_of
 
 from shapeviz_report.writing import write_site
 
@@ -35,7 +34,7 @@ def drawn(browser, address, script=None, **options):
     page.goto(address)
     page.wait_for_selector("html[data-ready]", state="attached")
     page.wait_for_timeout(500)
-    picture = np.asarray(Image.open(io.BytesIO(page.locator(LARGE).screenshot())).convert("RGB"), float)
+    picture = pixels_of(page, LARGE)
     kind = page.evaluate(KIND, LARGE)
     context.close()
     return picture, kind

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 import pytest
+from screenshots import pixels_of
 from waiting import drawn_again, eventually
 
 LARGE = "figure[data-slot=large] .surface"
@@ -31,15 +32,6 @@ def selected(page) -> int:
     drawn_again(page)
     head = page.locator("#tray h2")
     return int(re.sub(r"\D", "", head.inner_text())) if head.count() else 0
-
-
-def drawn(page, selector) -> np.ndarray:
-    """What is on the screen in a place, as colours."""
-    import io
-
-    from PIL import Image
-
-    return np.asarray(Image.open(io.BytesIO(page.locator(selector).screenshot())).convert("RGB")).astype(int)
 
 
 def pictured(page) -> float:
@@ -82,7 +74,7 @@ def places_on_the_way(page, method) -> list[float]:
 
 def ink(page, selector) -> float:
     """The share of a place on the screen where something is drawn."""
-    picture = drawn(page, selector)
+    picture = pixels_of(page, selector)
     return (np.abs(picture - picture[5, 5]).max(axis=2) > 40).mean()
 
 
@@ -517,13 +509,15 @@ class TestSelecting:
     def test_a_box_in_one_map_selects_in_all_and_fills_the_tray(self, open_page):
         page = open_page("plain", THREE)
         surfaces = [f"figure.linked[data-view={view}] .surface" for view in ("class", "hit", "thumbnail")]
-        before = {surface: drawn(page, surface) for surface in surfaces}
+        before = {surface: pixels_of(page, surface) for surface in surfaces}
         brush(page, right=0.5, selector=surfaces[0])
         number = selected(page)
         assert 0 < number < 120
         assert page.locator("#tray .shape").count() == number
         for surface, picture in before.items():
-            eventually(page, lambda surface=surface, old=picture: (drawn(page, surface) != old).any())
+            eventually(
+                page, lambda surface=surface, old=picture: not np.array_equal(pixels_of(page, surface), old)
+            )
 
     def test_selecting_moves_nothing_on_the_map(self, open_page):
         page = open_page("plain", "index.html#open=class003/0004")
@@ -670,11 +664,11 @@ class TestMoving:
         page = open_page("plain", "index.html#view=class", viewport={"width": 1920, "height": 1080})
         x, y = point(page, "ArrowRight")
         page.mouse.move(x, y)
-        other = drawn(page, "figure[data-view=hit] .surface")
+        other = pixels_of(page, "figure[data-view=hit] .surface")
         page.mouse.wheel(0, -400)
         eventually(page, lambda: "at=" in address(page))
         assert middle(page) == pytest.approx((x, y), abs=3)
-        eventually(page, lambda: (drawn(page, "figure[data-view=hit] .surface") != other).any())
+        eventually(page, lambda: not np.array_equal(pixels_of(page, "figure[data-view=hit] .surface"), other))
         page.keyboard.press("0")
         eventually(page, lambda: "at=" not in address(page))
 
@@ -688,7 +682,7 @@ class TestMoving:
         for view in "23412":
             page.keyboard.press(view)
             # Left of the buttons; a single mark has colours enough.
-            eventually(page, lambda: np.ptp(drawn(page, LARGE)[40:-40, 40:-240].astype(int)) > 60)
+            eventually(page, lambda: np.ptp(pixels_of(page, LARGE)[40:-40, 40:-240].astype(int)) > 60)
 
     def test_who_zooms_in_on_a_picture_keeps_it(self, open_page):
         page = open_page("plain")
@@ -820,13 +814,13 @@ class TestTheme:
     @pytest.mark.parametrize(("scheme", "dark"), [("light", False), ("dark", True)])
     def test_the_system_decides_until_the_reader_does(self, open_page, scheme, dark):
         page = open_page("plain", color_scheme=scheme)
-        brightness = drawn(page, LARGE)[5, 5].mean()
+        brightness = pixels_of(page, LARGE)[5, 5].mean()
         assert (brightness < 60) == dark
         page.click("#theme")
-        eventually(page, lambda: (drawn(page, LARGE)[5, 5].mean() < 60) != dark)
+        eventually(page, lambda: (pixels_of(page, LARGE)[5, 5].mean() < 60) != dark)
         page.reload()
         page.wait_for_selector("html[data-ready]", state="attached")
-        assert (drawn(page, LARGE)[5, 5].mean() < 60) != dark
+        assert (pixels_of(page, LARGE)[5, 5].mean() < 60) != dark
 
 
 class TestTables:
@@ -857,7 +851,7 @@ class TestStates:
         page = open_page("no labels")
         assert "no labels" in page.locator("#quality").text_content()
         assert page.locator("#legend button").count() == 0
-        picture = drawn(page, LARGE)
+        picture = pixels_of(page, LARGE)
         assert (np.abs(picture - picture[5, 5]).max(axis=2) > 60).mean() > 0.001
         brush(page)
         assert selected(page) > 10

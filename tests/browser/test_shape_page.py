@@ -1,14 +1,13 @@
 """The page of one shape as a reader uses it: from file://, with real features and real 3D."""
 
-import io
 from dataclasses import replace
 from pathlib import Path
 from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
-from PIL import Image
 from reports import make_report, with_copies, with_external
+from screenshots import pixels_of
 from similar_cases import similar_cases
 from waiting import drawn_again, eventually
 
@@ -540,8 +539,7 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
 
 
 def seen(page) -> np.ndarray:
-    picture = Image.open(io.BytesIO(page.locator("#stage canvas").screenshot()))
-    return np.asarray(picture.convert("RGB"), dtype=float)[6:-6, 6:-6]
+    return pixels_of(page, "#stage canvas")[6:-6, 6:-6]
 
 
 def test_a_copy_is_called_one(shape, tmp_path):
