@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from shapeviz_report.building.guard import check_cache
-from shapeviz_report.building.measuring import Measured, find_edges, measure_meshes, nothing_usable
+from shapeviz_report.building.measuring import Measured, find_edges, measure_meshes, nothing_usable, tabulate
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.reading import MeshFiles, load_all_external, read_published
 from shapeviz_report.building.runner import Runner, name_files
@@ -152,15 +152,11 @@ def describe_database(
     with open_run(config, name_files(database), failures, progress, Path(source)) as run:
         edges, kept = find_edges(run, meshes, preset, config.edge_length)
         rows = measure_meshes(run, kept, preset, edges, config.edge_length).rows
-    places = [i for i, shape in enumerate(database.shapes) if shape.id in rows]
-    shapes = tuple(database.shapes[i] for i in places)
-    if not shapes:
+    places = {shape.id: row for row, shape in enumerate(database.shapes) if shape.id in rows}
+    if not places:
         raise DatabaseError(*nothing_usable(Path(source), failures))
-    features = FeatureTable(
-        tuple(shape.id for shape in shapes),
-        (*preset.blocks, *(block for block, _ in external)),
-        np.column_stack([[rows[shape.id] for shape in shapes], *(own[places] for _, own in external)]),
-    )
+    shapes = tuple(database.shapes[row] for row in places.values())
+    features = tabulate(rows, places, preset, external)
     return DescribedDatabase(database, shapes, features, edges, tuple(failures))
 
 

@@ -14,7 +14,7 @@ from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.building.runner import Runner
 from shapeviz_report.features import fixed_edges, quantile_edges
 from shapeviz_report.presets import Preset
-from shapeviz_report.types import Failure, FloatArray, ShapeFacts
+from shapeviz_report.types import Failure, FeatureBlock, FeatureTable, FloatArray, ShapeFacts
 
 SAMPLED_VERTICES = 400_000
 """Vertices behind data-driven histogram ranges, over all shapes."""
@@ -115,6 +115,30 @@ def find_edges(
     run.each("Preparing shapes", meshes, [stages.FACTS, stages.SAMPLE], plan, take)
     kept = {shape: read for shape, read in meshes.items() if shape in samples}
     return quantile_edges([samples[shape] for shape in kept]) if kept else fixed_edges(), kept
+
+
+def tabulate(
+    rows: dict[str, FloatArray],
+    places: Mapping[str, int],
+    preset: Preset,
+    external: Sequence[tuple[FeatureBlock, FloatArray]],
+) -> FeatureTable:
+    """The table of what was measured, and of features that were brought along.
+
+    Parameters
+    ----------
+    rows : dict of str to (w,) float64 array
+        What was measured, by shape; taken out one by one, as those of 100,000 shapes are two gigabytes.
+    places : mapping of str to int
+        The shapes of the table, in its order, and the row of each in what was brought along.
+    preset : Preset
+    external : sequence of (FeatureBlock, (n, v) float64 array)
+    """
+    blocks = (*preset.blocks, *(block for block, _ in external))
+    values = np.empty((len(places), sum(block.width for block in blocks)))
+    for row, (shape, place) in zip(values, places.items(), strict=True):
+        np.concatenate([rows.pop(shape), *(own[place] for _, own in external)], out=row)
+    return FeatureTable(tuple(places), blocks, values)
 
 
 def sampled_of_each(count: int) -> int:

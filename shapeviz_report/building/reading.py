@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from shapeviz_report.bins import read_bins
 from shapeviz_report.building import stages
 from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.config import Config
@@ -13,10 +14,11 @@ from shapeviz_report.database import Listing, read_database
 from shapeviz_report.errors import ConfigError, MeshError
 from shapeviz_report.external import load_coordinates, load_external
 from shapeviz_report.features import BLOCKS
+from shapeviz_report.glb import find_dimensions
 from shapeviz_report.mesh import collect_files
-from shapeviz_report.presets import GLOBAL_BLOCKS
+from shapeviz_report.presets import GLOBAL_BLOCKS, PRESETS
 from shapeviz_report.projections.registry import ALL_PROJECTIONS
-from shapeviz_report.publication import licence_warning
+from shapeviz_report.publication import licence_warning, read_publication
 from shapeviz_report.types import Database, FeatureBlock, FloatArray, Publication
 
 TAKEN_NAMES = ("features", "best")
@@ -35,6 +37,48 @@ def read_published(source: Path | Listing, config: Config, publication: Publicat
     )
     warning = licence_warning(publication, database.shapes)
     return database if warning is None else replace(database, warnings=(*database.warnings, warning))
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """What a build is given.
+
+    Attributes
+    ----------
+    database : Database
+    publication : Publication
+    external : tuple of (FeatureBlock, (n, w) float64 array)
+        Features of the owner's own, a row a shape of the database.
+    maps : mapping of str to (n, 2) float64 array
+        Maps of the owner's own, by name, a row a shape of the database.
+    bins : tuple of str or None
+        That maps are to compare; None for all.
+    gltf_dimensions : mapping of str to int
+        As :func:`~shapeviz_report.glb.find_dimensions` gives it.
+    """
+
+    database: Database
+    publication: Publication
+    external: tuple[tuple[FeatureBlock, FloatArray], ...]
+    maps: Mapping[str, FloatArray]
+    bins: tuple[str, ...] | None
+    gltf_dimensions: Mapping[str, int]
+
+
+def read_inputs(source: Path | Listing, config: Config) -> Inputs:
+    """All that a build is given but the meshes. Raises a ``ShapevizError`` that says what cannot be used."""
+    publication = read_publication(config)
+    database = read_published(source, config, publication)
+    external = load_all_external(config.external, database)
+    blocks = (*PRESETS[config.preset].blocks, *(block for block, _ in external))
+    return Inputs(
+        database=database,
+        publication=publication,
+        external=tuple(external),
+        maps=load_all_coordinates(config.coordinates, database),
+        bins=None if config.bins is None else read_bins(config.bins, blocks),
+        gltf_dimensions=find_dimensions(config.gltf_values),
+    )
 
 
 def load_all_external(paths: Sequence[Path], database: Database) -> list[tuple[FeatureBlock, FloatArray]]:
