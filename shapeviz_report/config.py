@@ -213,9 +213,8 @@ class Config:
 
     def __post_init__(self) -> None:
         for option in dataclasses.fields(self):
-            choices, value = option.metadata["choices"], getattr(self, option.name)
-            if choices and value not in (option.default, *choices):
-                raise ConfigError(f"{option.name} must be one of {', '.join(choices)}, not {value!r}")
+            if fault := _out_of_range(option.name, getattr(self, option.name)):
+                raise ConfigError(fault)
         if self.gltf_values is not None and self.gltf is None:
             raise ConfigError(f"gltf_values go along with gltf, which is not set: one of {', '.join(GLTF)}")
         if self.parquet:
@@ -224,18 +223,6 @@ class Config:
             raise ConfigError(
                 "jobs is the number of processes on this machine; with a scheduler there are none"
             )
-        for name, low, high in (
-            ("neighbours", 1, 10_000),
-            ("edge_length", 0.002, 0.1),
-            ("thumbnail_size", 32, 2048),
-            ("seed", 0, 2**32 - 1),
-            ("time_limit", 1, 1_000_000),
-            ("memory_limit", 0.5, 1_000_000),
-            ("jobs", 1, 10_000),
-        ):
-            value = getattr(self, name)
-            if value is not None and not low <= value <= high:
-                raise ConfigError(f"{name} must be from {low:,} to {high:,}, not {value:,}")
 
     @property
     def worker_count(self) -> int:
@@ -260,7 +247,31 @@ class Config:
         }
 
 
-MACHINE = tuple(f.name for f in dataclasses.fields(Config) if f.metadata["of_machine"])
+_OPTIONS: Mapping[str, dataclasses.Field[Any]] = {
+    option.name: option for option in dataclasses.fields(Config)
+}
+
+_RANGES: Mapping[str, tuple[float, float]] = {
+    "neighbours": (1, 10_000),
+    "edge_length": (0.002, 0.1),
+    "thumbnail_size": (32, 2048),
+    "seed": (0, 2**32 - 1),
+    "time_limit": (1, 1_000_000),
+    "memory_limit": (0.5, 1_000_000),
+    "jobs": (1, 10_000),
+}
+
+_WANTED = {
+    "b": "true or false",
+    "f": "a number",
+    "i": "a whole number",
+    "P": "a path",
+    "s": "text",
+    "t": "a list of file names",
+}
+"""First letter of an option's type -> its values."""
+
+MACHINE = tuple(f.name for f in _OPTIONS.values() if f.metadata["of_machine"])
 """Options that reach out of the database; its own file may not hold them."""
 
 
@@ -332,7 +343,7 @@ def _check_inside(path: Path, what: str, folder: Path) -> None:
 
 def _environment_options() -> dict[str, Any]:
     """The options that stand in the environment, such as ``SHAPEVIZ_CACHE``; empty ones do not count."""
-    options = {ENVIRONMENT_PREFIX + option.name.upper(): option for option in dataclasses.fields(Config)}
+    options = {ENVIRONMENT_PREFIX + name.upper(): option for name, option in _OPTIONS.items()}
     values = {}
     for variable, text in os.environ.items():
         if not variable.startswith(ENVIRONMENT_PREFIX) or not text:
@@ -360,23 +371,63 @@ def _environment_options() -> dict[str, Any]:
 
 def _read_file(file: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(read_regular(file, MOST_BYTES).decode("utf-8-sig"))
+        text = read_regular(file, MOST_BYTES).decode("utf-8-sig")
     except OSError as error:
         raise ConfigError(f"the options in {file} cannot be read: {error.strerror}") from error
-    except (ValueError, RecursionError) as error:  # of text, of TOML, of a number of thousands of digits
+    except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:  # UTF-16 has it beside every letter
+        raise ConfigError(f"{file} cannot be read as TOML: it is no text in UTF-8; save it as such")
+    try:
+        return tomllib.loads(text)
+    except RecursionError as error:
+        raise ConfigError(
+            f"{file} cannot be read as TOML: its lists or tables are nested too deeply"
+        ) from error
+    except ValueError as error:  # of TOML, of a number of thousands of digits
         raise ConfigError(f"{file} cannot be read as TOML: {error}") from error
 
 
 def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
     """A value as the field wants it; relative paths start at ``folder``."""
-    fields = {f.name: str(f.type) for f in dataclasses.fields(Config)}
-    if key not in fields:
-        raise ConfigError(f"there is no option {key[:60]!r} ({where}); there are: {', '.join(fields)}")
-    kind = fields[key]
+    if key not in _OPTIONS:
+        raise ConfigError(_unknown(key, value, where))
+    kind = str(_OPTIONS[key].type)
     if isinstance(value, datetime.date) and kind.startswith("str"):
         value = value.isoformat()  # TOML knows days
     if isinstance(value, str) and len(value) > MOST_LETTERS:
         raise ConfigError(f"{key} has {len(value):,} letters; shorten it to {MOST_LETTERS:,} ({where})")
+    converted = _of_kind(kind, key, value, where, folder)
+    if converted is None:
+        raise ConfigError(f"{key} must be {_WANTED[kind[0]]}, not {reprlib.repr(value)} ({where})")
+    if fault := _out_of_range(key, converted):
+        raise ConfigError(f"{fault} ({where})")
+    return converted
+
+
+def _unknown(key: str, value: Any, where: str) -> str:
+    """What there is instead of an option that there is not."""
+    told = f"there is no option {key[:60]!r} ({where})"
+    if isinstance(value, Mapping):
+        return f"{told}, and no option has a table: let all of them stand at the top, without [{key[:60]}]"
+    near = difflib.get_close_matches(key.lower().replace("-", "_"), _OPTIONS, n=1, cutoff=0.75)
+    return f"{told}; the nearest is {near[0]}" if near else f"{told}; there are: {', '.join(_OPTIONS)}"
+
+
+def _out_of_range(name: str, value: Any) -> str:
+    """What is wrong with the value of an option, if it is none of its choices or out of its range."""
+    option = _OPTIONS[name]
+    choices = option.metadata["choices"]
+    if choices and value not in (option.default, *choices):
+        return f"{name} must be one of {', '.join(choices)}, not {value!r}"
+    low, high = _RANGES.get(name, (None, None))
+    if low is not None and value is not None and not low <= value <= high:
+        return f"{name} must be from {low:,} to {high:,}, not {value:,}"
+    return ""
+
+
+def _of_kind(kind: str, key: str, value: Any, where: str, folder: Path) -> Any:
+    """A value as its field has it; None where it is of another kind."""
     if kind.startswith("tuple"):
         paths = value if isinstance(value, list | tuple) else [value]
         if all(isinstance(path, str | os.PathLike) for path in paths):
@@ -391,9 +442,7 @@ def _convert(key: str, value: Any, where: str, folder: Path) -> Any:
         return int(value)  # perhaps a number of numpy
     elif kind.startswith("str") and isinstance(value, str):
         return value
-    wanted = {"t": "a list of file names", "P": "a path", "s": "text", "i": "a whole number", "f": "a number"}
-    wanted["b"] = "true or false"
-    raise ConfigError(f"{key} must be {wanted[kind[0]]}, not {reprlib.repr(value)} ({where})")
+    return None
 
 
 def _path(key: str, value: str | os.PathLike[str], where: str, folder: Path) -> Path:
