@@ -17,6 +17,25 @@ ASKING: tuple[signal.Signals, ...] = tuple(
 STOPPED = "Stopped. What was computed is kept: the same command continues from here."
 
 
+class _Asked(BaseException):
+    """Of exceptions that a signal raised, and not what it interrupted."""
+
+
+class _Interrupted(_Asked, KeyboardInterrupt):
+    pass
+
+
+class _Terminated(_Asked, SystemExit):
+    pass
+
+
+def is_asked(error: BaseException) -> bool:
+    """Whether an exception came because the program is to end, and not from the code that it left."""
+    return isinstance(error, _Asked) or (
+        isinstance(error, KeyboardInterrupt) and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    )
+
+
 def end_at_once(number: int, frame: FrameType | None = None) -> None:
     """End now: there is nothing to put away yet, or somebody has asked a second time.
 
@@ -33,8 +52,8 @@ def end_in_order(number: int, frame: FrameType | None = None) -> None:
     """End by an exception, so that what is under way is put away; asked again, at once."""
     listen(end_at_once)
     if number == signal.SIGINT:
-        raise KeyboardInterrupt
-    raise SystemExit(128 + number)
+        raise _Interrupted
+    raise _Terminated(128 + number)
 
 
 def listen(handler: Callable[[int, FrameType | None], None] | signal.Handlers) -> None:

@@ -10,7 +10,11 @@ from __future__ import annotations
 import functools
 import inspect
 import re
+import sys
+import unicodedata
 from collections.abc import Callable, Mapping
+from contextlib import redirect_stdout
+from copy import deepcopy
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -20,6 +24,7 @@ from typing import Any, ClassVar, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from shapeviz_report.ending import is_asked
 from shapeviz_report.errors import PluginError, ShapevizError
 
 T = TypeVar("T")
@@ -76,8 +81,11 @@ class Plugin:
     def load(self) -> Any:
         """The object. Raises :class:`PluginError`."""
         try:
-            return self.entry.load()
-        except (Exception, SystemExit) as error:  # whatever it does when it is imported
+            with redirect_stdout(sys.stderr):
+                return self.entry.load()
+        except BaseException as error:  # whatever it does when it is imported
+            if is_asked(error):
+                raise
             raise PluginError(
                 f"{self.words} cannot be loaded ({type(error).__name__}: {error}); {_WHAT_TO_DO}"
             ) from error
@@ -153,19 +161,29 @@ def with_plugins(
     Raises
     ------
     PluginError
-        One is not as it should be, or has a name that is taken.
+        One is not as it should be, says nothing of itself, or has a name that is taken.
     """
     brought = []
-    taken = {part.name: "one of shapeviz-report itself" for part in own}  # type: ignore[attr-defined]
+    taken = {same_name(part.name): "one of shapeviz-report itself" for part in own}  # type: ignore[attr-defined]
+    texts = [name for name, declared in get_type_hints(kind).items() if declared in (str, ClassVar[str])]
     for plugin, part in load_plugins(group, kind):
+        for text in texts:
+            says = any(letter.isalnum() for letter in getattr(part, text))
+            require(plugin, says, f"its {text!r} has no letter, and is read on pages or in lists")
         name = part.name
-        if name in taken:
+        if (same := same_name(name)) in taken:
             raise PluginError(
-                f"{plugin.words} has the name {name!r}, which is taken by {taken[name]}: uninstall one of them"
+                f"{plugin.words} has the name {name!r}, which is taken by {taken[same]} (capitals do not tell names "
+                "apart, nor do they in files everywhere): uninstall one of them"
             )
-        taken[name] = plugin.words
+        taken[same] = plugin.words
         brought.append(prepare(plugin, part))
     return (*brought, *own) if first else (*own, *brought)
+
+
+def same_name(name: str) -> str:
+    """What a name has in common with all that a file system may take for it."""
+    return unicodedata.normalize("NFKC", name).casefold()
 
 
 def require(plugin: Plugin, holds: bool, what: str) -> None:
@@ -176,6 +194,9 @@ def require(plugin: Plugin, holds: bool, what: str) -> None:
 
 def guarded(plugin: Plugin, function: Callable[..., Any], take: Callable[..., T]) -> Callable[..., T]:
     """A function of a plug-in whose failures name the package.
+
+    It works on copies: what it is given is for others too. What it prints is no answer of the command, and goes to the
+    standard error.
 
     Parameters
     ----------
@@ -188,12 +209,16 @@ def guarded(plugin: Plugin, function: Callable[..., Any], take: Callable[..., T]
     @functools.wraps(function)
     def call(*arguments: Any) -> T:
         try:
-            return take(function(*arguments), *arguments)
+            with redirect_stdout(sys.stderr):
+                found = function(*deepcopy(arguments))
+            return take(found, *arguments)
         except (MemoryError, ShapevizError):
             raise
         except Unfit as error:
             raise PluginError(f"{plugin.words} failed: {error}; {_WHAT_TO_DO}") from error
-        except (Exception, SystemExit) as error:
+        except BaseException as error:
+            if is_asked(error):
+                raise
             told = f"{plugin.words} failed ({type(error).__name__}: {error}); {_WHAT_TO_DO}"
             raise PluginError(told) from error
 

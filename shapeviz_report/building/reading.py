@@ -16,13 +16,11 @@ from shapeviz_report.external import load_coordinates, load_external
 from shapeviz_report.features import BLOCKS
 from shapeviz_report.glb import find_dimensions
 from shapeviz_report.mesh import collect_files
+from shapeviz_report.plugins import same_name
 from shapeviz_report.presets import GLOBAL_BLOCKS, PRESETS
-from shapeviz_report.projections.registry import ALL_PROJECTIONS
+from shapeviz_report.projections.registry import ALL_PROJECTIONS, TAKEN_NAMES
 from shapeviz_report.publication import licence_warning, read_publication
 from shapeviz_report.types import Database, FeatureBlock, FloatArray, Publication
-
-TAKEN_NAMES = ("features", "best")
-"""What pages call something else that stands beside maps."""
 
 
 def read_published(source: Path | Listing, config: Config, publication: Publication) -> Database:
@@ -98,7 +96,7 @@ def load_all_external(paths: Sequence[Path], database: Database) -> list[tuple[F
 
 def load_all_coordinates(paths: Sequence[Path], database: Database) -> dict[str, FloatArray]:
     """Maps from files of the owner's own, (n, 2), by name. Raises ``ConfigError``."""
-    taken = {text.casefold() for method in ALL_PROJECTIONS for text in (method.name, method.title)} | {
+    taken = {same_name(text) for method in ALL_PROJECTIONS for text in (method.name, method.title)} | {
         *TAKEN_NAMES
     }
     ids = [shape.id for shape in database.shapes]
@@ -110,9 +108,9 @@ def load_all_coordinates(paths: Sequence[Path], database: Database) -> dict[str,
                 f"the map of the file {path} would be called {name!r}, and files and columns after it: rename the file "
                 "to letters, digits and _, a letter first"
             )
-        if name.casefold() in taken:
+        if same_name(name) in taken:
             raise ConfigError(f"there is already a map named {name!r}; rename the file {path}")
-        taken.add(name.casefold())
+        taken.add(same_name(name))
         maps[name] = load_coordinates(path, ids)
     return maps
 

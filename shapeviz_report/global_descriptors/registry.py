@@ -7,7 +7,7 @@ from typing import Any
 
 from shapeviz_report.descriptors.registry import ALL_DESCRIPTORS
 from shapeviz_report.global_descriptors import GLOBAL_DESCRIPTORS, GlobalDescriptor, PosedShape
-from shapeviz_report.plugins import Plugin, guarded, require, take_numbers, with_plugins
+from shapeviz_report.plugins import Plugin, guarded, require, same_name, take_numbers, with_plugins
 from shapeviz_report.types import FloatArray
 
 
@@ -19,7 +19,7 @@ def _prepare(plugin: Plugin, descriptor: GlobalDescriptor) -> GlobalDescriptor:
     )
     require(
         plugin,
-        all(descriptor.name != local.name for local in ALL_DESCRIPTORS),
+        all(same_name(descriptor.name) != same_name(local.name) for local in ALL_DESCRIPTORS),
         f"there is already a feature {descriptor.name!r}",
     )
     require(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -16,8 +17,11 @@ from shapeviz_report.database import LAYOUTS, Layout
 from shapeviz_report.database import registry as layouts
 from shapeviz_report.descriptors import DESCRIPTORS, Descriptor, Surface
 from shapeviz_report.descriptors import registry as descriptors
+from shapeviz_report.ending import end_in_order, listen, listening
 from shapeviz_report.errors import MeshError, PluginError
 from shapeviz_report.plugins import find_plugins, load_plugins, with_plugins
+from shapeviz_report.projections import PROJECTIONS, Method
+from shapeviz_report.projections import registry as projections
 from shapeviz_report.wording import registry as wordings
 
 Install = Callable[..., None]
@@ -91,6 +95,10 @@ def test_a_descriptor_computes(install) -> None:
         ("OTHER = 1", "cannot be loaded .AttributeError"),
         ("HEIGHT = 3", "it is of the type int, not Descriptor"),
         (HEIGHT.format(name="Gc"), "has the name 'Gc', which is taken by one of shapeviz-report itself"),
+        (HEIGHT.format(name="gC"), "has the name 'gC', which is taken by one of shapeviz-report itself"),
+        (HEIGHT.format(name="H").replace('"Height"', '""'), "its 'title' has no letter"),
+        (HEIGHT.format(name="H").replace('"Height"', r'"\u2060 \n"'), "its 'title' has no letter"),
+        (HEIGHT.format(name="H").replace("How high a point is.", " ."), "its 'measures' has no letter"),
         (HEIGHT.format(name="two words"), "letters and digits only"),
         (HEIGHT.format(name="H").replace("11", "12"), "its edges are not 11 rising numbers"),
         (HEIGHT.format(name="H").replace("high a point is.", "high"), "ends with a full stop"),
@@ -148,10 +156,80 @@ def test_what_fails_on_a_shape_is_told_with_its_package(install, body, said) -> 
         all_descriptors()[-1].compute(Surface(lump()))
 
 
+@pytest.fixture
+def command() -> Iterator[None]:
+    """Signals are handled as the command does it."""
+    with listening():
+        listen(end_in_order)
+        yield
+
+
+def raising(error: str) -> str:
+    return HEIGHT.format(name="Hgt").replace("return surface", f"raise {error}\n    return surface")
+
+
+@pytest.mark.parametrize("error", ["KeyboardInterrupt", "SystemExit(143)", "GeneratorExit"])
+def test_a_plugin_that_ends_the_program_is_told_as_any_failure(install, command, error) -> None:
+    name = error.partition("(")[0]
+    install("heights", raising(error), descriptors="HEIGHT")
+    with pytest.raises(PluginError, match=rf"heights 1\.0 failed \({name}"):
+        all_descriptors()[-1].compute(Surface(lump()))
+    install("early", f"raise {error}", descriptors="EARLY")
+    with pytest.raises(PluginError, match=rf"early 1\.0 cannot be loaded \({name}"):
+        all_descriptors()
+
+
+@pytest.mark.parametrize(
+    ("number", "error"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)]
+)
+def test_who_asks_the_program_to_end_is_heard_in_a_plugin(install, command, number, error) -> None:
+    text = raising(f"SystemError(__import__('signal').raise_signal({number:d}))")
+    install("heights", text, descriptors="HEIGHT")
+    with pytest.raises(error):
+        all_descriptors()[-1].compute(Surface(lump()))
+
+
+def test_ctrl_c_in_a_notebook_is_no_failure_of_a_plugin(install) -> None:
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    install("heights", raising("KeyboardInterrupt"), descriptors="HEIGHT")
+    with pytest.raises(KeyboardInterrupt):
+        all_descriptors()[-1].compute(Surface(lump()))
+
+
+def test_a_plugin_changes_nothing_that_others_measure(install) -> None:
+    text = HEIGHT.format(name="Hgt").replace(
+        "return surface", "surface.normals[:] = surface.vertices[:] = 0; return surface"
+    )
+    install("heights", text, descriptors="HEIGHT")
+    surface = Surface(lump())
+    for descriptor in DESCRIPTORS:
+        descriptor.compute(surface)
+    before = surface.vertices.copy(), surface.normals.copy()
+    assert not all_descriptors()[-1].compute(surface).any()
+    np.testing.assert_array_equal((surface.vertices, surface.normals), before)
+
+
+def test_what_a_plugin_prints_is_no_answer_of_the_command(install, capsys) -> None:
+    text = HEIGHT.format(name="Hgt").replace("return surface", "print('computing'); return surface")
+    install("heights", f"print('loading'){text}", descriptors="HEIGHT")
+    all_descriptors()[-1].compute(Surface(lump()))
+    assert capsys.readouterr() == ("", "loading\ncomputing\n")
+
+
+def test_maps_are_not_called_as_something_else_is(install) -> None:
+    text = """
+from shapeviz_report.projections import Method
+M = Method("Best", "Best of all", "All is well.", 3, print, None)
+"""
+    install("bests", text, projections="M")
+    with pytest.raises(PluginError, match=r"bests 1\.0 cannot be used: pages call something else 'Best'"):
+        with_plugins("shapeviz_report.projections", PROJECTIONS, Method, projections._prepare)
+
+
 def test_what_a_plugin_says_of_a_mesh_is_passed_on(install) -> None:
     text = "from shapeviz_report.errors import MeshError\n" + HEIGHT.format(name="Hgt")
-    raising = text.replace("return surface.vertices[:, 2:]", "raise MeshError('it is too flat')")
-    install("heights", raising, descriptors="HEIGHT")
+    flat = text.replace("return surface.vertices[:, 2:]", "raise MeshError('it is too flat')")
+    install("heights", flat, descriptors="HEIGHT")
     with pytest.raises(MeshError, match="it is too flat"):
         all_descriptors()[-1].compute(Surface(lump()))
 
