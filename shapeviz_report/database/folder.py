@@ -27,6 +27,9 @@ MOST_WAYS = 10
 
 _NEVER_SHAPES = ("__MACOSX",)
 
+SITE_MARK = b'{\n"generator": "shapeviz-report"'
+"""How the record of a site begins."""
+
 
 @dataclass(frozen=True)
 class MeshFile:
@@ -77,6 +80,18 @@ def _begins_with(name: str, stems: set[str]) -> bool:
     return any(".".join(parts[:end]) in stems for end in range(1, len(parts)))
 
 
+def _is_of_a_site(folder: str, name: str) -> bool:
+    """Whether an entry of a folder is the glTF that a site which was built there offers: its shapes once more."""
+    record = os.path.join(folder, "data", "files.json")
+    if name != "gltf" or not os.path.isfile(record):
+        return False
+    try:
+        with open(record, "rb") as file:
+            return file.read(len(SITE_MARK)) == SITE_MARK
+    except OSError:
+        return False
+
+
 def leads_outside(path: str | Path, folder: str | Path) -> bool:
     """Whether a path is not in a folder, links resolved."""
     return not holds(Path(folder), Path(path))
@@ -87,7 +102,8 @@ def scan_folder(root: Path, outside: bool) -> Found:
 
     Links are followed, to files and to folders. Failures are a link back to a folder above it, so that a loop ends; a
     link to a folder that ``MOST_WAYS`` others have led to; and, unless ``outside`` ones are wanted, a link to a folder
-    that is not below the root. Hidden files and folders and files that are no meshes are passed over in silence.
+    that is not below the root. Hidden files and folders, files that are no meshes, and the glTF of sites are passed
+    over in silence.
 
     Raises
     ------
@@ -132,7 +148,7 @@ def scan_folder(root: Path, outside: bool) -> Found:
         stems = {split_name(entry.name)[0] for entry in entries if is_read(entry.name)}
         names = {entry.name for entry in entries}
         for entry in entries:
-            if entry.name.startswith(".") or entry.name in _NEVER_SHAPES:
+            if entry.name.startswith(".") or entry.name in _NEVER_SHAPES or _is_of_a_site(folder, entry.name):
                 continue
             relative = prefix + readable(entry.name)
             try:

@@ -16,6 +16,7 @@ from shapeviz_report.database.base import display_names, shape_names
 from shapeviz_report.errors import DatabaseError
 from shapeviz_report.order import natural
 from shapeviz_report.types import Database
+from shapeviz_report.writing.record import record_text
 
 
 def make(root: Path, *files: str | bytes) -> Path:
@@ -114,6 +115,15 @@ def test_what_is_no_mesh_is_passed_over(tmp_path):
     database = read_database(tmp_path)
     assert [shape.id for shape in database.shapes] == ["cup/1"]
     assert not database.failures
+
+
+def test_the_gltf_of_a_site_is_no_shape_of_the_database_around_it(tmp_path):
+    make(tmp_path, "1.off", "site/gltf/2.glb", "gltf/3.glb", "other/gltf/4.glb")
+    for site, record in (("site", record_text({})), ("other", b'{"of": "somebody else"}')):
+        (tmp_path / site / "data").mkdir()
+        (tmp_path / site / "data" / "files.json").write_bytes(record)
+    assert [shape.id for shape in read_database(tmp_path).shapes] == ["1", "gltf/3", "other/gltf/4"]
+    assert [shape.id for shape in read_database(tmp_path / "site" / "gltf").shapes] == ["2"]
 
 
 def test_other_3d_formats_are_failures_that_say_what_is_read(tmp_path):
