@@ -15,6 +15,8 @@ import numpy.typing as npt
 from shapeviz_report.errors import ConfigError
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import pyarrow
 
 INSTALL = "pip install 'shapeviz-report[parquet]'"
@@ -65,6 +67,13 @@ def parquet_bytes(columns: Mapping[str, npt.NDArray[Any] | Sequence[str | None]]
         write_statistics=False,
     )
     return file.getvalue()
+
+
+def parquet_names(path: Path) -> list[str]:
+    """What the columns of a Parquet file are called. Raises ``ValueError``, ``OSError``."""
+    from pyarrow import parquet
+
+    return list(parquet.read_schema(path).names)
 
 
 def _encodable(text: str) -> str:

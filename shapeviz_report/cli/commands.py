@@ -87,7 +87,7 @@ def describe(options: argparse.Namespace) -> int:
 
     listen(end_in_order)
     config = load_config(options.database, _given(options), options.config)
-    check_feature_file(options.output, options.database)
+    check_feature_file(options.output)
     found = describe_database(options.database, config, _progress(options, config))
     write_feature_file(options.output, found.database, found.shapes, found.features, found.edges)
     print_failures(found.failures)

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Sequence
 from pathlib import Path
+from zipfile import BadZipFile, ZipFile
 
 import numpy as np
 
-from shapeviz_report.arrow import parquet_bytes, require_pyarrow
+from shapeviz_report.arrow import parquet_bytes, parquet_names, require_pyarrow
+from shapeviz_report.descriptors import DESCRIPTORS
 from shapeviz_report.errors import ConfigError, SiteError
-from shapeviz_report.places import explain
+from shapeviz_report.places import explain, tried
 from shapeviz_report.staging import write_atomically
 from shapeviz_report.types import Database, FeatureTable, FloatArray, ShapeEntry
 from shapeviz_report.writing.data.encoding import archive, csv_text, number
@@ -18,12 +21,12 @@ SUFFIXES = (".parquet", ".csv", ".npz")
 """What such a file may be, by its name."""
 
 
-def check_feature_file(path: Path, database: Path) -> None:
-    """Refuse, before anything is computed, a file that cannot be written or that the database needs.
+def check_feature_file(path: Path) -> None:
+    """Refuse, before anything is computed, a file that cannot be written, or would take the place of another.
 
     Raises
     ------
-    ConfigError
+    ConfigError, SiteError
     """
     if path.suffix.lower() not in SUFFIXES:
         raise ConfigError(
@@ -31,10 +34,17 @@ def check_feature_file(path: Path, database: Path) -> None:
         )
     if path.is_dir():
         raise ConfigError(f"the file of features {path} is a folder")
-    if path.resolve() == database.resolve():
-        raise ConfigError(f"the file of features {path} is the database itself: choose another name")
     if path.suffix.lower() == ".parquet":
         require_pyarrow(f"the file of features {path}", ".csv and .npz need nothing more")
+    if path.exists() and not _is_replaced(path):
+        raise ConfigError(
+            f"{path} is not what `describe` writes, and would be replaced: move it, or choose another name"
+        )
+    try:
+        with tried(path.absolute().parent) as trial:
+            (trial / path.name).write_bytes(b"")
+    except OSError as error:
+        raise _unwritable(path, error) from error
 
 
 def write_feature_file(
@@ -62,7 +72,42 @@ def write_feature_file(
     try:
         write_atomically(path.absolute(), write(texts, features, edges))
     except OSError as error:
-        raise SiteError(f"the features cannot be written to {path}: {explain(error)}") from error
+        raise _unwritable(path, error) from error
+
+
+def _is_replaced(path: Path) -> bool:
+    """Whether what lies there is nothing, or an earlier file of features."""
+    if path.stat().st_size == 0:
+        return True
+    try:
+        names = _NAMES[path.suffix.lower()](path)
+    except (OSError, ValueError, BadZipFile):
+        return False
+    return {"id", "class", _FIRST} <= set(names) or {"columns", "shape_ids", "classes"} <= set(names)
+
+
+def _csv_names(path: Path) -> Sequence[str]:
+    with path.open(encoding="utf-8", newline="") as file:
+        try:
+            return next(csv.reader(file))
+        except csv.Error as error:
+            raise ValueError(error) from error
+
+
+def _archive_names(path: Path) -> Sequence[str]:
+    with ZipFile(path) as file:
+        return [Path(name).stem for name in file.namelist()]
+
+
+_NAMES = {".csv": _csv_names, ".npz": _archive_names, ".parquet": parquet_names}
+"""What the columns or arrays of a file are called."""
+
+_FIRST = f"{DESCRIPTORS[0].name}:1"
+"""A column that every table of features has."""
+
+
+def _unwritable(path: Path, error: OSError) -> SiteError:
+    return SiteError(f"the features cannot be written to {path}: {explain(error)}")
 
 
 def _describe(database: Database, shapes: Sequence[ShapeEntry]) -> dict[str, list[str | None]]:

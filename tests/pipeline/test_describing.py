@@ -28,6 +28,7 @@ from shapeviz_report.demo import encode_shape
 from shapeviz_report.errors import ConfigError, MeshError
 from shapeviz_report.features import compute_histograms
 from shapeviz_report.types import Mesh
+from shapeviz_report.writing.feature_files import check_feature_file
 
 ROOT = Path(__file__).parents[2]
 COARSE = 0.06
@@ -202,6 +203,7 @@ def test_files_of_features(built, database, cache, tmp_path) -> None:
         told = command("describe", database, "-o", tmp_path / f"features.{suffix}", *options)
         assert told.returncode == 0, told.stderr
         assert told.stdout.endswith(f"features.{suffix}: 15 shapes, 2,705 feature values each\n")
+        check_feature_file(tmp_path / f"features.{suffix}")  # which may be replaced by another
     columns, classes = list(report.features.columns), [str(label) for label in report.labels]
     with (tmp_path / "features.csv").open(newline="") as file:
         head, *rows = csv.reader(file)
@@ -222,21 +224,37 @@ def test_files_of_features(built, database, cache, tmp_path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("features.xlsx", "must end in .parquet, .csv or .npz"), ("folder.csv", "is a folder")],
+    [
+        ("features.xlsx", "must end in .parquet, .csv or .npz"),
+        ("folder.csv", "is a folder"),
+        (f"{'n' * 300}.csv", "File name too long"),
+        ("/proc/features.csv", "choose another place"),
+    ],
 )
 def test_files_that_cannot_be_written(database, tmp_path, name, said) -> None:
     (tmp_path / "folder.csv").mkdir()
     told = command("describe", database, "-o", tmp_path / name)
     assert (told.returncode, told.stdout) == (1, "")
     assert said in told.stderr
+    assert "Measuring" not in told.stderr, "it is known before anything is computed"
 
 
-def test_a_table_is_not_replaced_by_its_features(tmp_path) -> None:
-    table = tmp_path / "shapes.csv"
-    table.write_text("file,label\ncup.off,cup\n")
-    told = command("describe", table, "-o", table)
-    assert "is the database itself" in told.stderr
-    assert table.read_text().startswith("file,label")
+@pytest.mark.parametrize("suffix", [".csv", ".npz", ".parquet"])
+def test_a_file_of_another_kind_is_not_replaced(built, database, tmp_path, suffix) -> None:
+    """As the table of the database, features of a network, or what a site offers."""
+    path = tmp_path / f"shapes{suffix}"
+    pandas.DataFrame({"id": ["cup"], "label": ["cup"]}).to_parquet(tmp_path / "shapes.parquet")
+    np.savez(tmp_path / "shapes.npz", values=np.zeros((1, 3)), shape_ids=np.array(["cup"]))
+    (tmp_path / "shapes.csv").write_text("file,label\ncup.off,cup\n")
+    for content in (path.read_bytes(), b"\xff\0PK of no kind"):
+        path.write_bytes(content)
+        told = command("describe", database, "-o", path)
+        assert f"{path} is not what `describe` writes" in told.stderr
+        assert path.read_bytes() == content
+    with pytest.raises(ConfigError, match="would be replaced"):
+        check_feature_file(built[0] / "data" / "features.npz")
+    path.write_bytes(b"")
+    check_feature_file(path)
 
 
 def test_without_pyarrow_parquet_is_refused_before_anything_is_computed(
@@ -248,7 +266,7 @@ def test_without_pyarrow_parquet_is_refused_before_anything_is_computed(
     with pytest.raises(
         ShapevizError, match=r"pip install 'shapeviz-report\[parquet\]'; \.csv and \.npz need"
     ):
-        feature_files.check_feature_file(tmp_path / "features.parquet", database)
+        feature_files.check_feature_file(tmp_path / "features.parquet")
 
 
 def test_the_examples_of_the_guide(tmp_path, cache, monkeypatch) -> None:
