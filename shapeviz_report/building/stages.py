@@ -533,7 +533,7 @@ SEARCH = Stage(
 )  # fmt: skip
 SCORE = Stage(
     "bins", "Scoring bins", "scored", score_bins, read_array,
-    "Scoring the bins for the class {task!r} failed: {reason}. A larger time_limit may help.",
+    "Scoring the bins for the class {task!r} failed: {reason}.",
 )  # fmt: skip
 SELECT = Stage(
     "select", "Searching bins", "selected", search_bins, read_found_bins,

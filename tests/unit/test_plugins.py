@@ -39,7 +39,6 @@ HEIGHT = Descriptor("{name}", "Height", "How high a point is.", 1, tuple(np.lins
 def install(tmp_path, monkeypatch) -> Iterator[Install]:
     """Put a package onto the path as an installer leaves it there."""
     monkeypatch.syspath_prepend(str(tmp_path))
-    modules = set(sys.modules)
 
     def add(package: str, text: str, version: str = "1.0", **parts: str) -> None:
         module = package.replace("-", "_").lower()
@@ -58,8 +57,9 @@ def install(tmp_path, monkeypatch) -> Iterator[Install]:
 
     yield add
     find_plugins.cache_clear()
-    for name in set(sys.modules) - modules:
-        del sys.modules[name]
+    for name, module in list(sys.modules.items()):
+        if (getattr(module, "__file__", None) or "").startswith(str(tmp_path)):
+            del sys.modules[name]
 
 
 def all_descriptors() -> tuple[Descriptor, ...]:
