@@ -106,10 +106,12 @@ export function placesByClass(groups) {
   const next = new Uint32Array(groups.reduce((most, group) => Math.max(most, group), 0) + 2);
   for (const group of groups) if (group + 2 < next.length) next[group + 2] += 1;
   for (let place = 1; place < next.length; place += 1) next[place] += next[place - 1];
-  return Uint32Array.from(groups, (group) => {
-    next[group + 1] += 1;
-    return next[group + 1] - 1;
-  });
+  const places = new Uint32Array(groups.length);
+  for (let index = 0; index < groups.length; index += 1) {
+    places[index] = next[groups[index] + 1];
+    next[groups[index] + 1] += 1;
+  }
+  return places;
 }
 
 /**

@@ -3,7 +3,7 @@
 import { shortNames } from "../addresses/bin-names.js";
 import { besideAddress } from "../addresses/shape.js";
 import { galleryOf } from "../addresses/shapes.js";
-import { element, picture } from "../base/dom.js";
+import { element, pause, picture } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { count, grouped } from "../base/words.js";
 import { writeSelection } from "../database/selection.js";
@@ -97,14 +97,19 @@ export class GroupsView {
     const pair = await this.groups.resolve(state.get("a"), state.get("b"));
     if (asked !== this.latest) return;
     this.pair = pair;
-    this.#heads(pair);
     const problem = this.#problem(pair);
-    if (problem !== null) {
+    if (problem === null) this.#ask(/** @type {{ a: Group, b: Group }} */ (pair));
+    else {
       this.inquiry.rest();
       this.#blank(problem);
-      return;
     }
-    const { a, b } = /** @type {{ a: Group, b: Group }} */ (pair);
+    // Pictures are asked for after what the answer needs.
+    await pause();
+    if (asked === this.latest) this.#heads(pair);
+  }
+
+  /** @param {{ a: Group, b: Group }} groups */
+  #ask({ a, b }) {
     const key = JSON.stringify([a.shapes, b.shapes]);
     this.inquiry.ask(
       key,

@@ -112,8 +112,10 @@ export class LevelBins extends Bins {
     const rows = shapes.map((shape) => /** @type {Uint8Array} */ (this.#known.get(shape)));
     const values = new Float32Array(this.count * rows.length);
     for (let column = 0, place = 0; column < this.count; column += 1) {
+      const low = this.levels.low[column];
+      const step = this.stepOf(column);
       for (const levels of rows) {
-        values[place] = this.valueAt(column, levels[column]);
+        values[place] = low + step * levels[column];
         place += 1;
       }
     }
@@ -152,8 +154,6 @@ export class LevelBins extends Bins {
  */
 function placesIn(order) {
   const places = new Int32Array(order.length);
-  order.forEach((shape, place) => {
-    places[shape] = place;
-  });
+  for (let place = 0; place < order.length; place += 1) places[order[place]] = place;
   return places;
 }

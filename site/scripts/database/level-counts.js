@@ -172,7 +172,8 @@ export class CountedValues {
         upTo[column] = joint(first.variance, second.variance, first.mean - second.mean);
       }
     }
-    const cells = Uint32Array.from(counted.cells);
+    // Not `from`, which goes through an iterator.
+    const cells = new Uint32Array(counted.cells);
     const added = other.counted.cells;
     for (let cell = 0; cell < cells.length; cell += 1) cells[cell] += sign * added[cell];
     return new CountedValues(bins, { shapes, means, variances, upTo, cells });

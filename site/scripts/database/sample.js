@@ -42,17 +42,18 @@ export const MOST_PARTS = 100;
  * @param {number} [least] parts that are read, where there are as many
  */
 export function sampledByParts(shapes, places, aPart, most, least = 1) {
-  /** @type {Map<number, number[]>} */
-  const held = new Map();
-  for (const shape of shapes) entry(held, Math.floor(places[shape] / aPart), () => []).push(shape);
-  const parts = [...held.keys()].sort((a, b) => a - b);
+  const holds = new Uint8Array(Math.ceil(places.length / aPart));
+  for (const shape of shapes) holds[Math.floor(places[shape] / aPart)] = 1;
+  const parts = [...holds.keys()].filter((number) => holds[number] === 1);
   const needed = Math.ceil((parts.length * most) / Math.max(shapes.length, most));
   const wanted = Math.min(Math.max(needed, least), MOST_PARTS, parts.length);
   if (wanted === parts.length && shapes.length <= most) return shapes;
-  const found = Array.from(
-    { length: wanted },
-    (_, number) => parts[Math.floor(((number + 0.5) * parts.length) / wanted)],
-  ).flatMap((number) => /** @type {number[]} */ (held.get(number)));
+  /** @type {Map<number, number[]>} */
+  const read = new Map();
+  for (let number = 0; number < wanted; number += 1)
+    read.set(parts[Math.floor(((number + 0.5) * parts.length) / wanted)], []);
+  for (const shape of shapes) read.get(Math.floor(places[shape] / aPart))?.push(shape);
+  const found = [...read.values()].flat();
   const step = Math.max(Math.floor(found.length / most), 1);
   return found.filter((_, place) => place % step === 0).sort((a, b) => a - b);
 }

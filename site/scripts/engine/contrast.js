@@ -43,7 +43,8 @@ import { Random } from "./random.js";
  * @property {number} limit what the largest effect of any column exceeds in one of a hundred deals
  * @property {Share[]} features the same share for the columns of each feature
  * @property {Share} all and for all columns together
- * @property {Float64Array} away squared distance of every row from the mean of its group, first group first
+ * @property {Float64Array} away squared distance of every row from the mean of its group, first group first; of none where
+ *   only chance is known by the rows
  */
 
 /** The share of shuffles that may reach a difference which still counts as beyond chance. */
@@ -91,7 +92,7 @@ function* compare(given, { first, second, shuffles, whole }, seed) {
   yield 0;
   const own = smaller(first, second);
   const { effect, shares: observed, sizes } = whole ?? measured(standard, first, second);
-  const away = distances(standard, first.length);
+  const away = whole ? new Float64Array() : distances(standard, first.length);
   const part = whole ? 1 : Math.max(own.length / MOST_DEALT, 1);
   const some = part > 1 ? standardised(given, everyOf(first, part), everyOf(second, part)) : standard;
   // Of a sample more may be dealt out than it has of the smaller group, which may be a handful.

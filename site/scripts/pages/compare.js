@@ -1,7 +1,7 @@
 // The Compare page: what sets two groups apart, what they share, outliers, and classes that are alike.
 
 import { comparePageAddress } from "../addresses/compare.js";
-import { chunk, chunks } from "../base/chunks.js";
+import { chunk, chunks, part } from "../base/chunks.js";
 import { pause } from "../base/dom.js";
 import { openPage } from "../base/page.js";
 import { pageAddress, readHash } from "../base/place.js";
@@ -22,7 +22,11 @@ import { Tray } from "../tray/tray.js";
 async function main() {
   // Two groups are what most come for, and their values what takes longest.
   if (!readHash().has("view")) loadAllBins().catch(() => {});
-  const [overview, data, clusters] = await chunks("overview", "compare", "clusters");
+  const [[overview, data, clusters]] = await Promise.all([
+    chunks("overview", "compare", "clusters"),
+    // Those in the space of all features.
+    part("neighbours", 0),
+  ]);
   const database = new Database(overview, currentTheme);
   const neighbours = new Neighbours(database, data);
   await neighbours.know();
