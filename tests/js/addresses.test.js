@@ -13,6 +13,7 @@ import { galleryAddress } from "../../site/scripts/addresses/shapes.js";
 import { workAddress } from "../../site/scripts/addresses/workbench.js";
 import { commonTo } from "../../site/scripts/base/address.js";
 import { missingWords } from "../../site/scripts/base/missing.js";
+import { readSelection } from "../../site/scripts/database/selection.js";
 import { textsOf } from "./texts.js";
 
 const FEATURES = [
@@ -425,4 +426,24 @@ test("what is missing is one sentence, whose names are apart, few and short", ()
   );
   const [, , { name }] = missingWords(new Map([["class", new Set(["<img onerror=x>\u202e".repeat(900)])]]));
   assert.equal(Array.from(name).length, 40);
+});
+
+test("a selection is found by few names and by many, and who is not there is told", () => {
+  const names = Array.from({ length: 60 }, (_, index) => `bee/${index}`);
+  const large = /** @type {any} */ ({
+    ids: textsOf(...names),
+    indexOfId: new Map(names.map((id, index) => [id, index])),
+  });
+  for (const count of [2, 50]) {
+    const wanted = names.slice(5, 5 + count);
+    const query = new URLSearchParams([...wanted, "bee/x"].map((id) => ["select", id]));
+    /** @type {string[]} */
+    const missed = [];
+    const found = readSelection(query, large, (_noun, name) => missed.push(name));
+    assert.deepEqual(
+      [...found].map((index) => names[index]),
+      wanted,
+    );
+    assert.deepEqual(missed, ["bee/x"]);
+  }
 });

@@ -41,8 +41,8 @@ const levels = columns.map((own, column) =>
 );
 
 class Known extends LevelBins {
-  at(column, shape) {
-    return levels[column][shape];
+  reader(shapes) {
+    return (column) => shapes.map((shape) => levels[column][shape]);
   }
 }
 const bins = new Known(

@@ -52,8 +52,10 @@ test("a share of pairs of places that hardly differs is told after what one sees
     [5.1, 5, 2, 2.1],
   ];
   const bins = /** @type {any} */ ({
-    /** @type {(column: number, row: number) => number} */
-    share: (column, row) => shares[column][row],
+    /** @type {(rows: number[]) => (column: number) => number[]} */
+    reader: (rows) => (column) => rows.map((row) => shares[column][row]),
+    /** @type {(column: number, step: number) => number} */
+    shareAt: (_column, step) => step,
     /** @type {(column: number) => boolean} */
     inPercent: (column) => column < 2,
     ease: () => 1,

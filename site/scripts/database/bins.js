@@ -154,6 +154,15 @@ export class Bins {
   }
 
   /**
+   * What tells the steps of some shapes, which are at hand, in a column.
+   * @param {number[]} shapes
+   * @returns {(column: number) => number[]}
+   */
+  reader(shapes) {
+    return (column) => shapes.map((shape) => this.at(column, shape));
+  }
+
+  /**
    * The compared value at a step of a column.
    * @param {number} column
    * @param {number} step

@@ -34,11 +34,28 @@ export class RowValues {
     this.each = true;
   }
 
+  /** @type {((column: number) => number[]) | null} */
+  #read = null;
+
+  /**
+   * The steps of all in a column.
+   * @param {number} column
+   */
+  steps(column) {
+    this.#read ??= this.bins.reader(this.rows);
+    return this.#read(column);
+  }
+
+  /** @param {number} column */
+  #shares(column) {
+    return this.steps(column).map((step) => this.bins.shareAt(column, step));
+  }
+
   moments() {
-    const { bins, rows, count } = this;
+    const { bins, count } = this;
     const [means, variances] = [new Float64Array(bins.count), new Float64Array(bins.count)];
     for (let column = 0; column < bins.count; column += 1) {
-      const { mean, variance } = momentsOf(rows.map((row) => bins.value(column, row)));
+      const { mean, variance } = momentsOf(this.steps(column).map((step) => bins.valueAt(column, step)));
       [means[column], variances[column]] = [mean, variance];
     }
     return { count, means, variances };
@@ -46,27 +63,23 @@ export class RowValues {
 
   /** @param {number} column */
   mean(column) {
-    return momentsOf(this.rows.map((row) => this.bins.share(column, row))).mean;
+    return momentsOf(this.#shares(column)).mean;
   }
 
   /** @param {number} column */
   points(column) {
-    return this.rows
-      .map((row) => ({ value: this.bins.share(column, row), weight: 1 }))
+    return this.#shares(column)
+      .map((value) => ({ value, weight: 1 }))
       .sort((one, other) => one.value - other.value);
   }
 
   /** @param {number} column */
   upTo(column) {
-    const { bins, rows } = this;
-    const start = column - bins.binOf(column);
-    return momentsOf(
-      rows.map((row) => {
-        let sum = 0;
-        for (let own = start; own <= column; own += 1) sum += bins.share(own, row);
-        return sum;
-      }),
-    );
+    const sums = new Array(this.count).fill(0);
+    for (let own = column - this.bins.binOf(column); own <= column; own += 1) {
+      for (const [place, share] of this.#shares(own).entries()) sums[place] += share;
+    }
+    return momentsOf(sums);
   }
 }
 

@@ -2,10 +2,9 @@
 // build has counted class by class.
 
 import { part } from "../base/chunks.js";
-import { RowValues } from "./group-values.js";
 import { STEPS } from "./levels.js";
 
-/** @import { GroupValues } from "./group-values.js" */
+/** @import { GroupValues, RowValues } from "./group-values.js" */
 /** @import { LevelBins } from "./level-bins.js" */
 
 /** A group of whole classes is read from so many parts at most: each is 100 kB. */
@@ -72,22 +71,22 @@ export class CountedValues {
    * @param {RowValues} values
    * @param {LevelBins} bins
    */
-  static of({ rows }, bins) {
+  static of(values, bins) {
+    const { count } = values;
     const { levelsACell } = bins.levels;
     const cellsAColumn = Math.ceil((STEPS + 1) / levelsACell);
     const [means, variances, upTo] = Array.from({ length: 3 }, () => new Float64Array(bins.count));
     const cells = new Uint32Array(bins.count * cellsAColumn);
-    const values = new RowValues(bins, rows);
     for (let column = 0; column < bins.count; column += 1) {
-      for (const row of rows) {
-        const level = bins.at(column, row);
+      const own = values.steps(column);
+      for (const level of own) {
         cells[column * cellsAColumn + Math.floor(level / levelsACell)] += 1;
-        means[column] += level / rows.length;
+        means[column] += level / count;
       }
-      for (const row of rows) variances[column] += (bins.at(column, row) - means[column]) ** 2 / rows.length;
+      for (const level of own) variances[column] += (level - means[column]) ** 2 / count;
       if (bins.isShare(column)) upTo[column] = values.upTo(column).variance;
     }
-    return new CountedValues(bins, { shapes: rows.length, means, variances, upTo, cells });
+    return new CountedValues(bins, { shapes: count, means, variances, upTo, cells });
   }
 
   moments() {

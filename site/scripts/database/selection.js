@@ -55,7 +55,22 @@ export function readSelection(query, database, miss = () => {}) {
     if (whose === mark(database)) return new Set(unpacked(database, bits));
     miss(SELECTION, "");
   }
-  return new Set(lookUp(query.getAll("select"), (id) => database.indexOfId.get(id), "shape", miss));
+  const ids = query.getAll("select");
+  return new Set(lookUp(ids, finder(database, ids.length), "shape", miss));
+}
+
+/**
+ * What finds shapes by their ids, of which so many are looked for: only very many are worth a name for every shape.
+ * @param {Database} database
+ * @param {number} count
+ * @returns {(id: string) => number | undefined}
+ */
+function finder(database, count) {
+  if (count > MOST_NAMED) return (id) => database.indexOfId.get(id);
+  return (id) => {
+    const index = database.ids.indexOf(id);
+    return index < 0 ? undefined : index;
+  };
 }
 
 /**
