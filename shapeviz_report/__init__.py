@@ -64,6 +64,10 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
 def build(database: Any, destination: str | os.PathLike[str], **options: Any) -> Report:
     """Build the site of a shape database.
 

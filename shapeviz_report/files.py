@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 from pathlib import Path
@@ -37,7 +38,10 @@ def read_regular(path: Path, most: int = MOST_BYTES) -> bytes:
     OSError
         It cannot be opened, is no regular file, or is larger. ``strerror`` says which, in words for its owner.
     """
-    descriptor = open_for_reading(path)
+    try:
+        descriptor = open_for_reading(path)
+    except ValueError as error:
+        raise OSError(errno.EINVAL, "it is no name of a file", ascii(os.fspath(path))) from error
     with os.fdopen(descriptor, "rb") as file:
         status = os.fstat(descriptor)
         if stat.S_ISDIR(status.st_mode):

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -128,8 +129,12 @@ def find_similar(
     CacheError
         Results cannot be kept in the cache.
     """
-    if count < 1:
-        raise ConfigError(f"the number of shapes to find must be at least 1, not {count}")
+    if not isinstance(count, Integral) or count < 1:
+        raise ConfigError(f"the number of shapes to find must be a whole number from 1 on, not {count}")
+    if isinstance(features, str):
+        raise ConfigError(
+            f"features are a list of names, such as ['PFH', 'FPFH'], and not the text {features!r}"
+        )
     check_cache(cache, None)
     opened = read_site(site)
     chosen, names, left_out = _choose(opened, features, bins)

@@ -49,6 +49,8 @@ def encode_mesh(mesh: Any) -> dict[str, bytes]:
             f"a mesh is the path of a file, a pair of vertices and faces, or an object that has both; this is of type "
             f"{type(mesh).__name__}"
         )
+    if np.iscomplexobj(mesh[0]):
+        raise MeshError("its vertices are complex numbers; give x, y and z")
     try:
         vertices, faces = np.asarray(mesh[0], "<f8"), np.asarray(mesh[1])
     except (TypeError, ValueError) as error:

@@ -87,6 +87,8 @@ def test_a_mesh_that_cannot_be_used(tmp_path, cache) -> None:
     (tmp_path / "empty.off").touch()
     with pytest.raises(MeshError, match=r"empty\.off cannot be used: the file is empty"):
         shapeviz_report.describe(tmp_path / "empty.off", cache=cache)
+    with pytest.raises(MeshError, match=r"it is no name of a file"):
+        shapeviz_report.describe("a\0b.off", cache=cache)
     with pytest.raises(MeshError, match="of type int"):
         shapeviz_report.describe(3, cache=cache)
 
@@ -167,6 +169,10 @@ def test_a_file_that_fails_is_told_once(tmp_path, database, cache) -> None:
 def test_what_cannot_be_fitted(parameters, meshes, said) -> None:
     with pytest.raises(ConfigError, match=said):
         ShapeDescriptors(**parameters).fit(meshes)
+
+
+def test_the_package_tells_all_its_names() -> None:
+    assert set(shapeviz_report.__all__) <= set(dir(shapeviz_report))
 
 
 def test_unfitted() -> None:

@@ -182,7 +182,9 @@ def test_features_that_a_large_site_leaves_out_are_described(
         ({"features": ["Gc", "Colour"]}, "no feature 'Colour'"),
         ({"features": ["Gc", "Gc"]}, "named 2 times"),
         ({"features": []}, "no feature is named"),
-        ({"count": 0}, "at least 1"),
+        ({"features": "PFH"}, "a list of names, .* and not the text 'PFH'"),
+        ({"count": 0}, "whole number from 1 on, not 0"),
+        ({"count": 2.5}, "whole number from 1 on, not 2.5"),
         ({"features": ["Gc"], "bins": "bins.txt"}, "choose one"),
     ],
 )

@@ -43,6 +43,7 @@ def test_polygons_are_triangulated() -> None:
         (([[0, 0]], [[0, 1, 2]]), r"vertices must be an array \(n, 3\), and not \(1, 2\)"),
         (([[0, 0, 0]], [[0.5, 1, 2]]), "faces must be an array"),
         (([[0, 0, 0]], [0, 1, 2]), "faces must be an array"),
+        (([[0, 0, 1j]], [[0, 1, 2]]), "vertices are complex numbers"),
         ((["a", "b"], [[0, 1, 2]]), "no arrays of numbers"),
     ],
 )
