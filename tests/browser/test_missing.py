@@ -27,7 +27,7 @@ ADDRESSES = {
             "find": "x",
         },
         "This link names the map “mds”, the feature “dragons”, the class “dragon”, the shape “ghost” and the column "
-        "“planet”, which this site does not offer.",
+        "“planet”, which this page does not offer.",
     ),
     "features.html": (
         {"features": "dragons", "color": "bin:Gc:99", "open": "ghost", "map": "umap"},
@@ -39,12 +39,12 @@ ADDRESSES = {
     ),
     "bins.html": (
         {"bin": "Gc:11", "of": "dragon", "id": "ghost", "map": "mds"},
-        "This link names the bin “Gc:11”, the class “dragon”, the shape “ghost” and the map “mds”, which this site "
+        "This link names the bin “Gc:11”, the class “dragon”, the shape “ghost” and the map “mds”, which this page "
         "does not offer.",
     ),
     "shapes.html": (
         {"is.planet": "Mars", "sort": "nh:mds", "select": "ghost", "hide": "dragon"},
-        "This link names the column “planet”, the map “mds”, the shape “ghost” and the class “dragon”, which this site "
+        "This link names the column “planet”, the map “mds”, the shape “ghost” and the class “dragon”, which this page "
         "does not offer.",
     ),
     "shape.html": (
@@ -129,11 +129,25 @@ def test_the_line_goes_with_what_the_reader_does_and_comes_back_with_the_address
         ("compare.html#map=mds", "the map “mds”"),
         ("shapes.html#size=99999", "the setting “99999”"),
         ("index.html#at=9,0,1", "the part of a map “9,0,1”"),
+        ("index.html#lines=some", "the setting “some”"),
+        ("index.html#step=2", "the setting “step”"),
+        ("workbench.html#hidden=ant", "the setting “hidden”"),
+        ("shapes.html#range.faces=many..2", "the range “many..2”"),
+        ("shapes.html#range.column:none=1..2", "the column “none”"),
+        ("about.html#chosen=Gc", "the setting “chosen”"),
     ],
 )
 def test_what_a_page_passes_over_is_told(open_page, link, name) -> None:
     page = open_page("bins", link)
     eventually(page, lambda: said(page).startswith(f"This link names {name}, which "))
+
+
+@pytest.mark.parametrize("link", ["features.html#separation", "about.html#features", "index.html#content"])
+def test_a_place_on_the_page_is_no_setting(open_page, link) -> None:
+    page = open_page("bins", link)
+    page.wait_for_selector("html[data-ready]", state="attached")
+    assert page.evaluate("(id) => document.getElementById(id) !== null", link.split("#")[1])
+    assert said(page) == ""
 
 
 def test_a_size_that_was_not_searched_is_told(open_page) -> None:

@@ -345,6 +345,7 @@ const MISSED = {
       "shape ant/9",
     ],
     "group=label:style&sort=nh:mds": ["column style", "map mds"],
+    "range.faces=low..1": ["range low..1"],
     "class=dragon&class=ant": ["class dragon"],
   },
   compare: {
@@ -366,6 +367,9 @@ const MISSED = {
   },
 };
 
+/** Parameters that no address of a page has. */
+const UNKNOWN = ["chosen", "hidden", "toString", "IS.kind", "at ", "ids"];
+
 const missedBy = (address, query) => {
   /** @type {Set<string>} */
   const missed = new Set();
@@ -379,12 +383,17 @@ for (const [page, [address, queries]] of Object.entries(PAGES)) {
       assert.deepEqual(missedBy(address, query).sort(), missed.sort(), query);
   });
 
+  test(`${page} tells which parameters in its address are none, and no others`, () => {
+    for (const key of UNKNOWN) assert.deepEqual(missedBy(address, `${key}=1`), [`setting ${key}`]);
+    assert.deepEqual(missedBy(address, "&=&=1&&"), []);
+  });
+
   test(`${page} misses nothing that is there, or that another page has`, () => {
     for (const query of queries) assert.deepEqual(missedBy(address, query), [], query);
     const common =
       "map=pca&map=umap&features=50%2520%2525%2520of%2520it&hide=ant&class=bee&separate=&a=rest&scorer=rfe";
     assert.deepEqual(missedBy(address, common), []);
-    assert.deepEqual(missedBy(address, "map=umap&find=dragon&color=hit&a=&view=&class=&select="), []);
+    assert.deepEqual(missedBy(address, "map=umap&find=dragon&color=hit&a=&class=&select="), []);
   });
 }
 
@@ -414,7 +423,7 @@ test("what is missing is one sentence, whose names are apart, few and short", ()
   );
   assert.equal(
     said({ class: ["dragon"], bin: ["Gc:11"], map: ["mds"] }),
-    "This link names the class “dragon”, the bin “Gc:11” and the map “mds”, which this site does not offer.",
+    "This link names the class “dragon”, the bin “Gc:11” and the map “mds”, which this page does not offer.",
   );
   assert.equal(
     said({ shape: Array.from({ length: 1203 }, (_, number) => `s${number}`) }),

@@ -82,6 +82,7 @@ function step(last) {
 function binOfClass(database, bins) {
   const [ofBin, ofClass] = [named(bins.names, "bin"), named(database.classes, classNoun(database))];
   return {
+    keys: /^(bin|of)$/,
     read(query, miss) {
       const bin = ofBin.read(query.getAll("bin"), miss);
       const group = ofClass.read(query.getAll("of"), miss) ?? null;
@@ -102,6 +103,7 @@ function binOfClass(database, bins) {
 function shapeOrEnd(database) {
   const ofId = named(database.ids, "shape");
   return {
+    keys: /^(shape|id)$/,
     read(query, miss) {
       const end = query.get("shape");
       if (end !== null && ENDS.includes(end)) return end;

@@ -38,6 +38,7 @@ const OF_CLASSES = ["class", "hide", "separate", "from"];
 export function namedElsewhere(database) {
   return {
     names: [],
+    keys: null,
     read(query, miss) {
       for (const key of OF_CLASSES) classesNamed(query.getAll(key), database, miss);
       missMap(query.get("map"), database, miss);

@@ -6,7 +6,14 @@
 export const LINES = {
   name: "lines",
   key: "lines",
-  kind: { read: ([word]) => (word === "none" ? false : undefined), write: () => ["none"] },
+  kind: {
+    read([word], miss) {
+      if (word === "none") return false;
+      if (word) miss("setting", word);
+      return undefined;
+    },
+    write: () => ["none"],
+  },
   standard: true,
   words: "lines to those most alike",
 };

@@ -124,6 +124,7 @@ function mapOf(database) {
  */
 function shapeOrUnknown(database) {
   return {
+    keys: /^id$/,
     read(query) {
       const id = query.get("id") || null;
       const found = database.ids.indexOf(id ?? "");

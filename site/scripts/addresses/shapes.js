@@ -105,6 +105,7 @@ export function galleryOf(database, shapes) {
  */
 function onlySelected(database) {
   return {
+    keys: /^only$/,
     /** @param {URLSearchParams} query */
     read: (query) => query.has("only") && readSelection(query, database).size > 0,
     /** @param {URLSearchParams} query */
@@ -167,9 +168,11 @@ function filters(database, fields) {
  * @param {Miss} miss
  */
 function readFilter(query, field, database, miss) {
-  const range = (query.get(RANGE + field.key) ?? "").split("..").map(Number);
+  const text = query.get(RANGE + field.key) ?? "";
+  const range = text.split("..").map(Number);
   if (field.edges !== null && range.length === 2 && range.every(Number.isFinite))
     return { low: range[0], high: range[1] };
+  if (text !== "") miss("range", text);
   if (field.names === null && field.tree === null) return null;
   const values = lookUp(
     query.getAll(IS + field.key),

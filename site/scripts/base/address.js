@@ -21,8 +21,8 @@ import { lookUp } from "./missing.js";
 
 /**
  * A value of the state, `name`: of the `kind` of its parameter `key`, or, where one parameter is not enough, with what
- * reads it from all of them and adds it to them, and `keys` that are its own. Several `names` are one value that is an object of them.
- * @typedef {{ keys?: RegExp, read(query: URLSearchParams, miss: Miss): any, write(query: URLSearchParams, value: any): void }} Ways
+ * reads it from all of them and adds it to them, and `keys` that are its own, if any. Several `names` are one value that is an object of them.
+ * @typedef {{ keys: RegExp | null, read(query: URLSearchParams, miss: Miss): any, write(query: URLSearchParams, value: any): void }} Ways
  * @typedef {Usage & ({ name: string, key: string, kind: Kind } | Ways & ({ name: string } | { names: string[] }))} Row
  */
 
@@ -58,9 +58,12 @@ export class Address {
    * @param {URLSearchParams} query
    */
   passing(query) {
-    const own = (/** @type {string} */ key) =>
-      this.rows.some((row) => ("kind" in row ? row.key === key : row.keys?.test(key)));
-    return commonTo(query).filter(([key]) => !own(key));
+    return commonTo(query).filter(([key]) => !this.#owns(key));
+  }
+
+  /** @param {string} key */
+  #owns(key) {
+    return this.rows.some((row) => ("kind" in row ? row.key === key : row.keys?.test(key)));
   }
 
   /**
@@ -87,6 +90,8 @@ export class Address {
       const value = found === undefined ? row.standard : found;
       Object.assign(values, "names" in row ? value : { [row.name]: value });
     }
+    for (const key of query.keys())
+      if (key !== "" && !this.#owns(key) && !COMMON.test(key) && !isPlace(query, key)) miss("setting", key);
     return values;
   }
 
@@ -105,6 +110,15 @@ export class Address {
     }
     return query;
   }
+}
+
+/**
+ * Whether an address leads to a place on the page, like `about.html#clusters`, by what may be a parameter.
+ * @param {URLSearchParams} query
+ * @param {string} key
+ */
+export function isPlace(query, key) {
+  return query.get(key) === "" && query.size === 1 && globalThis.document?.getElementById(key) != null;
 }
 
 /** @param {Row} row */

@@ -19,7 +19,7 @@ const MANY = new Map([
 ]);
 
 /** What is no part of a database, or may be one that shapes cannot be told apart by. */
-const OF_SITE = new Set(["column", "map", "measure", "part of a map", "scorer", "setting", "step", "view"]);
+const OF_PAGE = new Set(["column", "map", "measure", "part of a map", "range", "scorer", "setting", "step", "view"]);
 
 /** What stands for a selection that is of no names. */
 export const SELECTION = "selection";
@@ -101,8 +101,8 @@ export function missingWords(missed) {
     words.push(...namesOf(noun, [...names]));
   }
   const one = missed.size === 1 && !several;
-  const where = [...missed.keys()].some((noun) => OF_SITE.has(noun))
-    ? "this site does not offer"
+  const where = [...missed.keys()].some((noun) => OF_PAGE.has(noun))
+    ? "this page does not offer"
     : `${one ? "is" : "are"} not in this database`;
   return [...words, `, which ${where}.`];
 }
