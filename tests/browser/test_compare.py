@@ -259,6 +259,17 @@ class TestTwoGroups:
                 "all => all.every(({ parentNode: { scrollWidth, clientWidth } }) => scrollWidth <= clientWidth)"
             )
 
+    @pytest.mark.parametrize("width", [1440, 390])
+    def test_clusters_are_told_apart_where_their_names_stand_alone(self, open_page, width):
+        page = open_page("clusters searched", "compare.html", viewport={"width": width, "height": 900})
+        page.wait_for_selector("#result:not([hidden])")
+        lists = [page.locator(f"#group-{side} option:checked").inner_text() for side in "ab"]
+        own = [name.rpartition(" (")[0] for name in lists]
+        rows = page.locator(".bin-of-two").first.locator(".group-name bdi")
+        assert rows.all_inner_texts() == own
+        assert rows.evaluate_all("all => all.every((row) => row.scrollWidth <= row.clientWidth)")
+        assert all(f"those {name}" in title(page) for name in own)
+
     def test_groups_are_chosen_from_lists_and_found_by_words(self, compare):
         page = compare()
         page.select_option("#group-a", label="kind e (16)")

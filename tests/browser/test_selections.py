@@ -460,6 +460,9 @@ def test_fingers_draw_a_lasso_and_say_what_it_does(open_page):
             # Browsers hand on one movement a frame.
             drawn_again(page)
         touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+        counted(page)
+        # What the tray grows by moves nothing under the finger.
+        assert page.locator(LARGE).bounding_box()["y"] == pytest.approx(box["y"], abs=1)
 
     finger(LEFT_HALF)
     at_left = counted(page)

@@ -4,7 +4,7 @@ import { element, swatch } from "../base/dom.js";
 import { Finder } from "../base/finder.js";
 import { resource } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count } from "../base/words.js";
+import { count, isolated } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 import { UNPAINTED } from "./on-surface.js";
@@ -40,7 +40,7 @@ export class Look {
       const column = state.get("bin");
       const called = bins.called[column];
       return {
-        title: `${bins.names[column]}${called ? `: ${called}` : ""}`,
+        title: `${isolated(bins.names[column])}${called ? `: ${called}` : ""}`,
         words: `${bins.sentence(column)}${database.labelled ? ` A row a ${database.data.standIn ? "cluster" : "class"}: each mark is a shape, the line is the median.` : ""} ${count(bins.rows, "shape")}.`,
       };
     });
@@ -227,7 +227,7 @@ export class Look {
           type: "button",
           class: "painting",
           "data-shape": shape,
-          title: `${database.names.at(shape)}: show in the 3D view`,
+          title: `${isolated(database.names.at(shape))}: show in the 3D view`,
           onclick: () => this.state.set({ shape }),
         },
         element("span", { class: "whose" }, shapeLine(database, bins, column, shape, share)),

@@ -2,7 +2,7 @@
 // the classes in such colours.
 
 import { element, swatch } from "../base/dom.js";
-import { grouped } from "../base/words.js";
+import { grouped, isolated } from "../base/words.js";
 import { stripesOf } from "../map/coloring.js";
 
 /** @import { State } from "../base/state.js" */
@@ -44,7 +44,7 @@ function buttonOf({ name, look, shapes }, state) {
     "button",
     {
       type: "button",
-      title: `Select ${name}`,
+      title: `Select ${isolated(name)}`,
       onclick: () => state.set({ selection: new Set(shapes), pointedShapes: null }),
       onpointerenter: point(shapes),
       onpointerleave: point(null),

@@ -25,7 +25,7 @@ export function binCard(column, view, { shared = false } = {}) {
     const values = contrast.values[group.side];
     return {
       mark: group.mark(),
-      name: group.name,
+      name: group.label,
       color: group.color(),
       points: values.points(column),
       each: values.each,

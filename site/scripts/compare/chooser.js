@@ -1,7 +1,7 @@
 // Where a reader chooses the two groups: a list of what there is on each side, and a field to find shapes by words.
 
 import { element } from "../base/dom.js";
-import { count, grouped } from "../base/words.js";
+import { count, grouped, isolated } from "../base/words.js";
 import { isSame, nameOf } from "./groups.js";
 
 /** @import { GroupSpec } from "../addresses/compare.js" */
@@ -55,7 +55,7 @@ export class Chooser {
     const { database } = this;
     const classes = database.classes.map((name, group) => ({
       spec: { kind: /** @type {const} */ ("class"), group },
-      text: `${name} (${grouped(database.sizes.get(group) ?? 0)})`,
+      text: `${isolated(name)} (${grouped(database.sizes.get(group) ?? 0)})`,
     }));
     const found = clusters === null || clusters.standIn ? [] : clusters.clusters;
     return [
@@ -64,7 +64,7 @@ export class Chooser {
         "Clusters, made from the features alone",
         found.map(({ name, size }) => ({
           spec: { kind: /** @type {const} */ ("cluster"), name },
-          text: `${name} (${grouped(size)})`,
+          text: `${isolated(name)} (${grouped(size)})`,
         })),
       ],
     ];
@@ -96,7 +96,7 @@ export class Chooser {
     const side = SIDES.find((own) => this.#moved !== null && state.get(own) === this.#moved);
     if (side === undefined) return "";
     const name = nameOf(/** @type {GroupSpec} */ (state.get(side === "a" ? "b" : "a")), this.database);
-    return `Nothing can be compared with itself: as ${name} was on both sides, it is now compared with all other shapes.`;
+    return `Nothing can be compared with itself: as ${isolated(name)} was on both sides, it is now compared with all other shapes.`;
   }
 
   render() {

@@ -35,7 +35,7 @@ import { called } from "./words.js";
  * @property {Group} b
  * @property {Bins} bins
  * @property {Chunk.Comparison} data
- * @property {Pick<Group, "name" | "color"> & { side: "rest", mark: () => null, count: number }} rest all other shapes
+ * @property {Pick<Group, "name" | "label" | "color"> & { side: "rest", mark: () => null, count: number }} rest all other shapes
  * @property {(column: number) => void} look
  * @property {number} best
  * @property {number} bin the one that is looked at
@@ -232,6 +232,7 @@ export class GroupsView {
     const rest = {
       side: "rest",
       name: "the others",
+      label: "the others",
       color: () => "var(--quiet)",
       mark: () => null,
       count: database.count - a.shapes.length - b.shapes.length,

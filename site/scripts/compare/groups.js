@@ -1,7 +1,7 @@
 // The two groups: who belongs to them, what they are called, and how they are marked.
 
 import { swatch } from "../base/dom.js";
-import { count, grouped, shortened } from "../base/words.js";
+import { count, grouped, isolated, shortened } from "../base/words.js";
 import { findWords, searchTexts } from "../database/search.js";
 
 /** @import { GroupSpec } from "../addresses/compare.js" */
@@ -14,7 +14,8 @@ import { findWords, searchTexts } from "../database/search.js";
  * @typedef {object} Look
  * @property {GroupSpec} spec
  * @property {Side} side
- * @property {string} name
+ * @property {string} name within a sentence
+ * @property {string} label where it stands alone
  * @property {() => string} color
  * @property {() => SVGElement} mark
  *
@@ -114,10 +115,12 @@ export class Groups {
         : spec.kind === "rest"
           ? "var(--quiet)"
           : `var(--${side === "a" ? "accent" : "warn"})`;
+    const name = nameOf(spec, database, { side, other });
     return {
       spec,
       side,
-      name: nameOf(spec, database, { side, other }),
+      name,
+      label: spec.kind === "cluster" ? spec.name : own ? database.className(spec.group) : name,
       color,
       mark: () => swatch(own ? database.symbol(spec.group) : database.data.marks.plain, color()),
     };
@@ -133,13 +136,13 @@ export class Groups {
 export function nameOf(spec, database, among = null) {
   if (spec.kind === "class") return groupName(database, spec.group);
   // A cluster is called "like ant 03".
-  if (spec.kind === "cluster") return `those ${shortened(spec.name, LONGEST)}`;
-  if (spec.kind === "search") return `“${shortened(spec.text, LONGEST)}”`;
+  if (spec.kind === "cluster") return `those ${isolated(shortened(spec.name, LONGEST))}`;
+  if (spec.kind === "search") return `“${isolated(shortened(spec.text, LONGEST))}”`;
   if (spec.kind === "rest") return "the other shapes";
   const words = selectionName(spec.shapes, database);
   const single = spec.shapes.size === 1;
   if (among?.other?.kind === "shapes" && !(single && words !== selectionName(among.other.shapes, database)))
-    return `${among.side.toUpperCase()}: ${words}`;
+    return `${among.side.toUpperCase()}: ${isolated(words)}`;
   return single ? words : "the selected shapes";
 }
 
@@ -154,7 +157,7 @@ function selectionName(shapes, database) {
   const [[group], ...others] = database.census(shapes);
   return group < 0 || others.length > 0
     ? count(shapes.size, "shape")
-    : `${grouped(shapes.size)} ${shortened(database.className(group), LONGEST)}`;
+    : `${grouped(shapes.size)} ${isolated(shortened(database.className(group), LONGEST))}`;
 }
 
 /**
@@ -164,7 +167,7 @@ function selectionName(shapes, database) {
  */
 export function groupName(database, group) {
   const name = shortened(database.className(group), LONGEST);
-  return database.data.standIn && group >= 0 ? `those ${name}` : name;
+  return database.data.standIn && group >= 0 ? `those ${isolated(name)}` : name;
 }
 
 /**

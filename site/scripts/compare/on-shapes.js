@@ -224,7 +224,7 @@ export class OnShapes {
     document
       .getElementById(`seen-${side}`)
       .replaceChildren(
-        element("p", { class: "of" }, group.mark(), element("b", {}, element("bdi", {}, group.name))),
+        element("p", { class: "of" }, group.mark(), element("b", {}, element("bdi", {}, group.label))),
         element(
           "p",
           {},

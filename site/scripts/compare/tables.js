@@ -1,7 +1,7 @@
 // What the page shows, as tables.
 
 import { table } from "../base/tables.js";
-import { capitalised, figure, grouped, percent } from "../base/words.js";
+import { capitalised, figure, grouped, isolated, percent } from "../base/words.js";
 import { highestOf } from "../database/hit-range.js";
 import { signed } from "./outliers.js";
 import { kind } from "../database/kind.js";
@@ -62,7 +62,7 @@ function ofGroups(view) {
   ];
   return [
     table(
-      `How much of what shapes differ in goes with the group: ${a.name} (${grouped(a.shapes.length)}) and ${b.name} (${grouped(b.shapes.length)})`,
+      `How much of what shapes differ in goes with the group: ${isolated(a.name)} (${grouped(a.shapes.length)}) and ${isolated(b.name)} (${grouped(b.shapes.length)})`,
       ["Feature", "Share", "Chance, mean", "Chance, one in 100", "Deals that reach it"],
       [
         feature("all features", apart.all),
@@ -73,8 +73,8 @@ function ofGroups(view) {
       `The ${Math.min(MOST_BINS, contrast.ranked.length)} bins that differ most`,
       [
         "Bin",
-        `Mean of ${a.name}`,
-        `Mean of ${b.name}`,
+        `Mean of ${isolated(a.name)}`,
+        `Mean of ${isolated(b.name)}`,
         "Difference in standard deviations",
         "Pairs in which the first has more",
         "Beyond chance",
@@ -84,7 +84,7 @@ function ofGroups(view) {
     contrast.shared.length > 0 &&
       table(
         "Bins that both have in common against the others",
-        ["Bin", `Mean of ${a.name}`, `Mean of ${b.name}`, "Mean of the others"],
+        ["Bin", `Mean of ${isolated(a.name)}`, `Mean of ${isolated(b.name)}`, "Mean of the others"],
         contrast.shared
           .slice(0, MOST_BINS)
           .map((column) => [...line(column).slice(0, 3), bins.telling(column)(values.rest.mean(column))]),

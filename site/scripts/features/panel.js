@@ -2,7 +2,7 @@
 
 import { element, focused } from "../base/dom.js";
 import { difference } from "../base/figures.js";
-import { capitalised, figure } from "../base/words.js";
+import { capitalised, figure, isolated } from "../base/words.js";
 import { MEASURES, measuresOf } from "../map/measures.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
@@ -144,7 +144,7 @@ export class Panel {
         "data-key": `feature ${feature}`,
         "aria-pressed": String(pressed),
         disabled: target === undefined,
-        title: target === undefined ? reason : `${pressed ? "Without" : "With"} ${name}`,
+        title: target === undefined ? reason : `${pressed ? "Without" : "With"} ${isolated(name)}`,
         onclick: () => this.state.set({ chosen: target }),
       },
       mark,

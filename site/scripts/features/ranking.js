@@ -3,7 +3,7 @@
 import { drawChart } from "../base/chart.js";
 import { element, pause, svg } from "../base/dom.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, figure, grouped, lowered } from "../base/words.js";
+import { count, figure, grouped, isolated, lowered } from "../base/words.js";
 import { isBelowOne, ofAtMost } from "../database/hit-range.js";
 import { change } from "../base/figures.js";
 import { MEASURES } from "../map/measures.js";
@@ -324,7 +324,7 @@ export class Ranking {
       measure === undefined
         ? ""
         : `Rank ${grouped(this.position[place] + 1)} of ${grouped(this.order.length)}, ${measureTitle(measure.name)} ${figure(measure.values?.[place])}: `;
-    return `${rank}${this.subsets.names(place).join(", ")}`;
+    return `${rank}${this.subsets.names(place).map(isolated).join(", ")}`;
   }
 
   #point() {
@@ -411,10 +411,10 @@ export class Ranking {
         {
           type: "button",
           class: "step",
-          title: `Choose ${this.subsets.names(place).join(", ")}`,
+          title: `Choose ${this.subsets.names(place).map(isolated).join(", ")}`,
           onclick: () => this.state.set({ chosen: place }),
         },
-        `${index + 1}. ${this.subsets.names(place).join(" ")} `,
+        `${index + 1}. ${this.subsets.names(place).map(isolated).join(" ")} `,
         element("b", {}, figure(hit[place])),
       ),
     ]);

@@ -4,7 +4,7 @@ import { chunk } from "../base/chunks.js";
 import { dataLink, element, focused } from "../base/dom.js";
 import { table } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
-import { count, figure, grouped } from "../base/words.js";
+import { count, figure, grouped, isolated } from "../base/words.js";
 import { Curves, lineMark } from "./curves.js";
 import { Ratings } from "./ratings.js";
 
@@ -98,7 +98,7 @@ class RetrievalSection {
         choices.map((choice) => [this.#words(choice), ...ratings.curve(choice.rating, over).map(figure)]),
       ),
       table(
-        `Retrieval of each class by ${ratings.names(this.row).join(", ")}`,
+        `Retrieval of each class by ${ratings.names(this.row).map(isolated).join(", ")}`,
         ["Class", "Shapes", ...titles],
         ratings
           .each(choices[0].rating)
@@ -199,7 +199,7 @@ class RetrievalSection {
   #words(choice) {
     const { ratings } = this;
     if (choice.row === undefined) return this.#others(choice);
-    return ratings.names(choice.row).join(", ");
+    return ratings.names(choice.row).map(isolated).join(", ");
   }
 
   /** @param {number} place */

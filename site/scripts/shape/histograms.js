@@ -3,7 +3,7 @@
 import { joinNames } from "../addresses/names.js";
 import { element, focused } from "../base/dom.js";
 import { toldAs } from "../base/snapshot.js";
-import { capitalised, count, measured, percent, shortened, wholePercent } from "../base/words.js";
+import { capitalised, count, isolated, measured, percent, shortened, wholePercent } from "../base/words.js";
 import { axisEnd } from "../bins-kit/bin-bars.js";
 import { quantityInWords } from "../bins-kit/legend.js";
 import { hue } from "./hue.js";
@@ -44,7 +44,7 @@ export class Histograms {
     this.section = document.getElementById("histograms");
     this.grid = document.getElementById("histogram-grid");
     toldAs(this.section, () => {
-      const name = database.names.at(state.get("shape") ?? 0);
+      const name = isolated(database.names.at(state.get("shape") ?? 0));
       return {
         title: `The features of ${name}`,
         words: `${count(bins.features.length, "feature")} of ${name}, one of ${count(database.count, "shape")}: how much of the surface has values from low (left) to high (right); of features of the whole shape, where its value lies between the least and the most of all. Of many parts, the one in which it stands out most.`,

@@ -4,7 +4,7 @@ import { compareAddress } from "../addresses/compare.js";
 import { element, pause, swatch } from "../base/dom.js";
 import { pageAddress } from "../base/place.js";
 import { toldAs } from "../base/snapshot.js";
-import { count, figure, grouped, listed, shortened, wholePercent } from "../base/words.js";
+import { count, figure, grouped, isolated, listed, shortened, wholePercent } from "../base/words.js";
 import { LevelSimilarity } from "../database/level-similarity.js";
 import { writeSelection } from "../database/selection.js";
 import { Comparing, isNone } from "./comparing.js";
@@ -61,7 +61,7 @@ export class SimilarShapes extends Comparing {
   #asked = null;
 
   get #called() {
-    return this.database.names.at(this.state.get("shape") ?? 0);
+    return isolated(this.database.names.at(this.state.get("shape") ?? 0));
   }
 
   /** What is compared, in few words. */
@@ -274,7 +274,7 @@ export class SimilarShapes extends Comparing {
         return element(
           "span",
           {
-            title: `${bins.features[feature].aspect} (${bins.features[feature].name}): nearer than ${wholePercent(share)} of all shapes`,
+            title: `${isolated(bins.features[feature].aspect)} (${isolated(bins.features[feature].name)}): nearer than ${wholePercent(share)} of all shapes`,
           },
           bar,
         );

@@ -5,7 +5,7 @@ import { entry } from "../base/entry.js";
 import { toldAs } from "../base/snapshot.js";
 import { pageAddress } from "../base/place.js";
 import { styleColor } from "../base/theme.js";
-import { count, figure } from "../base/words.js";
+import { count, figure, isolated } from "../base/words.js";
 import { highestOf, ofAtMost } from "../database/hit-range.js";
 import { Plot } from "../map/plot.js";
 import { kind } from "../database/kind.js";
@@ -43,7 +43,7 @@ export class Surroundings {
     surface.append(this.plot.node);
     toldAs(this.section, () => {
       const { title, neighbours } = database.methods[state.get("method")];
-      const shape = database.names.at(state.get("shape") ?? 0);
+      const shape = isolated(database.names.at(state.get("shape") ?? 0));
       const words = `${title} map of ${count(database.count, "shape")}: ${shape}, ringed, and its ${count(neighbours, "nearest neighbour")}, in full colour.`;
       return { title: `${shape} on the map`, words, onPaper: true };
     });

@@ -1,7 +1,7 @@
 // What the page of a shape shows, as tables.
 
 import { table } from "../base/tables.js";
-import { count, figure, wholePercent } from "../base/words.js";
+import { count, figure, isolated, wholePercent } from "../base/words.js";
 
 /** @import { ShapeState } from "../addresses/shape.js" */
 /** @import { Database } from "../database/database.js" */
@@ -30,7 +30,7 @@ export function shapeTables(database, state, { facts, similar, beside, histogram
   const near = database.count > 1 ? database.neighbours(shape, state.get("method")) : [];
   const { found = [], bins } = similar ?? {};
   return {
-    title: `${database.names.at(shape)} in figures`,
+    title: `${isolated(database.names.at(shape))} in figures`,
     tables: [
       ...facts.groups.map(({ title, rows }) => table(title, ["Fact", "Value"], rows)),
       near.length > 0 &&
@@ -47,7 +47,7 @@ export function shapeTables(database, state, { facts, similar, beside, histogram
         ),
       beside?.pair &&
         table(
-          `Where it and ${database.names.at(beside.pair[1])} differ: shares of their squared distance`,
+          `Where it and ${isolated(database.names.at(beside.pair[1]))} differ: shares of their squared distance`,
           ["Feature", "Of all", "On this shape", "On the other"],
           beside.rows(),
         ),
