@@ -695,6 +695,14 @@ class TestStates:
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 
 
+@pytest.mark.parametrize("width", [1000, 1440])
+def test_short_names_of_features_are_not_broken(open_page, width):
+    # "FPFH" in a table whose other words want the room.
+    page = open_page("clusters searched", "features.html", viewport={"width": width, "height": 900})
+    names = page.locator(".effects tbody th bdi")
+    assert set(names.evaluate_all("nodes => nodes.map(node => node.getClientRects().length)")) == {1}
+
+
 class TestPhone:
     @pytest.mark.parametrize("name", ["nasty features", "refused"])
     def test_it_fits_the_width(self, open_page, name):
@@ -718,7 +726,7 @@ class TestPhone:
         # A chart is drawn when its part is opened.
         page.locator("#effect-dots svg").wait_for()
         names = page.locator(".effects tbody th bdi")
-        assert len(set(names.evaluate_all("nodes => nodes.map(node => node.getClientRects().length)"))) == 1
+        assert set(names.evaluate_all("nodes => nodes.map(node => node.getClientRects().length)")) == {1}
         # Each name stands beside its mark.
         for row in page.locator(".effects tbody .marked").all():
             mark, name = (row.locator(part).bounding_box() for part in ("i", "bdi"))

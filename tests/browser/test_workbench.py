@@ -101,6 +101,16 @@ def test_the_first_look_is_useful(bench, site):
     ]
 
 
+@pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844), (320, 512)])
+def test_what_stands_in_place_of_the_refined_map_stays_on_it(bench, width, height):
+    page = bench("clusters searched", viewport={"width": width, "height": height})
+    page.locator("figure[data-map=refined] .empty button").wait_for()
+    inside = page.locator("figure[data-map=refined] .surface").bounding_box()
+    words = page.locator("figure[data-map=refined] .empty").bounding_box()
+    assert words["y"] >= inside["y"] - 1
+    assert words["y"] + words["height"] <= inside["y"] + inside["height"] + 1
+
+
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (390, 844)])
 def test_below_the_page_is_nothing_however_many_classes_there_are(open_page, tmp_path, width, height):
     write_site(make_report([f"kind {number:02}" for number in range(60)], 2, features=("Gc",)), tmp_path)

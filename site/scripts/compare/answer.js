@@ -97,15 +97,15 @@ export function answer(contrast, a, b, data, kin) {
  */
 function headline(contrast, a, b) {
   // No sentence begins with a name, which may be in small letters.
-  const both = [called(a), " and ", called(b)];
+  const both = [called(a), " and ", called(b, ".")];
   const [best] = contrast.beyond;
-  if (best === undefined) return ["Different, but only as wholes: ", ...both, "."];
+  if (best === undefined) return ["Different, but only as wholes: ", ...both];
   const ahead = contrast.ahead(best);
   const apart = Math.max(ahead, 1 - ahead);
-  if (apart >= CLEARLY) return ["Clearly different: ", ...both, "."];
+  if (apart >= CLEARLY) return ["Clearly different: ", ...both];
   return apart >= WELL
-    ? ["Different: ", ...both, "."]
-    : ["A little different, on average but not shape by shape: ", ...both, "."];
+    ? ["Different: ", ...both]
+    : ["A little different, on average but not shape by shape: ", ...both];
 }
 
 /**
@@ -261,8 +261,8 @@ export function kinship(a, b, neighbours) {
     " most like a shape of ",
     called(a),
     `, on average ${part(there)} are of `,
-    called(b),
-    `; the other way round, ${part(back)}.`,
+    called(b, ";"),
+    ` the other way round, ${part(back)}.`,
   ];
 }
 

@@ -135,12 +135,12 @@ export class GroupsView {
           ];
     }
     if (isSame(a.spec, b.spec))
-      return ["Both sides are ", called(a), ": choose another group on one of them, or all other shapes."];
+      return ["Both sides are ", called(a, ":"), " choose another group on one of them, or all other shapes."];
     for (const group of [a, b]) {
       if (group.shapes.length > 0) continue;
-      if (group.spec.kind === "search") return ["No shape is found by ", called(group), ": try another word."];
+      if (group.spec.kind === "search") return ["No shape is found by ", called(group, ":"), " try another word."];
       if (group.spec.kind === "rest")
-        return ["All shapes are in ", called(group === a ? b : a), ": there are no others."];
+        return ["All shapes are in ", called(group === a ? b : a, ":"), " there are no others."];
       return ["There is no shape in ", called(group), " that the other group does not have."];
     }
     if (a.shapes.length + b.shapes.length < 3)

@@ -8,11 +8,12 @@ import { capitalised, grouped } from "../base/words.js";
 /** @import { Group } from "./groups.js" */
 
 /**
- * The name of a group within a sentence.
+ * The name of a group within a sentence, with the point or comma after it, which begins no line.
  * @param {{ name: string, mark: () => SVGElement | null }} group
+ * @param {string} [point]
  */
-export function called(group) {
-  return element("b", { class: "called" }, group.mark(), element("bdi", {}, group.name));
+export function called(group, point = "") {
+  return element("b", { class: "called" }, group.mark(), element("bdi", {}, group.name), point);
 }
 
 /**
@@ -30,7 +31,7 @@ export function statement(column, contrast, a, b, data) {
   const told = bins.tell(column, [means[more.side], means[less.side]]);
   return bins.isShare(column)
     ? moreOf({ clause: /** @type {string} */ (data.clauses[column]), trend: "", fewer: false }, more, less, told, data)
-    : [...valueName(column, bins), " is higher in ", called(more), " than in ", called(less), ...against(told)];
+    : [...valueName(column, bins), " is higher in ", called(more), " than in ", called(less, ":"), ...against(told)];
 }
 
 /**
@@ -57,13 +58,13 @@ const INSERTED = /,[^()]*$/;
  */
 export function moreOf({ clause, trend }, more, less, [most, least], { whole }) {
   if (trend === "")
-    return [`More of ${whole} of `, called(more), " than of ", called(less), ` ${clause}`, ...against([most, least])];
+    return [`More of ${whole} of `, called(more), " than of ", called(less), ` ${clause}:`, ...against([most, least])];
   return [
     `${trend[0].toUpperCase()}${trend.slice(1)} in `,
     called(more),
     " than in ",
-    called(less),
-    ": ",
+    called(less, ":"),
+    " ",
     figureOf(most),
     ` of ${whole} ${clause}, against `,
     figureOf(least),
@@ -81,7 +82,7 @@ function figureOf(told) {
 
 /** @param {string[]} told */
 function against([most, least]) {
-  return [": ", figureOf(most), ", against ", figureOf(least), "."];
+  return [" ", figureOf(most), ", against ", figureOf(least), "."];
 }
 
 /**
