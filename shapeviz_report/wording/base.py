@@ -204,7 +204,7 @@ def radii(value: float) -> str:
 
 def percent(share: float, more: int = 0) -> str:
     """A share in per cent, short, with more digits where asked, as ``percent`` of ``base/words.js`` tells it."""
-    value = 100 * share
+    value = round(100 * share, 4) + 0.0  # what sums of floats miss is nothing, and has no sign
     least = 10.0 ** -(more + 1)
     if 0 < value < least / 2:
         return f"<{least:g}\u00a0%"

@@ -279,6 +279,28 @@ def test_a_page_on_paper_is_light_and_has_nothing_to_press(open_page, file):
     assert page.evaluate("document.querySelector('main').getBoundingClientRect().width") == before
 
 
+def test_figures_in_sentences_are_as_plain_on_paper_as_the_words_about_them(open_page):
+    page = open_page("workbench", "compare.html")
+    page.wait_for_selector("#answer b.told")
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    looks = page.locator("#answer b.told").evaluate_all(
+        """all => all.map((node) => [node, node.parentElement].map((one) => {
+            const { color, fontSize } = getComputedStyle(one);
+            return `${color} ${fontSize}`;
+        }))"""
+    )
+    assert looks
+    assert all(figure == words for figure, words in looks)
+
+
+def test_the_introduction_is_whole_on_paper(open_page):
+    page = open_page("published", viewport={"width": 1440, "height": 900})
+    words = page.locator(".welcome p")
+    words.evaluate("(node) => { node.textContent = 'Vessels of all times. '.repeat(20); }")
+    page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    assert words.evaluate("(node) => node.scrollWidth <= node.clientWidth && node.scrollHeight > 40")
+
+
 #: What is drawn on a sheet: how wide it is there, and in which colours.
 DRAWN = """() => {
     const found = (what) => [...document.querySelectorAll(`main ${what}`)].filter((node) => node.checkVisibility());

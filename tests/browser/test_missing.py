@@ -132,7 +132,6 @@ def test_the_line_goes_with_what_the_reader_does_and_comes_back_with_the_address
         ("index.html#lines=some", "the setting “some”"),
         ("index.html#step=2", "the setting “step”"),
         ("workbench.html#hidden=ant", "the setting “hidden”"),
-        ("shapes.html#range.faces=many..2", "the range “many..2”"),
         ("shapes.html#range.column:none=1..2", "the column “none”"),
         ("about.html#chosen=Gc", "the setting “chosen”"),
     ],
@@ -164,6 +163,11 @@ def test_values_of_columns_are_missed(open_page) -> None:
     names = {"is.column:place": "Atlantis", "is.column:year": "x", "lacks.column:place": ""}
     page = open_page("museum", f"shapes.html#{urlencode(names)}")
     assert said(page) == "This link names the value “Atlantis”, which is not in this database."
+
+
+def test_a_range_of_no_numbers_is_told(open_page) -> None:
+    page = open_page("museum", "shapes.html#range.column:year=many..2")
+    assert said(page) == "This link names the range “many..2”, which this page does not offer."
 
 
 def test_the_overview_fits_the_window_below_the_line(open_page) -> None:

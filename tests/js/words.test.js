@@ -15,6 +15,10 @@ test("shares that differ read differently, with no more digits than that takes",
   assert.deepEqual(percents(0.0001, 0.0003), ["0.01\u00a0%", "0.03\u00a0%"]);
   assert.deepEqual(percents(0, 0.0004), ["0\u00a0%", "<0.1\u00a0%"]);
   assert.equal(new Set(percents(1, 0.9996)).size, 2);
+  assert.deepEqual(
+    [1 - (0.1 + 0.2 + 0.70000000001), -0, 1e-12].map((share) => percent(share)),
+    Array(3).fill("0\u00a0%"),
+  );
   assert.deepEqual(percents(0.5, 0.5), ["50\u00a0%", "50\u00a0%"]);
   // Of three, the first two are told apart from the last one only.
   assert.deepEqual(percents(0.134, 0.134, 0.08), ["13\u00a0%", "13\u00a0%", "8.0\u00a0%"]);

@@ -44,7 +44,7 @@ export function watchPaper() {
    */
   const tell = (below, text) => {
     if (text === "" || below.clientWidth === 0) return;
-    const node = element("p", { class: "told" }, withSymbols(text));
+    const node = element("p", { class: "paper-note" }, withSymbols(text));
     below.append(node);
     drawn.push(node);
   };

@@ -53,7 +53,8 @@ export function shortened(text, length) {
  * @param {number} [more]
  */
 export function percent(share, more = 0) {
-  const value = 100 * share;
+  // What sums of floats miss is nothing, and has no sign.
+  const value = Math.round(1e6 * share) / 1e4 + 0;
   const least = 10 ** -(more + 1);
   if (value > 0 && value < least / 2) return `<${least}\u00a0%`;
   return `${value.toFixed(value === 0 || value >= 9.95 ? more : more + 1)}\u00a0%`;

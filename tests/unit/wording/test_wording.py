@@ -56,6 +56,8 @@ def test_every_descriptor_has_its_words(descriptor) -> None:
 
 def test_shares_read_as_in_the_scripts_of_the_site() -> None:
     told = [percent(share).replace("\u00a0", " ") for share in (0, 0.0004, 0.0005, 0.019, 0.0994, 0.0995, 1)]
+    # What sums of floats miss.
+    assert [percent(share) for share in (-1e-9, 1e-12, -0.0)] == ["0\u00a0%"] * 3
     assert told == ["0 %", "<0.1 %", "0.1 %", "1.9 %", "9.9 %", "10 %", "100 %"]
     assert [share.replace("\u00a0", " ") for share in percents(0.0001, 0.0003)] == ["0.01 %", "0.03 %"]
 
