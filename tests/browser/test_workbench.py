@@ -326,7 +326,7 @@ def test_a_separation_of_groups_is_scored_as_python_scores_it(bench):
     page.click("#separate-all")
     assert "Tick classes" in page.locator("#separation-words").inner_text()
     for name in ("kind a", "kind c"):
-        page.get_by_label(f"Separate {name}", exact=True).check()
+        page.get_by_label(f"Separate “{name}”", exact=True).check()
     page.get_by_text("together", exact=True).click()
     answered(page)
     assert page.locator("#separation-words").inner_text() == "kind a and kind c, together, from the rest"

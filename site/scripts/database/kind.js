@@ -2,12 +2,20 @@
 
 /** @import { Database } from "./database.js" */
 
-/** @param {Database} database */
+/** @param {Pick<Database, "data">} database */
 export function kind({ data }) {
   return data.standIn ? "cluster" : "class";
 }
 
-/** @param {Database} database */
+/** @param {Pick<Database, "data">} database */
 export function kinds({ data }) {
   return data.standIn ? "clusters" : "classes";
+}
+
+/**
+ * What says which shapes belong together.
+ * @param {Pick<Database, "data">} database
+ */
+export function labels({ data }) {
+  return data.standIn ? "clusters" : "labels";
 }

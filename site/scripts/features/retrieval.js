@@ -4,7 +4,8 @@ import { chunk } from "../base/chunks.js";
 import { dataLink, element, focused } from "../base/dom.js";
 import { table } from "../base/tables.js";
 import { currentTheme } from "../base/theme.js";
-import { count, figure, grouped, isolated } from "../base/words.js";
+import { capitalised, count, figure, grouped, isolated } from "../base/words.js";
+import { kind } from "../database/kind.js";
 import { Curves, lineMark } from "./curves.js";
 import { Ratings } from "./ratings.js";
 
@@ -14,13 +15,13 @@ import { Ratings } from "./ratings.js";
 
 /**
  * The section, which follows the theme and what is chosen in the state; null where no class has two shapes.
- * @param {string[]} classes names
+ * @param {Chunk.Overview} overview
  * @param {FeaturesState} state
  * @param {{ chosen: (() => string[]) | null, choose: ((names: string[]) => void) | null }} [choice]
  */
-export async function openRetrieval(classes, state, choice = { chosen: null, choose: null }) {
+export async function openRetrieval(overview, state, choice = { chosen: null, choose: null }) {
   if (!document.getElementById("retrieval")) return null;
-  const section = new RetrievalSection(await chunk("retrieval"), classes, choice.chosen, choice.choose);
+  const section = new RetrievalSection(await chunk("retrieval"), overview, choice.chosen, choice.choose);
   state.listen((changed) => (changed.has("chosen") || changed.has("theme")) && section.render());
   return section;
 }
@@ -32,13 +33,14 @@ class RetrievalSection {
 
   /**
    * @param {Chunk.Retrieval} data
-   * @param {string[]} classes names
+   * @param {Chunk.Overview} overview
    * @param {(() => string[]) | null} chosen gives the names of the chosen features; null where the page has no choice
    * @param {((names: string[]) => void) | null} choose chooses others
    */
-  constructor(data, classes, chosen, choose) {
+  constructor(data, overview, chosen, choose) {
     this.ratings = new Ratings(data);
-    this.classes = classes;
+    this.classes = overview.classes;
+    this.kind = kind({ data: overview });
     this.chosen = chosen;
     this.choose = choose;
     /** @type {"shapes" | "classes"} */
@@ -98,8 +100,8 @@ class RetrievalSection {
         choices.map((choice) => [this.#words(choice), ...ratings.curve(choice.rating, over).map(figure)]),
       ),
       table(
-        `Retrieval of each class by ${ratings.names(this.row).map(isolated).join(", ")}`,
-        ["Class", "Shapes", ...titles],
+        `Retrieval of each ${this.kind} by ${ratings.names(this.row).map(isolated).join(", ")}`,
+        [capitalised(this.kind), "Shapes", ...titles],
         ratings
           .each(choices[0].rating)
           .map((scores, place) => [this.#className(place), grouped(queries[place]), ...scores.map(figure)]),
@@ -217,7 +219,7 @@ class RetrievalSection {
     const head = element(
       "tr",
       {},
-      ["Class", "Shapes", ...measures.map(({ title }) => title)].map((title, place) =>
+      [capitalised(this.kind), "Shapes", ...measures.map(({ title }) => title)].map((title, place) =>
         element("th", { scope: "col", class: place > 0 && "number" }, title),
       ),
     );

@@ -64,7 +64,7 @@ export function mapTables(database, state, coloring = null) {
 export function shapesTable(title, database, method, indices, coloring = null) {
   return table(
     title,
-    ["Shape", "Class", ...(coloring ? [coloring.title] : []), "NH", "NH at most", "x", "y"],
+    ["Shape", capitalised(kind(database)), ...(coloring ? [coloring.title] : []), "NH", "NH at most", "x", "y"],
     indices
       .slice(0, MOST_ROWS)
       .map((index) => [

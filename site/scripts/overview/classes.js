@@ -10,7 +10,7 @@ import { isBelowOne, nothingTold, ofAtMost, rangeOf, shareOfRange } from "../dat
 import { holding } from "../database/search.js";
 import { drawShepard, tellFaith } from "./faith.js";
 import { tellSeparation } from "./separation.js";
-import { kind, kinds } from "../database/kind.js";
+import { kind, kinds, labels } from "../database/kind.js";
 
 /** @import { OverviewState } from "../addresses/overview.js" */
 /** @import { Database, Method } from "../database/database.js" */
@@ -178,13 +178,13 @@ export class ClassList {
   }
 
   /**
-   * That the labels chose a subset, and what the best one reaches by chance.
+   * That the labels, or the clusters that stand in for them, chose a subset, and what the best one reaches by chance.
    * @param {string[]} features
    */
   #chosen(features) {
     const { best, bestByChance } = this.database.data.subsets ?? {};
     if (!best || best.join() !== features.join()) return "";
-    return ` The labels chose them, the best of all subsets; with labels dealt at random the best typically reaches ${figure(bestByChance)}.`;
+    return ` The ${labels(this.database)} chose them, the best of all subsets; with labels dealt at random the best typically reaches ${figure(bestByChance)}.`;
   }
 
   /**

@@ -35,7 +35,7 @@ async function main() {
   const ranking = new Ranking(subsets, state, marks, announce);
   const onOverview = overview.subsets !== null;
   new Panel(subsets, state, marks, onOverview ? (place) => subsetAddress(subsets.names(place)) : null);
-  const retrieval = await openRetrieval(overview.classes, state, {
+  const retrieval = await openRetrieval(overview, state, {
     chosen: () => subsets.names(state.get("chosen")),
     choose: (names) => state.set({ chosen: subsets.find(names) }),
   });
@@ -68,8 +68,7 @@ async function main() {
 /** A site without a search: nothing can be chosen. */
 async function withoutSearch() {
   const { state, written, ready } = await openPage();
-  const { classes } = await chunk("overview");
-  const retrieval = await openRetrieval(classes, state);
+  const retrieval = await openRetrieval(await chunk("overview"), state);
   if (retrieval !== null) watchTables(() => ({ title: "Retrieval in figures", tables: retrieval.tables() }));
   carryView(written);
   ready();

@@ -3,7 +3,7 @@
 
 import { element, focused } from "../base/dom.js";
 import { change, difference } from "../base/figures.js";
-import { figure, grouped } from "../base/words.js";
+import { figure, grouped, isolated } from "../base/words.js";
 import { classMark } from "../colors/legend.js";
 import { ofAtMost, rangeOf } from "../database/hit-range.js";
 import { kind } from "../database/kind.js";
@@ -135,7 +135,7 @@ export class ClassTable {
    * @param {string} name
    */
   #tick(part, group, name) {
-    const label = part === "from" ? `Separate ${name}` : `Separate from ${name}`;
+    const label = `Separate ${part === "from" ? "" : "from "}“${isolated(name)}”`;
     const input = element("input", {
       type: "checkbox",
       tabindex: "-1",

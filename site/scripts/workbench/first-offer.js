@@ -108,11 +108,11 @@ function instead({ database, data }, desk) {
     element(
       "p",
       {},
-      `Fewer ${kinds(database)} are told apart by fewer bins. `,
+      `Fewer ${kinds(database)} are told apart by fewer bins. The two that mix most: `,
       name(one),
       " and ",
       name(other),
-      " mix most.",
+      ".",
     ),
     offering("Show only these two", true, () => desk.use({ hidden })),
   ];

@@ -2,8 +2,9 @@
 
 import { difference } from "../base/figures.js";
 import { table } from "../base/tables.js";
-import { figure } from "../base/words.js";
+import { capitalised, figure } from "../base/words.js";
 import { binTables } from "../bins-kit/bin-list.js";
+import { kind } from "../database/kind.js";
 import { MEASURES, measureOf } from "../map/measures.js";
 
 /** @import { WorkState } from "../addresses/workbench.js" */
@@ -59,7 +60,7 @@ export function workTables(database, bins, state) {
       database.labelled &&
         table(
           "Neighbourhood hit",
-          ["Class", "Original map", "Refined map", "Change"],
+          [capitalised(kind(database)), "Original map", "Refined map", "Change"],
           [row("All classes in use", original?.hitOfAll ?? null, refined?.hitOfAll ?? null), ...groups.map(hits)],
         ),
       table(
@@ -70,7 +71,7 @@ export function workTables(database, bins, state) {
       ...(scores === null ? [] : binTables(bins, scores, state.get("bins"))),
       table(
         "Shapes",
-        ["Shape", "Class", "original x", "y", "refined x", "y"],
+        ["Shape", capitalised(kind(database)), "original x", "y", "refined x", "y"],
         shapes.map((index) => [
           database.ids.at(index),
           database.className(database.groups[index]),
