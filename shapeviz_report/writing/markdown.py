@@ -12,12 +12,13 @@ from markupsafe import Markup
 _PARSER = MarkdownIt("commonmark", {"html": False}).enable("table").disable("image")
 
 
-def render_markdown(text: str) -> Markup:
-    """Safe HTML. Headings begin at the second level: the first is the page's own."""
+def render_markdown(text: str, first: int = 2) -> Markup:
+    """Safe HTML. The highest headings are of level ``first``, below that of what the text stands in."""
     tokens = _PARSER.parse(text)
+    down = first - min((int(token.tag[1]) for token in tokens if token.type == "heading_open"), default=first)
     for token in tokens:
         if token.type in ("heading_open", "heading_close"):
-            token.tag = f"h{min(int(token.tag[1]) + 1, 6)}"
+            token.tag = f"h{min(int(token.tag[1]) + down, 6)}"
         if token.type == "th_open" or token.type == "td_open":
             # Alignment would be a style attribute, which the site's policy refuses.
             token.attrs = {}

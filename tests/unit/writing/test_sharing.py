@@ -259,6 +259,9 @@ def test_markdown_is_never_markup_of_its_author():
 def test_headings_begin_below_the_title_of_the_page():
     html = render_markdown("# A\n\n## B\n\n###### F")
     assert re.findall(r"<(h\d)>", html) == ["h2", "h3", "h6"]
+    # A text whose first headings are of the second level skips none either.
+    assert "<h2>B</h2>" in render_markdown("## B\n\n### C")
+    assert "<h4>C</h4>" in render_markdown("## B\n\n### C", 3)
 
 
 def test_the_first_paragraph_is_its_words():
