@@ -165,7 +165,7 @@ def _definer(module: str, name: str | None, passed_on: set[str]) -> str:
 @cache
 def _imports(module: str) -> tuple[Import, ...]:
     """Everything that a module imports, wherever in its text."""
-    return tuple(found for node in _walk(_parse(module)) for _, found in _bindings(node, module))
+    return tuple(found for node in _statements(_parse(module)) for _, found in _bindings(node, module))
 
 
 @cache
@@ -247,8 +247,25 @@ def _walk(node: ast.AST) -> Iterator[ast.AST]:
         yield from _walk(child)
 
 
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """The statements of a tree, as :func:`_walk` has them, without their expressions: most of a tree, and no import."""
+    if _is_type_checking(node):
+        return
+    yield node
+    for block in ("body", "handlers", "orelse", "finalbody", "cases"):
+        inner = getattr(node, block, ())
+        if isinstance(inner, list):
+            for child in inner:
+                yield from _statements(child)
+
+
 def _is_type_checking(node: ast.AST) -> bool:
-    return isinstance(node, ast.If) and not node.orelse and ast.unparse(node.test) == "TYPE_CHECKING"
+    return (
+        isinstance(node, ast.If)
+        and not node.orelse
+        and isinstance(node.test, ast.Name)
+        and node.test.id == "TYPE_CHECKING"
+    )
 
 
 def _is_docstring(node: ast.AST) -> bool:

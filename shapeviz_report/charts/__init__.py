@@ -1,14 +1,8 @@
-"""Charts: data or a description of it in, an Altair chart out. The only package that imports altair."""
+"""Charts: data or a description of it in, an Altair chart out. The only package that imports altair, and what does so,
+:mod:`shapeviz_report.charts.specs`, is imported where charts are made: it takes long, and most commands make none."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
-from functools import cache
-from typing import TYPE_CHECKING, Any
-
-from shapeviz_report.charts.bars import class_bars
-from shapeviz_report.charts.maps import class_map, hit_map, thumbnail_map
 from shapeviz_report.charts.palette import (
     DARK,
     LIGHT,
@@ -20,17 +14,7 @@ from shapeviz_report.charts.palette import (
     class_symbol_indices,
     feature_color_indices,
 )
-from shapeviz_report.charts.subsets import (
-    class_boxes,
-    effect_dots,
-    feature_matrix,
-    seed_dots,
-    subset_bars,
-)
 from shapeviz_report.charts.theme import theme_config
-
-if TYPE_CHECKING:
-    import altair as alt
 
 __all__ = [
     "DARK",
@@ -39,28 +23,8 @@ __all__ = [
     "THEMES",
     "Theme",
     "ThemeName",
-    "class_bars",
-    "class_boxes",
     "class_color_indices",
-    "class_map",
     "class_symbol_indices",
-    "effect_dots",
     "feature_color_indices",
-    "feature_matrix",
-    "hit_map",
-    "seed_dots",
-    "spec_of",
-    "subset_bars",
     "theme_config",
-    "thumbnail_map",
 ]
-
-
-def spec_of(make: Callable[..., alt.TopLevelMixin], *arguments: int) -> dict[str, Any]:
-    """The Vega-Lite specification of a chart by the function that makes it: made and checked once in a process."""
-    return json.loads(_text_of(make, *arguments))
-
-
-@cache
-def _text_of(make: Callable[..., alt.TopLevelMixin], *arguments: int) -> str:
-    return make(*arguments).to_json(indent=None, sort_keys=False)

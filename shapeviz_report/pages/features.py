@@ -107,6 +107,8 @@ class Ranking:
 
 def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
     """All but the maps. No times: they differ from build to build."""
+    from shapeviz_report.charts import specs
+
     number = {name: index for index, name in enumerate(class_names(report))}
     rows = list(ranking.order)
     paper = _of_paper(search)
@@ -159,11 +161,11 @@ def _scores(report: Report, search: FeatureSearch, ranking: Ranking) -> Search:
             for spread in search.spread
         ],
         "charts": {
-            "bars": charts.spec_of(charts.subset_bars),
-            "matrix": charts.spec_of(charts.feature_matrix),
-            "boxes": charts.spec_of(charts.class_boxes),
-            "effects": charts.spec_of(charts.effect_dots),
-            "seeds": charts.spec_of(charts.seed_dots),
+            "bars": specs.spec_of(specs.subset_bars),
+            "matrix": specs.spec_of(specs.feature_matrix),
+            "boxes": specs.spec_of(specs.class_boxes),
+            "effects": specs.spec_of(specs.effect_dots),
+            "seeds": specs.spec_of(specs.seed_dots),
         },
         "marks": feature_marks(),
     }

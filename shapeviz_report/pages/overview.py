@@ -84,6 +84,8 @@ class OverviewPage:
     within = None
 
     def content(self, report: Report) -> PageContent:
+        from shapeviz_report.charts import specs
+
         classes = class_names(report)
         methods = [
             _method(
@@ -106,10 +108,10 @@ class OverviewPage:
                 "separation": separation_chunk(report),
                 "subsets": _subsets(report),
                 "charts": {
-                    "class": charts.spec_of(charts.class_map, len(classes)),
-                    "hit": charts.spec_of(charts.hit_map),
-                    "thumbnail": charts.spec_of(charts.thumbnail_map),
-                    "bars": charts.spec_of(charts.class_bars),
+                    "class": specs.spec_of(specs.class_map, len(classes)),
+                    "hit": specs.spec_of(specs.hit_map),
+                    "thumbnail": specs.spec_of(specs.thumbnail_map),
+                    "bars": specs.spec_of(specs.class_bars),
                 },
                 "marks": _marks(len(classes)),
             },

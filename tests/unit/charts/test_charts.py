@@ -9,8 +9,7 @@ import pytest
 import vl_convert
 from PIL import Image
 
-from shapeviz_report import charts
-from shapeviz_report.charts import LIGHT, theme_config
+from shapeviz_report.charts import LIGHT, specs, theme_config
 
 ROWS = [
     {"index": 0, "group": 0, "x": [-0.5, 0.5], "y": [0.5, 0.5], "hit": [1.0, 0.0], "picture": "a.webp"},
@@ -55,21 +54,21 @@ def near(one: str, other: str) -> bool:
 
 @pytest.mark.slow
 def test_class_map_colors_shapes_by_class():
-    image = pixels(charts.class_map(2))
+    image = pixels(specs.class_map(2))
     assert near(color_at(image, -0.5, 0.5), LIGHT.classes[0])
     assert near(color_at(image, 0.5, 0.5), LIGHT.classes[1])
     assert near(color_at(image, 0.0, -0.5), LIGHT.unlabelled)
 
 
 def test_hit_map_runs_from_red_to_yellow_and_leaves_the_unlabelled_grey():
-    image = pixels(charts.hit_map())
+    image = pixels(specs.hit_map())
     assert near(color_at(image, -0.5, 0.5), LIGHT.hit[-1])
     assert near(color_at(image, 0.5, 0.5), LIGHT.hit[0])
     assert near(color_at(image, 0.0, -0.5), LIGHT.unlabelled)
 
 
 def test_maps_move_between_projections():
-    chart = charts.class_map(2)
+    chart = specs.class_map(2)
     half = pixels(chart, origin=0, target=1, progress=0.5)
     assert near(color_at(half, 0.0, 0.5), LIGHT.classes[0])
     assert near(color_at(half, 0.5, 0.0), LIGHT.classes[1])
@@ -78,18 +77,18 @@ def test_maps_move_between_projections():
 
 
 def test_hit_is_that_of_the_projection_moved_to():
-    image = pixels(charts.hit_map(), origin=0, target=1, progress=1)
+    image = pixels(specs.hit_map(), origin=0, target=1, progress=1)
     assert near(color_at(image, 0.5, 0.5), LIGHT.hit[0])
     assert near(color_at(image, 0.5, -0.5), LIGHT.hit[-1])
 
 
 def test_domains_choose_the_part_in_view():
-    image = pixels(charts.class_map(2), x_domain=[-1, 0], y_domain=[0, 1])
+    image = pixels(specs.class_map(2), x_domain=[-1, 0], y_domain=[0, 1])
     assert near(color_at(image, 0.0, 0.0), LIGHT.classes[0])
 
 
 def test_emphasis_hides_and_fades():
-    image = pixels(charts.class_map(2), emphasis=[0, 1, 3])
+    image = pixels(specs.class_map(2), emphasis=[0, 1, 3])
     assert color_at(image, -0.5, 0.5) == "#ffffff"
     faint = color_at(image, 0.5, 0.5)
     assert faint != "#ffffff"
@@ -101,7 +100,7 @@ def test_what_lies_on_each_other_is_as_faint_as_one():
     row = {"group": 0, "x": [0.0, 0.0], "y": [0.0, 0.0], "hit": [1.0, 1.0], "picture": "a.webp"}
     one, three = (
         color_at(
-            pixels(charts.class_map(2), rows=[row | {"index": i} for i in range(n)], emphasis=[1] * n), 0, 0
+            pixels(specs.class_map(2), rows=[row | {"index": i} for i in range(n)], emphasis=[1] * n), 0, 0
         )
         for n in (1, 3)
     )
@@ -111,14 +110,14 @@ def test_what_lies_on_each_other_is_as_faint_as_one():
 
 @pytest.mark.parametrize("class_count", [0, 1, 45])
 def test_class_map_is_valid_for_any_number_of_classes(class_count):
-    chart = charts.class_map(class_count)
+    chart = specs.class_map(class_count)
     svg = vl_convert.vegalite_to_svg(json.dumps(spec(chart, "shapes", ROWS, class_count, emphasis=[2, 2, 2])))
     assert "<svg" in svg
 
 
 def test_thumbnail_map_draws_pictures_where_asked_and_dots_elsewhere():
     value = spec(
-        charts.thumbnail_map(),
+        specs.thumbnail_map(),
         "shapes",
         ROWS,
         emphasis=[2, 2, 0],
@@ -140,7 +139,7 @@ def test_bars_show_three_decimals_and_a_dash_for_no_value():
         {"row": 1, "hit": 0.0, "present": False},
         {"row": 2, "hit": None, "present": True},
     ]
-    svg = vl_convert.vegalite_to_svg(json.dumps(spec(charts.class_bars(), "classes", rows, chance=0.07)))
+    svg = vl_convert.vegalite_to_svg(json.dumps(spec(specs.class_bars(), "classes", rows, chance=0.07)))
     texts = re.findall(r"<text[^>]*>([^<]*)</text>", svg)
     assert texts == ["0.988", "0.000", "–"]
     assert svg.count('aria-roledescription="rule mark"') + svg.count('"rule"') >= 1
@@ -148,8 +147,8 @@ def test_bars_show_three_decimals_and_a_dash_for_no_value():
 
 def test_bars_have_no_rule_without_a_chance_value():
     rows = [{"row": 0, "hit": 0.5, "present": True}]
-    with_rule = vl_convert.vegalite_to_svg(json.dumps(spec(charts.class_bars(), "classes", rows, chance=0.1)))
-    without = vl_convert.vegalite_to_svg(json.dumps(spec(charts.class_bars(), "classes", rows, chance=-1)))
+    with_rule = vl_convert.vegalite_to_svg(json.dumps(spec(specs.class_bars(), "classes", rows, chance=0.1)))
+    without = vl_convert.vegalite_to_svg(json.dumps(spec(specs.class_bars(), "classes", rows, chance=-1)))
     assert with_rule.count("<line") == without.count("<line") + 1
 
 
@@ -171,7 +170,7 @@ def test_subset_bars_are_as_high_as_their_hit_and_single_features_have_their_col
         {"place": 1, "hit": 0.5, "feature": 0},
         {"place": 2, "hit": 0.25, "feature": 1},
     ]
-    image = sized(charts.subset_bars(), "subsets", rows, count=3, fill=1, bar=LIGHT.bar)
+    image = sized(specs.subset_bars(), "subsets", rows, count=3, fill=1, bar=LIGHT.bar)
     filled = (image != 255).any(axis=2)
     assert [filled[:, x].sum() for x in (100, 300, 500)] == pytest.approx([150, 100, 50], abs=1)
     expected = [LIGHT.bar, LIGHT.features[0], LIGHT.features[1]]
@@ -187,7 +186,7 @@ def test_the_matrix_has_a_cell_where_a_subset_has_a_feature():
             "geometry": {"type": "MultiPolygon", "coordinates": [[[*corners, corners[0]]]]},
         }
 
-    image = sized(charts.feature_matrix(), "rows", [row(3, 0, 0), row(len(LIGHT.features) - 1, 300, 100)])
+    image = sized(specs.feature_matrix(), "rows", [row(3, 0, 0), row(len(LIGHT.features) - 1, 300, 100)])
     assert color_of(image, 150, 50) == LIGHT.features[3]
     assert color_of(image, 450, 150) == LIGHT.features[-1]
     assert color_of(image, 450, 50) == color_of(image, 150, 150) == "#ffffff"
@@ -195,7 +194,7 @@ def test_the_matrix_has_a_cell_where_a_subset_has_a_feature():
 
 def test_boxes_stand_where_their_quartiles_are():
     rows = [{"row": 0, "least": 0.1, "lower": 0.4, "median": 0.5, "upper": 0.6, "most": 0.9, "hit": 0.8}]
-    image = sized(charts.class_boxes(), "classes", rows, bar="#ff0000", ink="#000000", accent="#0000ff")
+    image = sized(specs.class_boxes(), "classes", rows, bar="#ff0000", ink="#000000", accent="#0000ff")
     red = (image == [255, 0, 0]).all(axis=2).any(axis=0).nonzero()[0]
     assert (red.min(), red.max()) == pytest.approx((243, 357), abs=2)
     blue = (image == [0, 0, 255]).all(axis=2).any(axis=0).nonzero()[0]
@@ -207,13 +206,13 @@ def test_effects_and_seeds_name_their_rows_in_the_given_order():
         {"name": "Sc", "feature": 1, "alone": 0.5, "with": 0.8, "without": 0.7},
         {"name": "Gc", "feature": 0, "alone": 0.4, "with": None, "without": None},
     ]
-    svg = vl_convert.vegalite_to_svg(json.dumps(spec(charts.effect_dots(), "effects", effects)))
+    svg = vl_convert.vegalite_to_svg(json.dumps(spec(specs.effect_dots(), "effects", effects)))
     texts = re.findall(r"<text[^>]*>([^<]*)</text>", svg)
     assert [text for text in texts if text in ("Sc", "Gc")] == ["Sc", "Gc"]
     assert svg.count('aria-roledescription="point"') == 2
     common = {"mean": 0.81, "low": 0.8, "high": 0.82, "best": 0.81, "apart": False}
     seeds = [{"name": name, "hit": hit, **common} for name in ("Sc", "Gc") for hit in (0.8, 0.82)]
-    svg = vl_convert.vegalite_to_svg(json.dumps(spec(charts.seed_dots(), "seeds", seeds)))
+    svg = vl_convert.vegalite_to_svg(json.dumps(spec(specs.seed_dots(), "seeds", seeds)))
     assert svg.count('aria-roledescription="point"') == 4 + 2
 
 
