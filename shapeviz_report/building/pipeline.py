@@ -32,7 +32,7 @@ from shapeviz_report.building.reading import MeshFiles, read_inputs
 from shapeviz_report.building.runner import Runner, name_files
 from shapeviz_report.building.scoring import score_maps
 from shapeviz_report.building.shapes import ShapeMaker
-from shapeviz_report.building.workers import find_renderer, open_executor
+from shapeviz_report.building.workers import open_drawing
 from shapeviz_report.cache import Cache, default_root
 from shapeviz_report.config import Config
 from shapeviz_report.database import Listing
@@ -98,8 +98,7 @@ def build_report(
     cache = Cache(root)
     failures = list(database.failures)
 
-    renderer = find_renderer(config)
-    with open_executor(config, renderer) as executor:
+    with open_drawing(config) as (executor, renderer):
         run = Runner(executor, clock, cache, name_files(database), failures, config)
         files = MeshFiles(database, outside=config.outside)
         meshes = {s.id: partial(files.read, s.id) for s in database.shapes}

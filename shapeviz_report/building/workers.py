@@ -15,7 +15,7 @@ from shapeviz_report.render import RENDERERS, Renderer, check_renderer
 
 @contextmanager
 def open_executor(config: Config, renderer: Renderer = "zbuffer") -> Iterator[Executor]:
-    """The executor that a build is to use, which can draw so: the Dask cluster it names, or processes of this
+    """The executor that a command is to use: the Dask cluster it names, which can draw so, or processes of this
     machine."""
     if config.scheduler is None:
         with open_workers(config, config.worker_count) as local:
@@ -33,26 +33,33 @@ def open_executor(config: Config, renderer: Renderer = "zbuffer") -> Iterator[Ex
         yield cluster
 
 
-def open_workers(config: Config, jobs: int) -> LocalExecutor:
-    """Processes of this machine, each with the share of its memory that the options say."""
-    return LocalExecutor(jobs, config.time_limit, config.memory_bytes or memory_share(config.worker_count))
-
-
-def find_renderer(config: Config) -> Renderer:
-    """The renderer that is asked for, or the first that draws on this machine.
+@contextmanager
+def open_drawing(config: Config) -> Iterator[tuple[Executor, Renderer]]:
+    """The executor that a build is to use, and the renderer that is asked for, or the first that draws on this machine.
 
     Raises
     ------
     RenderError
         That which is asked for does not.
     """
-    wanted = [name for name in RENDERERS if config.renderer in (None, name)]
     reason = ""
-    for renderer in wanted:
-        # In a process of its own: a graphics library is chosen once a process, and may bring it down.
-        with open_workers(config, 1) as executor:
-            (outcome,) = executor.run(check_renderer, [(renderer,)])
-        if outcome.reason is None:
-            return renderer
-        reason = outcome.reason
+    for renderer in [name for name in RENDERERS if config.renderer in (None, name)]:
+        # Processes of its own for each: a graphics library is chosen once a process, and may bring it down.
+        with open_workers(config, config.worker_count) as local:
+            (outcome,) = local.run(check_renderer, [(renderer,)])
+            if outcome.reason is not None:
+                reason = outcome.reason
+                continue
+            if config.scheduler is None:
+                # It goes on with the process that has drawn already.
+                yield local, renderer
+                return
+        with open_executor(config, renderer) as cluster:
+            yield cluster, renderer
+        return
     raise RenderError(reason)
+
+
+def open_workers(config: Config, jobs: int) -> LocalExecutor:
+    """Processes of this machine, each with the share of its memory that the options say."""
+    return LocalExecutor(jobs, config.time_limit, config.memory_bytes or memory_share(config.worker_count))
