@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import http.server
+import pickle
 import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -200,9 +201,18 @@ def browser() -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="session")
-def reports() -> Callable[[str], Report]:
+def reports(shared_folder) -> Callable[[str], Report]:
     """The report of a site of ``SITES``, made when first asked for."""
-    return functools.cache(lambda name: SITES[name]())
+
+    @functools.cache
+    def report(name: str) -> Report:
+        file = shared_folder / "reports" / f"{name.replace(' ', '-')}.pickle"
+        with alone(file):
+            if not file.exists():
+                file.write_bytes(pickle.dumps(SITES[name]()))
+            return pickle.loads(file.read_bytes())
+
+    return report
 
 
 @pytest.fixture(scope="session")

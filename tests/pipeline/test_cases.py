@@ -67,7 +67,7 @@ def test_a_database_of_another_program_is_built_whole(case, tmp_path, cache, cap
             (root / file).write_text(text, encoding="utf-8")
     options = {"cache": cache} | OPTIONS
     flags = [part for name, value in options.items() for part in ("--" + name.replace("_", "-"), str(value))]
-    assert main(["check", str(root), "--cache", str(cache)]) == 0
+    assert main(["check", str(root), "--cache", str(cache), "--jobs", "1"]) == 0
     assert "All files can be used" in capsys.readouterr().out
     assert main(["build", str(root), "-o", str(tmp_path / "site"), *flags]) == 0
     with (tmp_path / "site/data/shapes.csv").open(encoding="utf-8", newline="") as file:

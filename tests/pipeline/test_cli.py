@@ -69,8 +69,9 @@ def test_a_site_in_one_file_is_built_and_a_missing_licence_is_told(database, bui
 
 
 def test_check_asks_for_a_licence_until_one_is_named(database, cache) -> None:
-    bare = run("check", database, "--cache", cache).stdout
-    told = run("check", database, "--cache", cache, "--licence", "CC0-1.0").stdout
+    options = ("--cache", cache, "--jobs", 1)
+    bare = run("check", database, *options).stdout
+    told = run("check", database, *options, "--licence", "CC0-1.0").stdout
     assert "Note: No licence is named" in bare
     assert "Note:" not in told
 
@@ -130,12 +131,12 @@ def test_wrong_usage_is_exit_code_2() -> None:
 
 def test_check_names_what_is_wrong(tmp_path) -> None:
     database = write_database(tmp_path / "d", per_class=2)
-    good = run("check", database)
+    good = run("check", database, "--jobs", 1)
     assert good.returncode == 0
     assert "6 shapes" in good.stdout
     assert "All files can be used" in good.stdout
     (database / "ring" / "bad.off").write_text("OFF\n1 2")
-    bad = run("check", database)
+    bad = run("check", database, "--jobs", 1)
     assert bad.returncode == 1
     assert "ring/bad.off: " in bad.stdout
     assert "6 shapes" in bad.stdout, "what cannot be used was counted"
