@@ -8,7 +8,7 @@ from PIL import Image
 from playwright.sync_api import Error, Page
 
 
-def pixels_of(page: Page, selector: str, seconds: float = 15) -> np.ndarray:
+def pixels_of(page: Page, selector: str, seconds: float = 30) -> np.ndarray:
     """The colours of the element on the screen, integers from 0 to 255; (h, w, 3).
 
     A page may draw the element anew while its picture is taken, and the one that was found is gone: then the new

@@ -5,7 +5,7 @@ import io
 from pathlib import Path
 
 import pytest
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually
 
 from shapeviz_report.cells import write_cell
 from shapeviz_report.writing.joiner import join
@@ -56,7 +56,7 @@ def test_a_page_can_be_used_whatever_its_address_says(open_page, file) -> None:
 @pytest.mark.parametrize("at", ["1e308,-1e308,1", "0,0,-1e308", "0,0,0", "1e308,0,1e-300", "NaN,0,1"])
 def test_some_of_a_map_is_in_view_wherever_the_address_looks(open_page, at) -> None:
     page = open_page("workbench", f"index.html#at={at}")
-    place = page.locator("figure[data-slot=large] .surface").bounding_box()
+    place = box_of(page.locator("figure[data-slot=large] .surface"))
     page.mouse.move(place["x"] + 5, place["y"] + 5)
     page.mouse.down()
     page.mouse.move(place["x"] + place["width"] - 5, place["y"] + place["height"] - 5, steps=4)

@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 from reports import make_report
 from screenshots import pixels_of
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually, rested
 
 from shapeviz_report.presets import PRESETS, compared_values
 from shapeviz_report.scorers import SCORERS, as_one_group, score_separation
@@ -99,7 +99,7 @@ def heard(page) -> str:
 
 def point_on(page, place, count=50) -> tuple[float, float]:
     """The middle of a bar while all are in view."""
-    box = page.locator(SURFACE).bounding_box()
+    box = box_of(page.locator(SURFACE))
     return box["x"] + (place + 0.5) * min(box["width"] / count, 36), box["y"] + 60
 
 
@@ -110,7 +110,7 @@ def name_at(page, place) -> str:
 
 def drag(page, start, end, selector=SURFACE) -> None:
     """Drag from one share of an element's width to another."""
-    box = page.locator(selector).bounding_box()
+    box = box_of(page.locator(selector))
     x = [box["x"] + share * box["width"] for share in (start, end)]
     y = box["y"] + box["height"] / 2
     page.mouse.move(x[0], y)
@@ -147,7 +147,7 @@ class TestReading:
         np.testing.assert_allclose(told, [medians[label] for label in labels], atol=0.6)
         assert "What share of the surface" in card.inner_text()
         assert "rank 2" in card.inner_text()
-        box = card.bounding_box()
+        box = box_of(card)
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 1440
         page.mouse.move(5, 5)
@@ -293,8 +293,8 @@ class TestChoosing:
             "Add the best",
             "Remove the weakest",
         ]
-        number, finder = (page.locator(f"#{id_}").bounding_box() for id_ in ("bin-number", "bin-find"))
-        remove = page.locator("#bin-remove").bounding_box()
+        number, finder = (box_of(page.locator(f"#{id_}")) for id_ in ("bin-number", "bin-find"))
+        remove = box_of(page.locator("#bin-remove"))
         assert number["x"] < remove["x"] < finder["x"]
 
 
@@ -341,7 +341,7 @@ class TestKeyboard:
             page.keyboard.press("+")
         pointed = page.locator(".column.pointed")
         eventually(page, lambda: float(pointed.get_attribute("width")) == pytest.approx(48))
-        box = page.locator(SURFACE).bounding_box()
+        box = box_of(page.locator(SURFACE))
         page.mouse.move(box["x"] + box["width"] - 10, box["y"] + 50)
         assert reading(page).split()[0] == names[49]
         page.mouse.move(box["x"] + 10, box["y"] + 50)
@@ -390,7 +390,7 @@ class TestLookingCloser:
         names, _ = ranking
         drag(page, 0.003, 0.7, ".strip-of-bins")
         assert name_at(page, 0) != names[0]
-        box = page.locator(SURFACE).bounding_box()
+        box = box_of(page.locator(SURFACE))
         right = (box["x"] + box["width"] - 3, box["y"] + 50)
         page.mouse.move(*right)
         assert reading(page).split()[0] == names[49]
@@ -443,7 +443,7 @@ class TestReaders:
         page.click("#bin-order >> text=By feature")
         drawn_again(page)
         first = pixels_of(page, SURFACE)
-        page.wait_for_timeout(200)
+        rested(page, 200)
         assert (pixels_of(page, SURFACE) == first).all()
 
     def test_bars_that_move_end_in_their_places(self, open_page, address, page):

@@ -6,7 +6,7 @@ import shutil
 import numpy as np
 import pytest
 from screenshots import pixels_of
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually
 
 
 @pytest.fixture
@@ -48,7 +48,7 @@ def find(page, field, text) -> None:
 def point_at_another(page, surface, kind) -> None:
     """Move the mouse over a map until it is on a shape of a kind."""
     page.locator(surface).scroll_into_view_if_needed()
-    box = page.locator(surface).bounding_box()
+    box = box_of(page.locator(surface))
     card = page.locator("#content > .card:not(.bin-card)")
     for x in np.linspace(8, box["width"] - 8, 24):
         for y in np.linspace(8, box["height"] - 8, 12):
@@ -218,7 +218,7 @@ def test_a_shape_is_turned_by_mouse_and_keys(bins):
     page.keyboard.press("0")
     drawn_again(page)
     assert change(first, seen(page)) == 0
-    box = page.locator("#stage canvas").bounding_box()
+    box = box_of(page.locator("#stage canvas"))
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     page.mouse.move(x, y)
     page.mouse.down()

@@ -7,7 +7,7 @@ from urllib.parse import urlencode
 
 import numpy as np
 import pytest
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually
 
 from shapeviz_report.neighbours import find_fits, find_nearest
 from shapeviz_report.presets import PRESETS, compared_values, scale
@@ -554,7 +554,7 @@ class TestSimilarClasses:
     def test_forty_five_classes_are_readable(self, compare):
         page = compare("many classes", wait="#matrix td", view="classes")
         assert page.locator("#matrix [data-row]").count() == 45 * 45
-        cell = page.locator("#matrix [data-row]").first.bounding_box()
+        cell = box_of(page.locator("#matrix [data-row]").first)
         assert min(cell["width"], cell["height"]) >= 12
         page.click("#open-tables")
         assert page.locator("#tables tbody tr").count() == 45

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from reports import make_report, with_search
 from screenshots import pixels_of
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually, rested
 
 from shapeviz_report.faithfulness import rate_maps
 from shapeviz_report.presets import PRESETS, scale
@@ -51,7 +51,7 @@ def value(page) -> str:
 
 def place_on_screen(page, place, count) -> tuple[float, float]:
     """The middle of a bar."""
-    box = page.locator("#ranking").bounding_box()
+    box = box_of(page.locator("#ranking"))
     return box["x"] + (place + 0.5) * box["width"] / count, box["y"] + 100
 
 
@@ -395,10 +395,10 @@ class TestOfThePaper:
         assert "rank" not in reading(page)
         # No row stays empty; the greedy search and the level of chance are of all subsets.
         assert sorted(page.locator("#rows li").all_inner_texts()) == ["Gc", "PFH", "Sc"]
-        matrix, bars = page.locator("#feature-matrix svg").bounding_box(), page.locator("#subset-bars")
+        matrix, bars = box_of(page.locator("#feature-matrix svg")), page.locator("#subset-bars")
         assert matrix["height"] == pytest.approx(3 * 15, abs=3)
-        assert page.locator("#ranking").bounding_box()["height"] == pytest.approx(
-            matrix["height"] + bars.bounding_box()["height"], abs=6
+        assert box_of(page.locator("#ranking"))["height"] == pytest.approx(
+            matrix["height"] + box_of(bars)["height"], abs=6
         )
         for gone in ("#trace", "#greedy", "[data-rule=best]"):
             assert page.locator(gone).is_hidden()
@@ -562,7 +562,7 @@ class TestOverview:
                     document.querySelector(`#features input[value=${value}]`).click();
             }"""
         )
-        page.wait_for_timeout(600)
+        rested(page, 600)
         assert page.locator("#features input:checked").get_attribute("value") == "all"
         assert "features=" not in address(page)
 
@@ -571,7 +571,7 @@ class TestOverview:
         page.evaluate("location.hash = 'color=class&features=Gc+Sc'")
         page.evaluate("location.hash = 'color=hit'")
         eventually(page, lambda: page.locator(".placing").count() == 0)
-        page.wait_for_timeout(600)
+        rested(page, 600)
         assert address(page).endswith("#color=hit")
         assert page.locator("figure[data-slot=large][data-view=hit]").count() == 1
 
@@ -723,7 +723,7 @@ class TestPhone:
         page = open_page("searched with others", "features.html", **PHONE)
 
         def top(selector):
-            return page.locator(selector).first.bounding_box()["y"]
+            return box_of(page.locator(selector).first)["y"]
 
         assert top("#ranking") < 500
         assert top("#ranking") < top("#greedy") < top("figure.map .surface") < top("#panel")
@@ -737,7 +737,7 @@ class TestPhone:
         assert set(names.evaluate_all("nodes => nodes.map(node => node.getClientRects().length)")) == {1}
         # Each name stands beside its mark.
         for row in page.locator(".effects tbody .marked").all():
-            mark, name = (row.locator(part).bounding_box() for part in ("i", "bdi"))
+            mark, name = (box_of(row.locator(part)) for part in ("i", "bdi"))
             assert mark["x"] + mark["width"] <= name["x"]
             assert name["y"] < mark["y"] + mark["height"] < name["y"] + name["height"] + 2
 
@@ -757,6 +757,6 @@ class TestPhone:
 
 def test_the_names_of_the_features_stand_beside_their_rows(open_page):
     page = open_page("searched", "features.html")
-    names, rows = (page.locator(f".plot {part}").bounding_box() for part in (".sides", ".scroll"))
+    names, rows = (box_of(page.locator(f".plot {part}")) for part in (".sides", ".scroll"))
     assert names["x"] + names["width"] <= rows["x"] + 1
     assert abs(names["y"] - rows["y"]) < 1

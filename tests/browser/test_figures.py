@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 from PIL import Image
-from waiting import eventually
+from waiting import box_of, eventually, rested
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -104,9 +104,8 @@ def test_a_figure_could_stand_in_a_paper(open_page, tmp_path, view):
     roots = figures(page)
     assert roots
     for root in roots:
-        told = page.evaluate(
-            "root => [...root.querySelectorAll('h2')].map((node) => node.textContent.trim())",
-            root.element_handle(),
+        told = root.evaluate(
+            "root => [...root.querySelectorAll('h2')].map((node) => node.textContent.trim())"
         )
         path = save(page, root, "SVG", tmp_path)
         tree = ET.parse(path).getroot()
@@ -221,7 +220,7 @@ def test_a_picture_has_three_pixels_for_one_of_the_page(open_page, tmp_path):
     page = open_page("published", "index.html")
     (root, *_) = figures(page)
     with Image.open(save(page, root, "PNG", tmp_path)) as picture:
-        assert picture.width >= 3 * root.bounding_box()["width"]
+        assert picture.width >= 3 * box_of(root)["width"]
         pixels = picture.convert("RGB")
         assert pixels.getpixel((5, 5)) == (255, 255, 255)
         assert len(pixels.getcolors(maxcolors=1 << 24)) > 100
@@ -330,7 +329,7 @@ def test_a_sheet_is_the_same_from_a_page_of_any_theme_and_any_width(open_page, f
     page.evaluate(f"window.addEventListener('beforeprint', () => {{ window.drawn = ({DRAWN})() }})")
 
     def sheet():
-        page.wait_for_timeout(800)
+        rested(page, 800)
         page.pdf()
         return page.evaluate("window.drawn")
 

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from reports import NASTY_LABELS
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually
 
 PHONE = {"viewport": {"width": 390, "height": 800}, "has_touch": True, "is_mobile": True}
 
@@ -95,8 +95,7 @@ class TestFirstLook:
         page.go_back()
         page.wait_for_selector("html[data-ready]", state="attached")
         drawn_again(page)
-        box = page.locator(".cell", has_text=re.compile(f"^{name}$")).bounding_box()
-        assert box is not None
+        box = box_of(page.locator(".cell", has_text=re.compile(f"^{name}$")))
         assert 0 < box["y"] < 900
 
 
@@ -127,8 +126,8 @@ class TestManyShapes:
         page = open_page("large", "shapes.html")
         page.locator("#scroller").evaluate("node => { node.scrollTop = 3000; }")
         drawn_again(page)
-        top = page.locator("#scroller").bounding_box()["y"]
-        boxes = [head.bounding_box() for head in page.locator(".block-head").all()]
+        top = box_of(page.locator("#scroller"))["y"]
+        boxes = [box_of(head) for head in page.locator(".block-head").all()]
         assert any(abs(box["y"] - top) < 4 for box in boxes)
 
     def test_pictures_come_when_one_stops_rushing(self, open_page):
@@ -140,14 +139,12 @@ class TestManyShapes:
         page = open_page("large", "shapes.html")
         page.locator("#scroller").evaluate("node => { node.scrollTop = 12000; }")
         drawn_again(page)
-        edge = page.locator("#scroller").bounding_box()["y"] + 45
-        before = next(
-            cell.inner_text() for cell in page.locator(".cell").all() if cell.bounding_box()["y"] > edge
-        )
+        edge = box_of(page.locator("#scroller"))["y"] + 45
+        before = next(cell.inner_text() for cell in page.locator(".cell").all() if box_of(cell)["y"] > edge)
         for size in ("60", "300"):
             page.locator("#size").fill(size)
             assert before.strip() in [name.strip() for name in names(page)]
-        assert page.locator(".cell img").first.bounding_box()["width"] >= 300
+        assert box_of(page.locator(".cell img").first)["width"] >= 300
 
 
 class TestArranging:
@@ -410,7 +407,7 @@ class TestKeys:
             page.keyboard.press("PageUp")
             drawn_again(page)
         assert focused(page).startswith("class 7 1")
-        box = page.locator(".cell:focus-within").bounding_box()
+        box = box_of(page.locator(".cell:focus-within"))
         assert 0 < box["y"] < 900
         page.locator("#scroller").evaluate("node => { node.scrollTop = 0; }")
         drawn_again(page)

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually, rested
 
 
 def entries(page) -> int:
@@ -33,7 +33,7 @@ def checked(page, group: str) -> str:
 def test_a_page_that_opens_makes_no_step(open_page, name, file) -> None:
     page = open_page(name, file)
     before = entries(open_page(name, "about.html"))
-    page.wait_for_timeout(600)
+    rested(page, 600)
     assert entries(page) == before
 
 
@@ -72,7 +72,7 @@ def test_a_step_that_is_taken_back_at_once_is_none(open_page) -> None:
     drawn_again(page)
     length = entries(page)
     # A double click where nothing is drops the selection and has it again.
-    place = page.locator("figure[data-map=original] .surface").bounding_box()
+    place = box_of(page.locator("figure[data-map=original] .surface"))
     page.mouse.dblclick(place["x"] + 6, place["y"] + 6)
     eventually(page, lambda: page.locator("#tray h2").is_visible() and "class000" in page.url)
     page.focus(".bin-plot .surface")
@@ -98,7 +98,7 @@ def test_every_choice_of_bins_is_one_step_and_one_of_the_strip(open_page) -> Non
         assert (at(), entries(page)) == (number, length + number)
 
     def press() -> None:
-        place = page.locator(".bin-plot .surface").bounding_box()
+        place = box_of(page.locator(".bin-plot .surface"))
         page.mouse.click(place["x"] + 8, place["y"] + place["height"] / 3)
 
     for number in (1, 2):
@@ -154,7 +154,7 @@ def test_on_the_features(open_page) -> None:
     eventually(page, lambda: "features=" in page.url and "at=" not in page.url)
     page.go_back()
     eventually(page, lambda: "features=" not in page.url)
-    page.wait_for_timeout(500)
+    rested(page, 500)
     assert "at=" in page.url
     page.go_back()
     eventually(page, lambda: page.locator("figure.map[data-view=class]").count() == 1)
@@ -192,7 +192,7 @@ def test_on_the_compare_page(open_page) -> None:
     length = entries(page)
     page.select_option("#group-a", label="kind e (16)")
     eventually(page, lambda: "kind+e" in page.url)
-    page.wait_for_timeout(600)
+    rested(page, 600)
     # The page chooses bins for the new groups; that is no step of the reader's.
     assert entries(page) == length + 1
     page.go_back()

@@ -3,6 +3,7 @@
 import re
 
 import pytest
+from waiting import rested
 
 from shapeviz_report.pages import PAGES
 
@@ -17,7 +18,7 @@ def use(page):
     page.wait_for_selector("#detail:not([hidden])")
     page.click("#theme")
     # What follows a click by timers: the settled picture, the address.
-    page.wait_for_timeout(900)
+    rested(page, 900)
 
 
 def test_from_a_double_click_only_files_of_the_site_are_read(open_page, site):

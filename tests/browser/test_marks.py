@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from reports import make_report
 from screenshots import pixels_of
+from waiting import rested
 
 from shapeviz_report.writing import write_site
 
@@ -33,7 +34,7 @@ def drawn(browser, address, script=None, **options):
         page.add_init_script(script)
     page.goto(address)
     page.wait_for_selector("html[data-ready]", state="attached")
-    page.wait_for_timeout(500)
+    rested(page, 500)
     picture = pixels_of(page, LARGE)
     kind = page.evaluate(KIND, LARGE)
     context.close()

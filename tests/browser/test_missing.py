@@ -5,7 +5,7 @@ from __future__ import annotations
 from urllib.parse import urlencode
 
 import pytest
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually
 
 HOSTILE = (
     "<img src=x onerror=alert(1)>",
@@ -81,10 +81,8 @@ def test_a_page_says_what_its_address_names_in_vain(open_page, file) -> None:
     eventually(page, lambda: said(page) == sentence)
     line = page.get_by_role("status").filter(has_text="This link names")
     assert line.count() == 1
-    assert (
-        line.bounding_box()["y"] + line.bounding_box()["height"]
-        <= page.locator("main").bounding_box()["y"] + 1
-    )
+    box = box_of(line)
+    assert box["y"] + box["height"] <= box_of(page.locator("main"))["y"] + 1
     assert open_page("everything", file).locator("#missing").text_content() == ""
 
 
@@ -173,7 +171,7 @@ def test_a_range_of_no_numbers_is_told(open_page) -> None:
 def test_the_overview_fits_the_window_below_the_line(open_page) -> None:
     page = open_page("workbench", "index.html#hide=dragon&select=ghost")
     drawn_again(page)
-    assert page.locator("#missing").bounding_box()["height"] > 20
+    assert box_of(page.locator("#missing"))["height"] > 20
     assert page.evaluate("document.documentElement.scrollHeight") <= 900
 
 

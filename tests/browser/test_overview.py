@@ -7,14 +7,14 @@ import re
 import numpy as np
 import pytest
 from screenshots import pixels_of
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually, rested
 
 LARGE = "figure[data-slot=large] .surface"
 
 
 def corner(page, selector=LARGE):
     """The upper left corner of a map on the screen, its width and its height."""
-    box = page.locator(selector).bounding_box()
+    box = box_of(page.locator(selector))
     return box["x"], box["y"], box["width"], box["height"]
 
 
@@ -49,7 +49,7 @@ def point(page, key) -> tuple[float, float]:
 
 def middle(page) -> tuple[float, float]:
     """The middle of the ring about the shape pointed at."""
-    ring = page.locator(f"{LARGE} .ring.pointed").bounding_box()
+    ring = box_of(page.locator(f"{LARGE} .ring.pointed"))
     return ring["x"] + ring["width"] / 2, ring["y"] + ring["height"] / 2
 
 
@@ -168,12 +168,12 @@ class TestFirstLook:
             surface = f"figure.linked[data-view={view}] .surface"
             page.wait_for_selector(f"{surface} .chart :is(svg, canvas)")
             eventually(page, lambda surface=surface: ink(page, surface) > 0.005)
-            assert page.locator(surface).bounding_box()["width"] > 400
+            assert box_of(page.locator(surface))["width"] > 400
 
     def test_where_the_window_is_wide_two_stand_beside_the_one(self, open_page):
         page = open_page("plain", viewport={"width": 1920, "height": 1080})
         assert page.locator("figure.map:visible").count() == 3
-        assert page.locator(LARGE).bounding_box()["width"] > 1000
+        assert box_of(page.locator(LARGE))["width"] > 1000
         page.locator("#views label", has_text="Classes").click()
         page.wait_for_selector("figure.linked[data-view=thumbnail] .chart svg")
         page.set_viewport_size({"width": 1300, "height": 900})
@@ -187,7 +187,7 @@ class TestFirstLook:
         assert len(names) >= 10
         boxes = [
             (box["x"], box["y"], box["x"] + box["width"], box["y"] + box["height"])
-            for box in (text.bounding_box() for text in page.locator(f"{LARGE} .labels text").all())
+            for box in (box_of(text) for text in page.locator(f"{LARGE} .labels text").all())
         ]
         for index, (left, top, right, bottom) in enumerate(boxes):
             for other_left, other_top, other_right, other_bottom in boxes[:index]:
@@ -211,8 +211,8 @@ class TestFirstLook:
         assert names == list(summary["nh_c"])
         values = page.eval_on_selector_all("#bars text", "nodes => nodes.map(node => node.textContent)")
         assert values == [f"{value:.3f}" for value in summary["nh_c"].values()]
-        legend = page.locator("#legend button").nth(5).bounding_box()
-        bar = page.locator("#bars text").nth(5).bounding_box()
+        legend = box_of(page.locator("#legend button").nth(5))
+        bar = box_of(page.locator("#bars text").nth(5))
         assert abs(legend["y"] + legend["height"] / 2 - bar["y"] - bar["height"] / 2) < 3
 
     def test_the_page_explains_near_far_and_nh(self, open_page):
@@ -319,8 +319,8 @@ class TestColors:
                     return document.elementFromPoint(left + width / 2, top + height / 2) === node;
                 }"""
             )
-            legend = page.locator("#color-legend").bounding_box()
-            assert legend["y"] + legend["height"] <= detail.bounding_box()["y"] + 1
+            legend = box_of(page.locator("#color-legend"))
+            assert legend["y"] + legend["height"] <= box_of(detail)["y"] + 1
 
 
 def truth_of(site, method) -> dict:
@@ -390,7 +390,7 @@ class TestWhoIsLikeWhom:
         for method, label in (("tsne", "t-SNE"), ("pca", "PCA")):
             page.click(f"#methods label:has-text('{label}')")
             # The shapes take less than a second on their way.
-            page.wait_for_timeout(900)
+            rested(page, 900)
             point(page, "ArrowRight")
             shares = shares_of(site("plain"), f"{key}:{method}")
             share = 100 * shares[page.locator("#card .name").inner_text()]
@@ -524,7 +524,7 @@ class TestSelecting:
         before = [corner(page), ring(page)]
         brush(page, right=0.4)
         assert selected(page) > 0
-        page.wait_for_timeout(500)
+        rested(page, 500)
         assert [corner(page), ring(page)] == before
 
     def test_what_is_faint_stays_faint_where_it_lies_on_each_other(self, open_page):
@@ -674,7 +674,7 @@ class TestMoving:
 
     def test_something_is_in_view_wherever_one_zooms_and_whatever_marks_show(self, open_page):
         page = open_page("plain")
-        place = page.locator(LARGE).bounding_box()
+        place = box_of(page.locator(LARGE))
         page.mouse.move(place["x"] + place["width"] * 0.45, place["y"] + place["height"] * 0.55)
         for _ in range(12):
             page.mouse.wheel(0, -300)
@@ -691,7 +691,7 @@ class TestMoving:
         for _ in range(6):
             page.mouse.wheel(0, -200)
         eventually(page, lambda: float(address(page).rpartition(",")[2] or 0) > 8)
-        page.wait_for_timeout(300)
+        rested(page, 300)
         assert np.hypot(*np.subtract(middle(page), (x, y))) < picture_size(page)
 
     def test_dragging_moves_the_map_when_asked_to(self, open_page):
@@ -903,16 +903,16 @@ class TestPhone:
 
     def test_search_and_views_stand_above_the_map_in_a_row_each(self, open_page):
         page = open_page("museum", "index.html#view=three", **PHONE)
-        views, search = (page.locator(selector).bounding_box() for selector in ("#views", "#search"))
+        views, search = (box_of(page.locator(selector)) for selector in ("#views", "#search"))
         assert views["height"] < 60
         assert search["height"] >= 40
-        last = page.locator("#views label").last.bounding_box()
+        last = box_of(page.locator("#views label").last)
         # What is shown is seen there.
         assert views["x"] <= last["x"]
         assert last["x"] + last["width"] <= views["x"] + views["width"] + 1
         page = open_page("museum", **PHONE)
-        place = page.locator(LARGE).bounding_box()
-        assert page.locator("#search").bounding_box()["y"] < place["y"] < 340
+        place = box_of(page.locator(LARGE))
+        assert box_of(page.locator("#search"))["y"] < place["y"] < 340
 
     def test_a_tap_opens_a_shape(self, open_page):
         page = open_page("plain", **PHONE)

@@ -4,6 +4,7 @@ import re
 
 import pytest
 from playwright.sync_api import expect
+from waiting import box_of
 
 ACCENTS = {"light": "rgb(160, 19, 70)", "dark": "rgb(216, 107, 147)"}
 
@@ -13,8 +14,8 @@ def test_the_introduction_begins_above_the_map_and_leaves_it_its_place(open_page
     page = open_page("published", viewport=viewport)
     welcome = page.locator(".welcome")
     expect(welcome.locator("p")).to_have_text("Vessels of two museums.")
-    assert welcome.bounding_box()["height"] < 90
-    surface = page.locator(".map[data-slot=large] .surface").bounding_box()
+    assert box_of(welcome)["height"] < 90
+    surface = box_of(page.locator(".map[data-slot=large] .surface"))
     assert surface["y"] + 0.8 * surface["height"] < viewport["height"]
     assert page.evaluate("document.documentElement.scrollWidth") <= viewport["width"]
 
@@ -49,7 +50,7 @@ def test_the_accent_and_the_logo_are_seen(open_page, single_file, scheme, whole)
     )
     logo = page.locator(".masthead .logo")
     assert logo.evaluate("picture => picture.complete && picture.naturalWidth > 0")
-    assert logo.bounding_box()["height"] <= 32
+    assert box_of(logo)["height"] <= 32
 
 
 def test_a_page_without_an_introduction_has_no_place_for_one(open_page):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from reports import make_report, with_bin_search, with_retrieval, with_search
+from waiting import box_of
 
 from shapeviz_report.writing import write_site
 
@@ -89,7 +90,7 @@ def test_pointing_at_a_line_marks_its_row_and_the_other_way_round(open_page, add
     page.locator('.ratings tr[data-key="chance"]').hover()
     assert page.locator(".rating-line.pointed").get_attribute("data-key") == "chance"
     page.locator("#retrieval-curves").scroll_into_view_if_needed()
-    box = page.locator('#retrieval-curves .reach path[data-key="chance"]').bounding_box()
+    box = box_of(page.locator('#retrieval-curves .reach path[data-key="chance"]'))
     page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     assert page.locator(".ratings tr.pointed").get_attribute("data-key") == "chance"
     page.mouse.move(2, 2)
@@ -136,5 +137,5 @@ def test_a_phone_shows_it_without_sideways_scrolling(open_page, address, scheme)
     first = page.locator(".ratings tbody th").first
     page.locator(".retrieval .wide").first.evaluate("(node) => { node.scrollLeft = 400; }")
     # The names stay where the figures scroll.
-    assert first.bounding_box()["x"] >= 0
-    assert first.bounding_box()["width"] >= 100
+    assert box_of(first)["x"] >= 0
+    assert box_of(first)["width"] >= 100

@@ -6,7 +6,7 @@ import re
 from urllib.parse import parse_qs, unquote_plus, urlsplit
 
 import pytest
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually, rested
 
 #: Where a map of each page is, on which a box selects.
 MAPS = {
@@ -22,7 +22,7 @@ SITE_OF = {"bins.html": "bins"}
 def box(page, selector, left=0.02, top=0.02, right=0.98, bottom=0.98) -> None:
     """Drag a box over a part of a map, given in shares of its size."""
     page.locator(selector).scroll_into_view_if_needed()
-    place = page.locator(selector).bounding_box()
+    place = box_of(page.locator(selector))
     page.mouse.move(place["x"] + left * place["width"], place["y"] + top * place["height"])
     page.mouse.down()
     page.mouse.move(place["x"] + right * place["width"], place["y"] + bottom * place["height"], steps=4)
@@ -86,7 +86,7 @@ def test_shift_adds_one_shape_and_a_click_beside_all_drops_the_selection(open_pa
     page = open_page(SITE_OF.get(file, "workbench"), f"{file}#select=class000%2F0001")
     page.locator(MAPS[file]).scroll_into_view_if_needed()
     assert counted(page) == 1
-    place = page.locator(MAPS[file]).bounding_box()
+    place = box_of(page.locator(MAPS[file]))
     # Along a line across the map there is a shape somewhere.
     for share in range(4, 97):
         page.mouse.move(place["x"] + place["width"] * share / 100, place["y"] + place["height"] * 0.5)
@@ -106,7 +106,7 @@ def test_shift_adds_one_shape_and_a_click_beside_all_drops_the_selection(open_pa
 def test_escape_gives_up_a_box_and_leaves_the_selection_as_it_was(open_page, file):
     page = open_page(SITE_OF.get(file, "workbench"), f"{file}#select=class000%2F0001")
     page.locator(MAPS[file]).scroll_into_view_if_needed()
-    place = page.locator(MAPS[file]).bounding_box()
+    place = box_of(page.locator(MAPS[file]))
     page.mouse.move(place["x"] + 3, place["y"] + 3)
     page.mouse.down()
     page.mouse.move(place["x"] + place["width"] * 0.9, place["y"] + place["height"] * 0.9, steps=4)
@@ -238,12 +238,12 @@ def test_an_address_of_nonsense_opens_the_page(open_page, site):
 def test_the_brush_on_the_workbench_moves_nothing_below_it(open_page):
     page = open_page("workbench", "workbench.html")
     surface = page.locator(MAPS["workbench.html"])
-    before = surface.bounding_box()
+    before = box_of(surface)
     page.mouse.move(before["x"] + 5, before["y"] + 5)
     page.mouse.down()
     page.mouse.move(before["x"] + before["width"] - 5, before["y"] + before["height"] - 5, steps=4)
     drawn_again(page)
-    assert surface.bounding_box() == before
+    assert box_of(surface) == before
     assert page.inner_text("#picked") == "80 shapes selected"
     page.mouse.up()
     assert counted(page) == 80
@@ -252,9 +252,9 @@ def test_the_brush_on_the_workbench_moves_nothing_below_it(open_page):
 @pytest.mark.parametrize("file", ["index.html", "shapes.html", "workbench.html"])
 def test_on_a_small_desk_all_that_the_tray_offers_lies_in_it(open_page, file):
     page = open_page("workbench", f"{file}#select=class000%2F0001", viewport={"width": 1000, "height": 700})
-    tray = page.locator("#tray").bounding_box()
+    tray = box_of(page.locator("#tray"))
     for way in page.locator(".tray-ways > *").all():
-        place = way.bounding_box()
+        place = box_of(way)
         # What is clicked reaches as far beyond as the space around its words.
         assert place["x"] + place["width"] <= tray["x"] + tray["width"] + 8
         assert place["y"] + place["height"] <= tray["y"] + tray["height"]
@@ -286,7 +286,7 @@ UPPER_LEFT = [(0.02, 0.02), (0.98, 0.02), (0.02, 0.98)]
 
 def draw(page, places, selector=LARGE, *, keys=()) -> None:
     """Drag along places of a map, given in shares of its size, with keys held down."""
-    box = page.locator(selector).bounding_box()
+    box = box_of(page.locator(selector))
     (x, y), *rest = [(box["x"] + box["width"] * x, box["y"] + box["height"] * y) for x, y in places]
     for key in keys:
         page.keyboard.down(key)
@@ -309,7 +309,7 @@ def where_all_is(page) -> list[str]:
 
 def on_a_shape(page, selector=LARGE) -> tuple[float, float]:
     """A place of the screen that is on a shape."""
-    box = page.locator(selector).bounding_box()
+    box = box_of(page.locator(selector))
     for share in range(4, 97):
         x, y = box["x"] + box["width"] * share / 100, box["y"] + box["height"] * 0.5
         page.mouse.move(x, y)
@@ -331,7 +331,7 @@ def test_a_lasso_selects_what_it_goes_round_and_the_map_stays_where_it_is(open_p
     page.click("#drag label:has-text('Box')")
     draw(page, [(0.02, 0.02), (0.98, 0.98)])
     assert set(by_key) < set(named(page))
-    page.wait_for_timeout(400)
+    rested(page, 400)
     assert where_all_is(page) == before
 
 
@@ -370,7 +370,7 @@ def test_a_click_with_alt_takes_a_shape_out_and_one_beside_all_does_nothing(open
     page.keyboard.down("Alt")
     page.mouse.click(x, y)
     assert counted(page) == everyone - 1
-    box = page.locator(selector).bounding_box()
+    box = box_of(page.locator(selector))
     page.mouse.click(box["x"] + 3, box["y"] + 3)
     assert counted(page) == everyone - 1
     page.keyboard.up("Alt")
@@ -378,7 +378,7 @@ def test_a_click_with_alt_takes_a_shape_out_and_one_beside_all_does_nothing(open
 
 def test_a_double_click_zooms_and_keeps_the_selection(open_page):
     page = open_page("workbench", "index.html#select=class000%2F0001&select=class002%2F0003")
-    box = page.locator(LARGE).bounding_box()
+    box = box_of(page.locator(LARGE))
     page.mouse.dblclick(box["x"] + 4, box["y"] + 4)
     page.wait_for_selector("body[data-zoomed]")
     assert counted(page) == 2
@@ -452,7 +452,7 @@ def test_fingers_draw_a_lasso_and_say_what_it_does(open_page):
 
     def finger(places):
         page.locator(LARGE).evaluate("node => node.scrollIntoView({ block: 'start' })")
-        box = page.locator(LARGE).bounding_box()
+        box = box_of(page.locator(LARGE))
         for number, (x, y) in enumerate(places):
             point = {"x": box["x"] + x * box["width"], "y": box["y"] + y * box["height"]}
             kind = "touchStart" if number == 0 else "touchMove"
@@ -519,9 +519,9 @@ def test_on_a_phone_the_menu_is_one_row_and_the_tray_a_sheet(open_page):
     )
     assert len(set(places)) == 1
     # The page that is open is in sight.
-    open_one = page.locator("nav [aria-current=page]").bounding_box()
+    open_one = box_of(page.locator("nav [aria-current=page]"))
     assert 0 <= open_one["x"] <= 390 - open_one["width"]
-    tray = page.locator("#tray").bounding_box()
+    tray = box_of(page.locator("#tray"))
     assert (tray["x"], tray["width"]) == (0, 390)
     assert tray["y"] + tray["height"] == pytest.approx(844, abs=1)
     heights = page.locator("#tray .tray-ways > *, .tools .plain:visible, .tools .choice span").evaluate_all(
@@ -538,11 +538,11 @@ def test_back_and_undo_lead_to_the_selection_before(open_page, file):
     # A drag is one step, however far it goes and however long it rests on its way.
     place = page.locator(MAPS[file])
     place.scroll_into_view_if_needed()
-    where = place.bounding_box()
+    where = box_of(place)
     page.mouse.move(where["x"] + 2, where["y"] + 2)
     page.mouse.down()
     page.mouse.move(where["x"] + where["width"] * 0.3, where["y"] + where["height"] * 0.9, steps=4)
-    page.wait_for_timeout(400)
+    rested(page, 400)
     page.mouse.move(where["x"] + where["width"] * 0.5, where["y"] + where["height"] - 2, steps=4)
     page.mouse.up()
     some = named(page)
@@ -590,7 +590,7 @@ def test_ticks_in_the_gallery_are_steps(open_page):
     ticks.nth(0).check()
     page.locator("#search").press_sequentially("cup")
     page.keyboard.press("Control+z")
-    page.wait_for_timeout(300)
+    rested(page, 300)
     assert counted(page) == 1
 
 
@@ -600,7 +600,7 @@ def test_a_double_click_that_zooms_is_no_step_of_the_selection(open_page):
     some = named(page)
     assert some
     entries = page.evaluate("history.length")
-    place = page.locator(LARGE).bounding_box()
+    place = box_of(page.locator(LARGE))
     page.mouse.dblclick(place["x"] + 3, place["y"] + 3)
     eventually(page, lambda: "at=" in page.url)
     assert named(page) == some

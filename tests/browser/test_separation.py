@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from waiting import eventually
+from waiting import box_of, eventually
 
 from shapeviz_report.presets import PRESETS, scale
 
@@ -112,7 +112,7 @@ def test_the_link_leads_to_each_class(told, reports, width):
     page.wait_for_url("**/features.html*")
     page.wait_for_selector("html[data-ready]", state="attached")
     section = page.locator("#separation")
-    eventually(page, lambda: 0 <= section.locator("h2").bounding_box()["y"] < 600)
+    eventually(page, lambda: 0 <= box_of(section.locator("h2"))["y"] < 600)
     section.locator("details summary").click()
     head = section.locator("thead th").all_inner_texts()
     rows = [row.split("\t") for row in section.locator("tbody tr").all_inner_texts()]

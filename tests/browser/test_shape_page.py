@@ -9,7 +9,7 @@ import pytest
 from reports import make_report, with_copies, with_external
 from screenshots import pixels_of
 from similar_cases import similar_cases
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually
 
 from shapeviz_report.neighbours import find_related
 from shapeviz_report.pages import base
@@ -419,7 +419,7 @@ def test_a_bar_colours_the_shape(shape):
 
 def test_a_map_is_pointed_at_and_clicked(shape):
     page = shape()
-    box = page.locator("#place-surface").bounding_box()
+    box = box_of(page.locator("#place-surface"))
     card = page.locator("#content > .card:not(.value-card)")
     for x in np.linspace(8, box["width"] - 8, 30):
         for y in np.linspace(8, box["height"] - 8, 15):
@@ -525,7 +525,7 @@ def test_on_a_phone(shape):
     bar.scroll_into_view_if_needed()
     bar.click()
     # The shape that is coloured comes into sight.
-    eventually(page, lambda: 0 <= page.locator("#stage").bounding_box()["y"] < 400)
+    eventually(page, lambda: 0 <= box_of(page.locator("#stage"))["y"] < 400)
 
 
 def percent(share) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from waiting import box_of
 
 from shapeviz_report.pages import PAGES
 
@@ -14,7 +15,7 @@ def test_every_page_opens_and_says_that_clusters_stand_in(open_page, page_file) 
     page = open_page("clusters", page_file, viewport={"width": 390, "height": 800})
     notice = page.get_by_role("note").filter(has_text="stand in for classes")
     assert notice.is_visible()
-    box = notice.bounding_box()
+    box = box_of(notice)
     assert box["x"] >= 0
     assert box["x"] + box["width"] <= 390
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
@@ -43,7 +44,7 @@ def test_where_clusters_stand_in_no_page_speaks_of_classes(open_page, address) -
 def test_the_overview_fits_the_window_below_the_notice(open_page) -> None:
     page = open_page("clusters")
     assert page.evaluate("document.documentElement.scrollHeight") <= 900
-    assert page.locator("#tray").bounding_box()["y"] < 900
+    assert box_of(page.locator("#tray"))["y"] < 900
     names = page.locator("#legend li").all_text_contents()
     assert names
     assert all("like shape" in name or "like class" in name for name in names)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from reports import make_report
 from scipy.spatial.distance import cdist
-from waiting import drawn_again, eventually
+from waiting import box_of, drawn_again, eventually
 
 from shapeviz_report.bins import read_bins
 from shapeviz_report.faithfulness import rate_maps
@@ -632,11 +632,11 @@ def test_it_fits_the_window(bench, width, height):
 def test_a_low_window_leaves_its_height_to_the_maps(bench):
     page = bench("everything", viewport={"width": 1024, "height": 768})
     for which in ("original", "refined"):
-        assert page.locator(f"figure[data-map={which}] .surface").bounding_box()["height"] >= 260
+        assert box_of(page.locator(f"figure[data-map={which}] .surface"))["height"] >= 260
     assert page.locator(".bench").evaluate("(node) => node.scrollHeight - node.clientHeight") == 0
     faith = page.locator("figure[data-map=original] .faith")
-    line = faith.bounding_box()
-    measures = [part.bounding_box() for part in faith.locator("> *").all()]
+    line = box_of(faith)
+    measures = [box_of(part) for part in faith.locator("> *").all()]
     shown = [box for box in measures if box["y"] < line["y"] + line["height"]]
     assert len(shown) > 0
     assert all(box["x"] + box["width"] <= line["x"] + line["width"] for box in shown)

@@ -238,7 +238,7 @@ def test_termination_stops_the_workers(tmp_path) -> None:
     workers = children_of(process.pid)
     assert workers
     process.send_signal(signal.SIGTERM)
-    assert process.wait(timeout=20) == 143
+    assert process.wait(timeout=60) == 143
     assert not (tmp_path / "site").exists()
     assert not [worker for worker in workers if Path(f"/proc/{worker}").exists()]
 

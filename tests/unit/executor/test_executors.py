@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from cluster import running_cluster
+from waiting import wait_until
 
 from shapeviz_report.errors import MeshError, WorkerError
 from shapeviz_report.executor import Executor, LocalExecutor, apart, call_apart
@@ -195,13 +196,6 @@ def test_workers_end_when_their_parent_is_killed(tmp_path, native: bool) -> None
         parent.wait()
     pids = [int(file.name) for file in tmp_path.iterdir()]
     wait_until(lambda: not any(is_running(pid) for pid in pids))
-
-
-def wait_until(condition, seconds: float = 20) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.05)
 
 
 def is_running(pid: int) -> bool:
