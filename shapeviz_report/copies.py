@@ -19,7 +19,7 @@ from scipy.spatial.transform import Rotation
 from shapeviz_report.mesh.boxes import LEAF, along_curve, box_faces
 from shapeviz_report.mesh.closest import find_closest
 from shapeviz_report.mesh.sampling import sample_surface
-from shapeviz_report.types import FloatArray, Mesh
+from shapeviz_report.types import FloatArray, IntArray, Mesh
 from shapeviz_report.types.copies import (
     IDENTICAL_FILE,
     IDENTICAL_GEOMETRY,
@@ -45,6 +45,9 @@ Decimation to a tenth changed a shape of each demo class by 0.0003 to 0.0023."""
 
 NEAREST_OUTLINES = 8
 """Shapes with the nearest outlines that one is compared with, so that comparisons grow with the number of shapes."""
+
+EQUAL_DECIMALS = 9
+"""Outlines that agree to so many are one: what is moved and renumbered differs by rounding."""
 
 SURFACE_DISTANCE = 0.001
 """Largest root mean square distance of one surface, as a fraction of its size."""
@@ -151,20 +154,34 @@ def pair_outlines(outlines: Mapping[str, Outline]) -> tuple[list[tuple[str, str]
         return certain, []
     values = np.array([outlines[shape].values for shape in ids])
     values[:, :3] *= OUTLINE_REACH / LENGTHS_REACH
+    # Of shapes without end that have one outline, so many are looked at as each can be compared with.
+    kept = _first_of_each(values.round(EQUAL_DECIMALS), NEAREST_OUTLINES + 1)
     # The shape itself is the nearest, or as near as the nearest.
-    count = min(NEAREST_OUTLINES + 1, len(ids))
-    near = cKDTree(values).query(values, k=count, p=np.inf, distance_upper_bound=OUTLINE_REACH)[1]
+    count = min(NEAREST_OUTLINES + 1, len(kept))
+    seen = values[kept]
+    near = cKDTree(seen).query(seen, k=[*range(1, count + 1)], p=np.inf, distance_upper_bound=OUTLINE_REACH)[
+        1
+    ]
     pairs = {
         (min(row, other), max(row, other))
-        for row, others in enumerate(near.tolist())
+        for row, others in zip(kept.tolist(), np.append(kept, -1)[near].tolist())
         for other in others
-        if other not in (row, len(ids))
+        if other not in (row, -1)
     }
     # More copies of one shape than that may all be nearest to a few of them; by their exact numbers they form a row.
     row = np.lexsort(values[:, :4].T[::-1])
     alike = np.abs(np.diff(values[row], axis=0)).max(axis=1) <= OUTLINE_REACH
     pairs |= {(min(a, b), max(a, b)) for a, b in zip(row[:-1][alike].tolist(), row[1:][alike].tolist())}
     return certain, [(ids[a], ids[b]) for a, b in sorted(pairs)]
+
+
+def _first_of_each(rows: FloatArray, most: int) -> IntArray:
+    """The places of rows, but for those that ``most`` equal ones come before; rising."""
+    _, same = np.unique(rows, axis=0, return_inverse=True)
+    order = np.argsort(same, kind="stable")
+    begins = np.flatnonzero(np.diff(same[order], prepend=-1))
+    rank = np.arange(len(rows)) - np.repeat(begins, np.diff(begins, append=len(rows)))
+    return np.sort(order[rank < most])
 
 
 def join_copies(

@@ -8,9 +8,9 @@ from typing import Any
 
 from shapeviz_report.bins import read_bins
 from shapeviz_report.building.chains import Chain
+from shapeviz_report.building.comparing import find_copies
 from shapeviz_report.building.guard import check_cache
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
-from shapeviz_report.building.questions import find_copies
 from shapeviz_report.building.reading import (
     MeshFiles,
     load_all_coordinates,

@@ -13,12 +13,12 @@ import numpy as np
 
 from shapeviz_report.agreement import weigh
 from shapeviz_report.bins import scale_bins
+from shapeviz_report.building.comparing import find_copies
 from shapeviz_report.building.guard import check_meshes, check_places
 from shapeviz_report.building.measuring import nothing_usable, tabulate
 from shapeviz_report.building.progress import Clock, Progress, QuietProgress
 from shapeviz_report.building.questions import (
     find_clusters,
-    find_copies,
     lay_out_best,
     paint_all,
     project_all,

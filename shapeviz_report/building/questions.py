@@ -16,7 +16,6 @@ from shapeviz_report.building.chains import Chain, Plan
 from shapeviz_report.building.runner import Runner, Task
 from shapeviz_report.building.stages import (
     CLUSTER,
-    COMPARE,
     PAINT,
     PROJECT,
     RELATE,
@@ -25,11 +24,9 @@ from shapeviz_report.building.stages import (
     SEARCH,
     SELECT,
     Stage,
-    identify,
 )
 from shapeviz_report.clusters import describe_clusters
 from shapeviz_report.config import Config
-from shapeviz_report.copies import Outline, join_copies, pair_outlines
 from shapeviz_report.diffusion import diffuse
 from shapeviz_report.features import BINS
 from shapeviz_report.order import classes_of
@@ -55,13 +52,11 @@ from shapeviz_report.types import (
     BinScores,
     BinSearch,
     Clusters,
-    Copy,
     FeatureSearch,
     FeatureTable,
     FloatArray,
     HeldOutBins,
     IntArray,
-    Match,
     Painting,
     Projection,
     Retrieval,
@@ -84,32 +79,6 @@ MOST_SENT = 2**28
 SHUFFLES = 2
 """Folds that also meet labels dealt out at random. With labels without meaning the search takes twice the time, and two
 folds of 56 shapes tell NH_s to 0.01."""
-
-
-def find_copies(
-    run: Runner,
-    read: Callable[[str], Mapping[str, bytes]],
-    outlines: Mapping[str, Outline],
-) -> tuple[Copy, ...]:
-    """The shapes that are the same shape again; those whose comparison fails are taken for different."""
-    certain, possible = pair_outlines(outlines)
-    found: dict[tuple[str, str], Match | None] = {}
-    with run.clock.stage(COMPARE.name, COMPARE.doing, len(possible)) as step:
-
-        def plan(pair: tuple[str, str]) -> Task:
-            first, second = map(read, pair)
-            return Task(COMPARE.key(identify(first), identify(second)), lambda: (first, second))
-
-        def take(pair: tuple[str, str], _: str, content: bytes, cpu_seconds: float) -> None:
-            found[pair] = COMPARE.read(content)
-            step(cpu_seconds)
-
-        def drop(pair: tuple[str, str], reason: str, cpu_seconds: float) -> None:
-            logger.warning("Whether %s and %s are copies is not known: %s", *pair, reason)
-            step(cpu_seconds)
-
-        run.find(COMPARE, possible, plan, take, drop)
-    return join_copies(certain, found, list(outlines))
 
 
 def find_clusters(

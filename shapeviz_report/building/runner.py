@@ -337,6 +337,67 @@ class Runner:
             else:
                 drop(name, outcome.reason, outcome.cpu_seconds)
 
+    def find_together(
+        self,
+        stage: Stage[Any],
+        function: Callable[..., list[bytes]],
+        batches: Iterable[Sequence[Name]],
+        key: Callable[[Name], str],
+        gather: Callable[[Sequence[Name]], tuple[Any, ...]],
+        take: Callable[[Name, str, bytes, float], None],
+    ) -> list[Name]:
+        """Find results in the cache or have them computed, several at one go, and kept, each for itself.
+
+        Parameters
+        ----------
+        stage : Stage
+        function : callable
+            Computes a batch: the results of the stage's function, in order.
+        batches : iterable of sequences of names
+        key : callable
+            Of the result of a name, in the cache.
+        gather : callable
+            The arguments of ``function`` for some names; called when their turn comes. May raise :class:`MeshError`.
+        take : callable
+            As :meth:`find` has it.
+
+        Returns
+        -------
+        list of names
+            Those of batches that failed, which one of them may have brought down.
+        """
+        failed: list[Name] = []
+        sent: list[Sequence[Name]] = []
+
+        def open_tasks() -> Iterator[tuple[Any, ...]]:
+            for batch in batches:
+                missing = []
+                for name in batch:
+                    content = self._cache.load(stage.folder, key(name))
+                    if content is None:
+                        missing.append(name)
+                    else:
+                        take(name, key(name), content, 0.0)
+                if not missing:
+                    continue
+                try:
+                    arguments = [gather(missing)]
+                except (MeshError, MemoryError):
+                    failed.extend(missing)
+                    continue
+                sent.append(missing)
+                yield arguments.pop()
+
+        for outcome in self.executor.run(function, open_tasks(), stage.patience):
+            batch = sent[outcome.index]
+            if outcome.reason is not None:
+                failed += batch
+                continue
+            for name, content in zip(batch, outcome.value, strict=True):
+                self._cache.store(stage.folder, key(name), content)
+                take(name, key(name), content, outcome.cpu_seconds / len(batch))
+        return failed
+
     def recall(self, stage: Stage[Any], made: Sequence[Made], place: int) -> bytes:
         """A result that was there a moment ago. What the cache has lost of it and of those that follow is made again.
 

@@ -125,6 +125,11 @@ def compare_shapes(first: Mapping[str, bytes], second: Mapping[str, bytes]) -> b
     return json.dumps(None if match is None else asdict(match)).encode()
 
 
+def compare_all(files: Mapping[str, Mapping[str, bytes]], pairs: Sequence[tuple[str, str]]) -> list[bytes]:
+    """What :func:`compare_shapes` finds of some pairs of mesh files, in their order."""
+    return [compare_shapes(files[first], files[second]) for first, second in pairs]
+
+
 MOST_LAID_OUT = 500_000
 """Faces of all surfaces that a worker keeps at hand: some 125 MB."""
 
