@@ -96,6 +96,21 @@ def lack_something() -> None:
     raise RenderError("OSMesa is missing here")
 
 
+def lack_for_a_while(worker: str, times: int) -> None:
+    """A check that a worker of some name does not pass so many times."""
+    asked = Path.home() / "asked"
+    with asked.open("a") as file:
+        file.write(".")
+    if Path.home().name == worker and asked.stat().st_size <= times:
+        raise RenderError("OSMesa is missing here")
+
+
+def name_worker(seconds: float) -> str:
+    """Which worker this is, after some seconds."""
+    time.sleep(seconds)
+    return Path.home().name
+
+
 @contextmanager
 def running_cluster(folder: Path, workers: int) -> Iterator[Cluster]:
     """A cluster with so many workers, ended at the end."""

@@ -18,7 +18,7 @@ from collections.abc import Callable, Coroutine, Iterable, Iterator, Mapping
 from concurrent.futures import CancelledError, Future
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from itertools import islice
 from threading import Lock, Thread
 from typing import Any
@@ -27,6 +27,7 @@ from shapeviz_report.errors import ClusterError, ConfigError
 from shapeviz_report.executor.base import Outcome
 from shapeviz_report.executor.local import LocalExecutor
 from shapeviz_report.executor.memory import memory_share
+from shapeviz_report.executor.vetting import Vetting
 
 logger = logging.getLogger(__name__)
 
@@ -44,9 +45,6 @@ SILENCE = 30.0
 
 PATIENCE = 60.0
 """Seconds to wait for a worker when a cluster has none."""
-
-MOST_NAMED = 4
-"""Differences of a worker that are named."""
 
 TASKS_A_THREAD = 2
 """Tasks that a thread of the cluster has at hand: one to do while the next is on its way."""
@@ -109,12 +107,9 @@ class DaskExecutor:
                 "a Dask cluster needs Dask here as well: pip install 'shapeviz-report[dask]'"
             ) from error
         self.limits = (time_limit, memory_limit)
-        self._expected = (fingerprint, fingerprint(), check)
         self._address = address
-        self._asked: dict[str, Future[dict[str, Any]]] = {}
-        self._accepted: set[str] = set()
-        self._refused: dict[str, str] = {}
         self._told: set[str] = set()
+        self._vetting = Vetting(fingerprint(), partial(self._inquire, fingerprint, check))
         try:
             # A client keeps its last messages for developers, a thousand of up to a megabyte: ours hold mesh files.
             with dask.config.set({"distributed.admin.low-level-log-length": 0}):
@@ -137,7 +132,7 @@ class DaskExecutor:
     ) -> None:
         # What the scheduler's end leaves undone ends with the workers; a frozen one, or a frozen worker, never answers.
         patience = ANSWER_TIME if kind is None else PARTING_TIME
-        for answer in self._asked.values():
+        for answer in self._vetting.asked.values():
             answer.cancel()
         with suppress(OSError, TimeoutError):
             if self._client.status == "running":
@@ -252,19 +247,19 @@ class DaskExecutor:
         end = time.monotonic() + PATIENCE
         while True:
             found: dict[str, int] = self._ask("ncores", workers=None)
-            pending = self._vet(found)
-            threads = {worker: count for worker, count in found.items() if worker in self._accepted}
+            pending = self._vetting.vet(found)
+            threads = {worker: count for worker, count in found.items() if worker in self._vetting.accepted}
             if sum(threads.values()):
-                for worker in self._refused.keys() - self._told:
+                for worker in self._vetting.refused.keys() - self._told:
                     self._told.add(worker)
-                    logger.warning("%s Meanwhile it is not used.", self._refused[worker])
+                    logger.warning("%s Meanwhile it is not used.", self._vetting.refused[worker])
                 return threads
             if pending:
                 end = time.monotonic() + PATIENCE
             else:
                 late = time.monotonic() >= end
-                refusals = [why for worker, why in self._refused.items() if worker in found]
-                if refusals and (late or not self._accepted):
+                refusals = [why for worker, why in self._vetting.refused.items() if worker in found]
+                if refusals and (late or not self._vetting.accepted):
                     raise ClusterError(refusals[0])
                 if late:
                     raise ClusterError(
@@ -273,59 +268,21 @@ class DaskExecutor:
                     )
             time.sleep(0.1 if pending else 0.5)
 
-    def _vet(self, workers: Iterable[str]) -> bool:
-        """Ask those workers that are new what they are, and hear what others answered; whether one has yet to answer.
-
-        They are asked before they get a task: one without our package would end at that, and Dask counts such an end
-        against the task.
-        """
-        function, _, check = self._expected
-        pending = False
-        for worker in workers:
-            if worker in self._accepted or worker in self._refused:
-                continue
-            if worker not in self._asked:
-                question = self._client.run(
-                    _tell,
-                    function,
-                    check,
-                    self.limits[1],
-                    workers=[worker],
-                    on_error="return",
-                    asynchronous=True,
-                )
-                self._asked[worker] = self._begin(question)
-            if self._asked[worker].done():
-                self._judge(worker, self._asked.pop(worker))
-            else:
-                pending = True
-        return pending
-
-    def _judge(self, worker: str, answer: Future[dict[str, Any]]) -> None:
-        """Accept or refuse a worker; one that went meanwhile is asked again when it is back."""
-        try:
-            told = answer.result()[worker]
-        except (OSError, LookupError, CancelledError):
-            return
-        if isinstance(told, OSError):
-            return
-        if isinstance(told, Exception):
-            why = (
-                f"has not this version of shapeviz-report ({told}). Install shapeviz-report[dask] there as it is here, "
-                "with the same constraints file, and start it again."
+    def _inquire(
+        self, fingerprint: Callable[[], Mapping[str, str]], check: Callable[[], Any], worker: str
+    ) -> Future[dict[str, Any]]:
+        """Ask a worker what it is, without waiting for it."""
+        return self._begin(
+            self._client.run(
+                _tell,
+                fingerprint,
+                check,
+                self.limits[1],
+                workers=[worker],
+                on_error="return",
+                asynchronous=True,
             )
-        elif told.reason is not None:
-            why = f"cannot take part: {told.reason}"
-        elif told.value != self._expected[1]:
-            why = (
-                "has other versions of shapeviz-report, of its plug-ins or of its libraries than this machine, so its "
-                f"results would differ: {_differences(told.value, self._expected[1])}. Install the same ones on both, "
-                "with the same constraints file, and start it again."
-            )
-        else:
-            self._accepted.add(worker)
-            return
-        self._refused[worker] = f"The worker {worker} {why}"
+        )
 
     def _begin(self, asking: Coroutine[Any, Any, Any]) -> Future[Any]:
         """Ask something without waiting for it."""
@@ -375,7 +332,7 @@ class DaskExecutor:
         workers = {
             worker: keys
             for worker, keys in self._ask("processing", workers=None).items()
-            if worker in self._accepted
+            if worker in self._vetting.accepted
         }
         holders = self._ask("who_has", keys=list(late))
         found = []
@@ -497,17 +454,6 @@ def _kept_executor(time_limit: float, memory_limit: int | None) -> Iterator[Loca
 def _share() -> int:
     """Bytes that one task may take on this machine, whose cores may belong to several workers of the cluster."""
     return memory_share(os.cpu_count() or 1)
-
-
-def _differences(there: Mapping[str, str], here: Mapping[str, str]) -> str:
-    """What differs, in words."""
-    found = [
-        f"{name} {there.get(name, 'is missing')} (here {here.get(name, 'it is missing')})"
-        for name in [*here, *sorted(there.keys() - here.keys())]
-        if there.get(name) != here.get(name)
-    ]
-    more = len(found) - MOST_NAMED
-    return ", ".join(found[:MOST_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _release() -> None:

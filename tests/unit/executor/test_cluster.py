@@ -15,7 +15,14 @@ from functools import partial
 from pathlib import Path
 
 import pytest
-from cluster import lack_something, other_everywhere, running_cluster, same_everywhere
+from cluster import (
+    lack_for_a_while,
+    lack_something,
+    name_worker,
+    other_everywhere,
+    running_cluster,
+    same_everywhere,
+)
 from distributed import Client
 from distributed.protocol import Serialized
 
@@ -23,6 +30,7 @@ import shapeviz_report
 from shapeviz_report.building.stages import fingerprint
 from shapeviz_report.errors import ClusterError
 from shapeviz_report.executor import cluster as module
+from shapeviz_report.executor import vetting
 from shapeviz_report.executor.cluster import DaskExecutor
 from shapeviz_report.render import check_renderer
 
@@ -71,12 +79,43 @@ def test_a_worker_with_other_code_is_refused(address) -> None:
         list(executor.run(divmod, [(1, 2)]))
 
 
-def test_a_worker_that_lacks_something_is_refused(address) -> None:
+def test_a_worker_that_lacks_something_is_refused(address, monkeypatch) -> None:
+    monkeypatch.setattr(vetting, "VETTING_PAUSE", 0.1)
     with (
         DaskExecutor(address, 60, None, same_everywhere, lack_something) as executor,
         pytest.raises(ClusterError, match=r"worker tcp://.* cannot take part: OSMesa is missing here"),
     ):
         list(executor.run(divmod, [(1, 2)]))
+
+
+def test_what_a_worker_lacks_for_a_moment_ends_nothing(tmp_path, monkeypatch, caplog) -> None:
+    monkeypatch.setattr(vetting, "VETTING_PAUSE", 0.1)
+    check = partial(lack_for_a_while, "worker-0", vetting.VETTINGS - 1)
+    with (
+        running_cluster(tmp_path, workers=1) as cluster,
+        DaskExecutor(cluster.address, 60, None, same_everywhere, check) as executor,
+    ):
+        assert [outcome.value for outcome in executor.run(name_worker, [(0,)])] == ["worker-0"]
+    assert caplog.messages == []
+    assert len((tmp_path / "worker-0" / "asked").read_text()) == vetting.VETTINGS
+
+
+def test_a_worker_that_is_refused_for_what_passes_takes_part_later(tmp_path, monkeypatch, caplog) -> None:
+    monkeypatch.setattr(vetting, "VETTING_PAUSE", 0.1)
+    check = partial(lack_for_a_while, "worker-1", vetting.VETTINGS + 1)
+    with (
+        running_cluster(tmp_path, workers=2) as cluster,
+        DaskExecutor(cluster.address, 60, None, same_everywhere, check) as executor,
+    ):
+        tasks = ((0.1,) for _ in range(600))
+        there = []
+        for outcome in executor.run(name_worker, tasks):
+            there.append(outcome.value)
+            if outcome.value == "worker-1":
+                tasks.close()
+    assert {*there} == {"worker-0", "worker-1"}
+    (message,) = caplog.messages
+    assert re.search(r"cannot take part: OSMesa is missing here Meanwhile it is not used\.$", message)
 
 
 def other_package(folder: Path) -> Path:
