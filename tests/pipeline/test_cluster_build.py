@@ -87,7 +87,7 @@ def test_a_frozen_scheduler_holds_no_build_that_is_stopped(database, tmp_path) -
             time.sleep(0.05)
         cluster.scheduler.send_signal(signal.SIGSTOP)
         build.send_signal(signal.SIGINT)
-        said = build.communicate(timeout=20)[1]
+        said = build.communicate(timeout=60)[1]
     assert build.returncode == 130
     assert said.endswith("\nStopped. What was computed is kept: the same command continues from here.\n")
     assert "Traceback" not in said
