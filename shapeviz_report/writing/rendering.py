@@ -105,6 +105,7 @@ def describe_site(report: Report) -> dict[str, object]:
         "stand_in": stand_in(report),
         "kind": kind_of_group(report),
         "kinds": kind_of_group(report, 2),
+        "labels": "clusters" if stand_in(report) else "labels",
     }
 
 

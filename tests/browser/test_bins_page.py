@@ -5,6 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 from screenshots import pixels_of
 from waiting import box_of, drawn_again, eventually
 
@@ -164,6 +165,13 @@ def test_a_bin_is_told_and_pictured_on_a_contrast(bins, site):
     # Ten colours, one of them the bin's own.
     assert page.locator("#legend .ten i").count() == 10
     assert page.locator("#legend .ten .own").count() == 1
+
+
+def test_clusters_are_named_within_sentences_as_the_shapes_they_hold(open_page):
+    page = open_page("clusters searched", "bins.html")
+    said = page.locator(".who").first
+    expect(said).to_contain_text(re.compile(r"Typical of those \W*like class\d+/\d+\W* is"))
+    assert not re.search(r"\b(of|on|in) \W*like ", said.inner_text())
 
 
 def test_a_bin_is_found_by_what_one_sees(bins):

@@ -268,6 +268,7 @@ class TestTwoGroups:
         assert rows.all_inner_texts() == own
         assert rows.evaluate_all("all => all.every((row) => row.scrollWidth <= row.clientWidth)")
         assert all(f"those {name}" in title(page) for name in own)
+        assert "may be rare, or made unlike" in page.locator("#fit-words").text_content()
 
     def test_groups_are_chosen_from_lists_and_found_by_words(self, compare):
         page = compare()

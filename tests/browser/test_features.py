@@ -700,7 +700,11 @@ def test_retrieval_of_clusters_is_told_of_clusters(open_page):
     page.locator("#retrieval details summary", has_text="Each cluster").click()
     heads = page.locator("#retrieval-classes th[scope=col]")
     eventually(page, lambda: heads.all_inner_texts()[:2] == ["Cluster", "Shapes"])
-    assert "The clusters that judge them chose them" in page.locator("#retrieval").inner_text()
+    said = page.locator("#retrieval").inner_text()
+    assert "The clusters that judge them chose them" in said
+    assert "the same clusters chose them" in said
+    assert "labels" not in said.replace("with random labels", "")
+    assert "chosen by the clusters" in page.locator("#panel").inner_text()
 
 
 @pytest.mark.parametrize("width", [1000, 1440])

@@ -8,7 +8,7 @@ import { count, isolated } from "../base/words.js";
 import { binName, exactly } from "./bin-name.js";
 import { Legend } from "./legend.js";
 import { UNPAINTED } from "./on-surface.js";
-import { kind, kinds } from "../database/kind.js";
+import { inSentence, kind, kinds } from "../database/kind.js";
 
 /** @import { State } from "../base/state.js" */
 /** @import { Bins } from "../database/bins.js" */
@@ -143,7 +143,7 @@ export class Look {
     const [most, ...rest] = rows;
     const least = rest.at(-1);
     /** @param {Row} row */
-    const name = (row) => element("bdi", {}, row.name);
+    const name = (row) => element("bdi", {}, inSentence(database, row.name));
     const contrast = this.#contrast(column, rows, told, name);
     if (contrast !== null) return contrast;
     if (told(most.median) === told(least.median))

@@ -2,6 +2,7 @@
 
 import { swatch } from "../base/dom.js";
 import { count, grouped, isolated, shortened } from "../base/words.js";
+import { inSentence } from "../database/kind.js";
 import { findWords, searchTexts } from "../database/search.js";
 
 /** @import { GroupSpec } from "../addresses/compare.js" */
@@ -167,7 +168,7 @@ function selectionName(shapes, database) {
  */
 export function groupName(database, group) {
   const name = shortened(database.className(group), LONGEST);
-  return database.data.standIn && group >= 0 ? `those ${isolated(name)}` : name;
+  return group >= 0 ? inSentence(database, name) : name;
 }
 
 /**

@@ -3,21 +3,25 @@
 import { element, focused } from "../base/dom.js";
 import { difference } from "../base/figures.js";
 import { capitalised, figure, isolated } from "../base/words.js";
+import { labels } from "../database/kind.js";
 import { MEASURES, measuresOf } from "../map/measures.js";
 
 /** @import { FeaturesState } from "../addresses/features.js" */
+/** @import { Database } from "../database/database.js" */
 /** @import { Subsets } from "../database/subsets.js" */
 /** @import { MeasureName } from "../map/measures.js" */
 /** @import { Marks } from "./ranking.js" */
 
 export class Panel {
   /**
+   * @param {Database} database
    * @param {Subsets} subsets
    * @param {FeaturesState} state
    * @param {Marks} marks
    * @param {((place: number) => string) | null} link the address of a subset's map
    */
-  constructor(subsets, state, marks, link) {
+  constructor(database, subsets, state, marks, link) {
+    this.database = database;
     this.subsets = subsets;
     this.state = state;
     this.marks = marks;
@@ -109,7 +113,7 @@ export class Panel {
         { class: "beside" },
         place === best
           ? [
-              `the best of ${among === "all" ? "all" : "these"}, chosen by the labels`,
+              `the best of ${among === "all" ? "all" : "these"}, chosen by the ${labels(this.database)}`,
               among === "all" &&
                 chanceBest !== null && ["; ", element("b", {}, figure(chanceBest)), " with random ones"],
             ]

@@ -34,7 +34,7 @@ async function main() {
   const marks = hues(search, database);
   const ranking = new Ranking(subsets, state, marks, announce);
   const onOverview = overview.subsets !== null;
-  new Panel(subsets, state, marks, onOverview ? (place) => subsetAddress(subsets.names(place)) : null);
+  new Panel(database, subsets, state, marks, onOverview ? (place) => subsetAddress(subsets.names(place)) : null);
   const retrieval = await openRetrieval(overview, state, {
     chosen: () => subsets.names(state.get("chosen")),
     choose: (names) => state.set({ chosen: subsets.find(names) }),
