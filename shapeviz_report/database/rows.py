@@ -82,7 +82,7 @@ class Content:
 
 
 class OtherContentError(DatabaseError):
-    """A table has neither a column of files nor one of classes: it is hardly about shapes.
+    """A table has neither a column of files nor one of classes, or holds features: it lists no shapes.
 
     Attributes
     ----------
@@ -160,8 +160,10 @@ def column_rows(found: Columns, table: Path) -> Content:
     return Content(rows, warnings, FILE_COLUMN in map(plain_name, names))
 
 
-def _no_files(names: Iterable[str], complaint: str, texts: Iterable[str]) -> DatabaseError:
+def _no_files(names: Sequence[str], complaint: str, texts: Iterable[str]) -> DatabaseError:
     """The error of a table without a column of files that can be read."""
+    if any(map(_BIN.fullmatch, names)):
+        return OtherContentError(complaint, ())
     about_shapes = any(plain_name(name) in (FILE_COLUMN, LABEL_COLUMN, *CLASS_COLUMNS) for name in names)
     return DatabaseError(complaint) if about_shapes else OtherContentError(complaint, texts)
 
