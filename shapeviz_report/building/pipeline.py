@@ -94,6 +94,8 @@ def build_report(
         heavy = note(len(database.shapes), config)
         if heavy is not None and not config.single_file:
             logger.warning("Note: %s", heavy)
+        if config.gltf is not None and config.single_file:
+            logger.warning("Note: a site in one file holds no glTF; build a folder to have it")
     preset = PRESETS[config.preset]
     cache = Cache(root)
     failures = list(database.failures)
