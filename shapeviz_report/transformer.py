@@ -139,7 +139,22 @@ class ShapeDescriptors(TransformerMixin, BaseEstimator):
         return rows
 
     def get_feature_names_out(self, input_features: Any = None) -> npt.NDArray[np.object_]:
-        """The names of the columns, such as ``FPFH[14]:3``; what goes in has none."""
+        """The names of the columns, such as ``FPFH[14]:3``.
+
+        Parameters
+        ----------
+        input_features : sequence of str, optional
+            The name of the one column of meshes, which the names do not depend on.
+
+        Raises
+        ------
+        ValueError
+            It is not one name.
+        """
+        if input_features is not None and len(input_features) != 1:
+            raise ValueError(
+                f"input_features must name the one column of meshes, and not {len(input_features)}"
+            )
         blocks = PRESETS[self._config().preset].blocks
         return np.array(FeatureTable((), blocks, np.empty((0, 0))).columns, dtype=object)
 

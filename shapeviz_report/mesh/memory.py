@@ -51,6 +51,8 @@ def encode_mesh(mesh: Any) -> dict[str, bytes]:
         )
     if np.iscomplexobj(mesh[0]):
         raise MeshError("its vertices are complex numbers; give x, y and z")
+    if any(np.ma.is_masked(part) for part in mesh):
+        raise MeshError("its vertices or faces are masked in part; leave out what does not count")
     try:
         vertices, faces = np.asarray(mesh[0], "<f8"), np.asarray(mesh[1])
     except (TypeError, ValueError) as error:

@@ -105,7 +105,11 @@ def test_rows_are_those_of_a_site(built, files, descriptors) -> None:
     report = built[1]
     rows = descriptors.fit_transform(files)
     np.testing.assert_array_equal(rows, report.features.values)
-    assert descriptors.get_feature_names_out().tolist() == list(report.features.columns)
+    columns = list(report.features.columns)
+    assert descriptors.get_feature_names_out().tolist() == columns
+    assert descriptors.get_feature_names_out(["mesh"]).tolist() == columns
+    with pytest.raises(ValueError, match="one column of meshes, and not 2"):
+        descriptors.get_feature_names_out(["mesh", "year"])
     np.testing.assert_array_equal(descriptors.transform(files[::-3]), rows[::-3])
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(descriptors)).transform(files[:1]), rows[:1])
 

@@ -14,7 +14,8 @@ from shapeviz_report.mesh.memory import encode_mesh
 
 def test_every_digit_is_kept() -> None:
     mesh = lump()
-    for given in (mesh, (mesh.vertices, mesh.faces), [mesh.vertices.tolist(), mesh.faces.tolist()]):
+    lists = [mesh.vertices.tolist(), mesh.faces.tolist()]
+    for given in (mesh, (mesh.vertices, mesh.faces), (np.ma.array(mesh.vertices), mesh.faces), lists):
         read = parse_mesh(encode_mesh(given))
         np.testing.assert_array_equal(read.vertices, mesh.vertices)
         np.testing.assert_array_equal(read.faces, mesh.faces)
@@ -43,6 +44,8 @@ def test_polygons_are_triangulated() -> None:
         (([[0, 0]], [[0, 1, 2]]), r"vertices must be an array \(n, 3\), and not \(1, 2\)"),
         (([[0, 0, 0]], [[0.5, 1, 2]]), "faces must be an array"),
         (([[0, 0, 0]], [0, 1, 2]), "faces must be an array"),
+        ((np.ma.masked_less(np.eye(3), 1), [[0, 1, 2]]), "masked in part"),
+        ((np.eye(3), np.ma.masked_equal([[0, 1, 2], [0, 0, 0]], 0)), "masked in part"),
         (([[0, 0, 1j]], [[0, 1, 2]]), "vertices are complex numbers"),
         ((["a", "b"], [[0, 1, 2]]), "no arrays of numbers"),
     ],
