@@ -111,7 +111,7 @@ def command_parser() -> argparse.ArgumentParser:
     _add_database(check)
     told = check.add_mutually_exclusive_group()
     told.add_argument(
-        "--list", action="store_true", help="print the id of every shape, in order, and no more"
+        "--list", action="store_true", help="print the id of every shape, in order, one a line, and no more"
     )
     told.add_argument("--json", action="store_true", help="print everything that was found as JSON")
     _add_options(

@@ -23,7 +23,7 @@ from shapeviz_report.cli.results import (
     print_found,
     print_summary,
 )
-from shapeviz_report.cli.terminal import TerminalProgress, complain, say
+from shapeviz_report.cli.terminal import TerminalProgress, complain, hand_over, say
 from shapeviz_report.config import Config, load_config
 from shapeviz_report.ending import end_in_order, listen
 from shapeviz_report.errors import PluginError
@@ -69,7 +69,7 @@ def check(options: argparse.Namespace) -> int:
             outside=config.outside,
             besides=(*config.external, *config.coordinates),
         )
-        say(*(shape.id for shape in database.shapes))
+        hand_over([shape.id for shape in database.shapes])
         return 0
     result = check_database(options.database, config, _progress(options, config))
     if options.json:

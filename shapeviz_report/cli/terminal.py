@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 import logging
+import re
 import sys
 import time
 import unicodedata
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from typing import Any, TextIO
 
@@ -17,18 +19,24 @@ from shapeviz_report.building.progress import TimeLeft, in_words
 LINES_EVERY = 30.0
 """Seconds between two lines of progress where there is no terminal."""
 
+_LINE_BREAK = re.compile(r"[\n-\r\x1c-\x1e\x85\u2028\u2029]")
+"""What ends a line, for one program or another."""
+
 
 class OutputError(Exception):
     """Standard output takes no more, and why."""
 
 
 def say(*lines: str, file: TextIO | None = None) -> None:
-    """Print each text as one line: all that the command tells goes this way, for it may hold names of strangers."""
-    file = file or sys.stdout
+    """Print each text as one line: all that people are told goes this way, for it may hold names of strangers."""
+    _print(map(one_line, lines), file or sys.stdout)
+
+
+def _print(lines: Iterable[str], file: TextIO) -> None:
     encoding = file.encoding or "utf-8"
     try:
         for line in lines:
-            print(one_line(line).encode(encoding, "replace").decode(encoding), file=file)
+            print(line.encode(encoding, "replace").decode(encoding), file=file)
         file.flush()
     except OSError as error:
         raise OutputError(error.strerror) from error
@@ -45,6 +53,24 @@ def one_line(text: str) -> str:
     direction of writing, and no bytes that are no text. Spaces of other kinds, as our own texts have, are spaces.
     """
     return "".join(c if c.isprintable() else " " if unicodedata.category(c) == "Zs" else "?" for c in text)
+
+
+def hand_over(texts: Sequence[str]) -> None:
+    """Print names of strangers for other programs: each as it is, in UTF-8, on a line of its own, for which a line
+    break in it becomes ``?``. A terminal gets them as :func:`say` has them. How many are not as they are is told.
+    """
+    if sys.stdout.isatty():
+        shown = [one_line(text) for text in texts]
+    else:
+        shown = ["?".join(_LINE_BREAK.split(text)) for text in texts]
+        if isinstance(sys.stdout, io.TextIOWrapper):
+            sys.stdout.reconfigure(encoding="utf-8")
+    _print(shown, sys.stdout)
+    if changed := sum(text != own for text, own in zip(shown, texts)):
+        complain(
+            f"{changed:,} of {len(texts):,} are not printed as they are: ? or a space stands for letters that a line "
+            "here cannot hold. --json has them all."
+        )
 
 
 class LogFormatter(logging.Formatter):

@@ -16,6 +16,8 @@ from small_database import OPTIONS, make_shape, write_database
 
 from shapeviz_report import __version__
 from shapeviz_report.cli import main
+from shapeviz_report.database import read_database
+from shapeviz_report.external import load_external
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -60,7 +62,8 @@ def test_build_tells_what_it_did(database, built, tmp_path, flags) -> None:
 
 def test_a_site_in_one_file_is_built_and_a_missing_licence_is_told(database, built, tmp_path, flags) -> None:
     file = tmp_path / "report.html"
-    done = run("build", database, "-o", file, "--single-file", *flags)
+    done = run("build", database, "-o", file, "--single-file", "--gltf", "decimated", *flags)
+    assert "Note: a site in one file holds no glTF" in done.stderr
     assert done.returncode == 0
     assert done.stdout.rstrip().endswith(str(file))
     assert "Note: No licence is named" in done.stdout
@@ -169,8 +172,6 @@ def test_names_reach_the_terminal_as_one_line_of_printable_characters(tmp_path) 
     options = ["--jobs", "1", "--cache", tmp_path / "cache"]
     shown = "a?[31m?Note: b???"
 
-    listed = run("check", folder, "--list")
-    assert listed.stdout.splitlines()[:1] == [f"{shown}/bad{shown}"]
     checked = run("check", folder, *options)
     assert checked.returncode == 1
     assert f"  {shown}/bad{shown}.off: " in checked.stdout
@@ -180,12 +181,53 @@ def test_names_reach_the_terminal_as_one_line_of_printable_characters(tmp_path) 
     stopped = run("build", folder, "-o", tmp_path / "site", *options)
     assert stopped.returncode == 1
     assert f"None of the files in {tmp_path}/d{shown} can be used:\n  {shown}/bad" in stopped.stderr
-    for done in (listed, checked, stopped):
+    for done in (checked, stopped):
         said = done.stdout + done.stderr
         assert "Traceback" not in said
         assert "Note: b" in said
         assert "\nNote: b" not in said
         assert all(c.isprintable() or c in "\n\r" for c in said), ascii(said)
+
+
+ODD = ["a\x1b[31m\u202e", "b\nc\u2028d", "ж", "plain"]
+
+
+@pytest.fixture
+def odd(tmp_path) -> Path:
+    for name in ODD:
+        (_folder(tmp_path / "odd") / f"{name}.off").touch()
+    return tmp_path / "odd"
+
+
+def test_ids_reach_a_file_as_they_are(odd) -> None:
+    command = [sys.executable, "-m", "shapeviz_report", "check", odd, "--list"]
+    # the letters of a file that a table is made from are not those of the terminal
+    done = subprocess.run(command, capture_output=True, env=os.environ | {"PYTHONIOENCODING": "cp1252"})
+    listed = done.stdout.decode("utf-8").splitlines()
+    assert sorted(listed) == sorted([ODD[0], "b?c?d", *ODD[2:]])
+    assert done.stderr.decode().startswith("1 of 4 are not printed as they are: ")
+    told = json.loads(run("check", odd, "--json", "--jobs", 1, "--cache", odd.parent / "cache").stdout)
+    exact = [shape["id"] for shape in told["shapes"]]
+    assert sorted(exact) == sorted(ODD)
+    assert [id for id in exact if id != ODD[1]] == [line for line in listed if line != "b?c?d"]
+    table = odd.parent / "own.csv"
+    table.write_text("id,v\n" + "".join(f"{line},1\n" for line in listed if "?" not in line), "utf-8")
+    (odd / f"{ODD[1]}.off").unlink()
+    assert len(load_external(table, [shape.id for shape in read_database(odd).shapes])) == 3
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no such terminals")
+def test_ids_reach_a_terminal_as_printable_characters(odd) -> None:
+    import pty
+
+    ours, terminal = pty.openpty()
+    command = [sys.executable, "-m", "shapeviz_report", "check", odd, "--list"]
+    done = subprocess.run(command, stdout=terminal, stderr=subprocess.PIPE, text=True)
+    os.close(terminal)
+    said = os.read(ours, 10_000).decode()
+    os.close(ours)
+    assert sorted(said.splitlines()) == sorted(["a?[31m?", "b?c?d", *ODD[2:]])
+    assert done.stderr.startswith("2 of 4 are not printed as they are: ")
 
 
 def test_a_warning_is_logged_as_one_line() -> None:
