@@ -140,7 +140,8 @@ class Config:
     )
     meshes: bool = _option(
         True,
-        "whether the site holds a 3D model of every shape, to be turned in the browser: some 60 kB a shape",
+        "whether the site holds a 3D model of every shape, to be turned in the browser: some 60 kB a shape; by default "
+        "it does",
     )
     clay: bool = _option(
         False, "draw all shapes in one clay, also those whose files have colours or textures"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import re
+import textwrap
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,6 +19,9 @@ exit codes:
   2    the command line is wrong
   130  stopped by Ctrl-C (143: by a termination signal); the same command continues where it stopped
 """
+
+_ROW_HEAD = re.compile(r" +\S+  +")
+"""How a row of a table begins in the text of a help."""
 
 QUERYING = ("time_limit", "memory_limit", "cache")
 """Options of a build that a query has as well."""
@@ -47,13 +52,28 @@ GROUPS = {
 """How options stand in the help."""
 
 
+class Help(argparse.HelpFormatter):
+    """Paragraphs and rows of a table stay apart, and each goes on below its own text where a line is full."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        lines = []
+        for line in text.splitlines():
+            head = _ROW_HEAD.match(line)
+            below = " " * (head.end() if head else 0)
+            wrapped = textwrap.wrap(
+                line, width, subsequent_indent=below, break_long_words=False, break_on_hyphens=False
+            )
+            lines += wrapped or [""]
+        return "\n".join(lines)
+
+
 def command_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="shapeviz-report",
         description="Turn a folder of 3D meshes into a static web site that shows the whole shape database, and "
         "why its shapes group as they do. The site needs no server: it opens by double-click.",
         epilog=EXIT_CODES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=Help,
     )
     parser.add_argument("--version", action="version", version=f"shapeviz-report {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -63,10 +83,10 @@ def command_parser() -> argparse.ArgumentParser:
         usage="shapeviz-report build [options] -o OUT DATABASE",
         help="build the site of a shape database",
         description="Build the site of a shape database. What was computed before and has not changed is reused.",
-        epilog=f"Options may also stand in {FILE_NAME} in the database's folder, with _ for -, but for those of the\n"
-        f"machine ({', '.join(MACHINE)}): they may stand in a file that --config names, or in\n"
+        epilog=f"Options may also stand in {FILE_NAME} in the database's folder, with _ for -, but for those of the "
+        f"machine ({', '.join(MACHINE)}): they may stand in a file that --config names, or in "
         f"the environment, such as {ENVIRONMENT_PREFIX}CACHE. Flags win.\n\n" + EXIT_CODES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=Help,
     )
     _add_database(build)
     _add_destination(build)
@@ -79,7 +99,7 @@ def command_parser() -> argparse.ArgumentParser:
         help="build a site of shapes that are generated on the spot",
         description="Generate the demo database, which needs no download, and build its site.",
         epilog=EXIT_CODES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=Help,
     )
     _add_destination(demo)
     _add_options(
@@ -170,7 +190,7 @@ def command_parser() -> argparse.ArgumentParser:
         description="Measure a shape database and write its features to one file, a row a shape, for other programs: "
         "no pictures, maps or site. What was computed before and has not changed is reused.",
         epilog=EXIT_CODES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=Help,
     )
     _add_database(describe)
     describe.add_argument(
@@ -194,12 +214,12 @@ def command_parser() -> argparse.ArgumentParser:
     completion = commands.add_parser(
         "completion",
         help="print what makes a shell complete commands, options and their values",
-        description="Print a script that makes a shell complete commands, options, their values, files and folders,\n"
+        description="Print a script that makes a shell complete commands, options, their values, files and folders, "
         "with the plug-ins that are installed now. It goes, for instance, into\n"
         "  bash  ~/.local/share/bash-completion/completions/shapeviz-report\n"
         "  zsh   a file _shapeviz-report in a folder of $fpath\n"
         "  fish  ~/.config/fish/completions/shapeviz-report.fish",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=Help,
     )
     completion.add_argument(
         "shell", metavar="SHELL", choices=("bash", "zsh", "fish"), help="bash, zsh or fish"

@@ -13,6 +13,7 @@ import pytest
 
 from shapeviz_report.cli import main
 from shapeviz_report.cli.arguments import GROUPS
+from shapeviz_report.cli.commands import COMMANDS
 from shapeviz_report.cli.results import print_database
 from shapeviz_report.cli.terminal import one_line
 from shapeviz_report.config import Config
@@ -53,6 +54,23 @@ def test_numbers_agree_with_their_words(
     print_database(read_database(tmp_path))
     told = capsys.readouterr().out
     assert all(words in told for words in said), told
+
+
+@pytest.mark.parametrize("columns", [60, 80, 200])
+@pytest.mark.parametrize("command", [(), *((name,) for name in COMMANDS)])
+def test_help_fits_the_terminal(capsys, monkeypatch, columns, command) -> None:
+    monkeypatch.setenv("COLUMNS", str(columns))
+    with pytest.raises(SystemExit):
+        main([*command, "--help"])
+    text = capsys.readouterr().out
+    # a path or an address has no place to break it
+    too_long = [line for line in text.splitlines() if len(line) > columns and len(line.split()) > 2]
+    assert too_long == []
+    if "exit codes:" in text:
+        assert "\n  0    done; " in text
+    if columns == 60 and command == ("build",):
+        assert "\n  1    nothing was built: the message says why\n" in text
+        assert "signal);\n       the same command continues" in text
 
 
 def test_every_option_has_one_place_in_the_help() -> None:
