@@ -210,6 +210,18 @@ class TestTwoGroups:
         expected = 100 * between[columns].sum() / spread[columns].sum()
         assert float(told.partition("\u00a0")[0]) == pytest.approx(expected, rel=0.1)
 
+    def test_long_names_of_features_end_where_their_place_does(self, open_page):
+        page = open_page("everything", "compare.html", viewport={"width": 1024, "height": 768})
+        page.wait_for_selector("#feature-rows li")
+        names = page.locator("#feature-rows .feature")
+        assert (
+            names.evaluate_all("all => all.map((name) => name.scrollWidth > name.clientWidth)")
+            == [False] * names.count()
+        )
+        cut = page.locator("#feature-rows bdi", has_text="without an end")
+        assert cut.evaluate("name => getComputedStyle(name).textOverflow") == "ellipsis"
+        assert cut.get_attribute("title").endswith("without an end ")
+
     @pytest.mark.parametrize("pair", ["ab", "ce"])
     def test_sentences_are_those_of_people(self, compare, pair):
         page = compare(a=f"class:kind {pair[0]}", b=f"class:kind {pair[1]}")

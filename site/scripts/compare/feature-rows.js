@@ -26,7 +26,7 @@ export function featureRows(view) {
       element(
         "span",
         { class: "feature" },
-        element("bdi", {}, row.feature.name),
+        element("bdi", { title: row.feature.name }, row.feature.name),
         row.feature.title !== row.feature.name && element("span", { class: "quiet" }, row.feature.title),
       ),
       element("span", { class: "share-bar" }, fill, chance),
