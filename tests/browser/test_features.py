@@ -707,6 +707,17 @@ def test_retrieval_of_clusters_is_told_of_clusters(open_page):
     assert "chosen by the clusters" in page.locator("#panel").inner_text()
 
 
+def test_what_is_drawn_when_it_is_unfolded_is_on_the_first_sheet_too(open_page):
+    page = open_page("clusters searched", "features.html")
+    rows = page.evaluate(
+        """() => {
+            window.dispatchEvent(new Event("beforeprint"));
+            return document.querySelectorAll("#retrieval-classes tbody tr").length;
+        }"""
+    )
+    assert rows == 4
+
+
 @pytest.mark.parametrize("width", [1000, 1440])
 def test_short_names_of_features_are_not_broken(open_page, width):
     # "FPFH" in a table whose other words want the room.

@@ -179,18 +179,27 @@ def test_a_plugin_that_ends_the_program_is_told_as_any_failure(install, command,
         all_descriptors()
 
 
+@pytest.fixture
+def interruptible():
+    """Ctrl-C as a terminal has it: what a shell starts in the background passes it over."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.parametrize(
     ("number", "error"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)]
 )
-def test_who_asks_the_program_to_end_is_heard_in_a_plugin(install, command, number, error) -> None:
+def test_who_asks_the_program_to_end_is_heard_in_a_plugin(
+    install, interruptible, command, number, error
+) -> None:
     text = raising(f"SystemError(__import__('signal').raise_signal({number:d}))")
     install("heights", text, descriptors="HEIGHT")
     with pytest.raises(error):
         all_descriptors()[-1].compute(Surface(lump()))
 
 
-def test_ctrl_c_in_a_notebook_is_no_failure_of_a_plugin(install) -> None:
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+def test_ctrl_c_in_a_notebook_is_no_failure_of_a_plugin(install, interruptible) -> None:
     install("heights", raising("KeyboardInterrupt"), descriptors="HEIGHT")
     with pytest.raises(KeyboardInterrupt):
         all_descriptors()[-1].compute(Surface(lump()))

@@ -53,7 +53,11 @@ export function watchPaper() {
   window.addEventListener("beforeprint", () => {
     root.dataset.paper = "page";
     unfolded = [...document.querySelectorAll(FOLDED)];
-    for (const part of unfolded) part.open = true;
+    for (const part of unfolded) {
+      part.open = true;
+      // The browser tells it only after the sheet is taken; some draw what they hold when they are told.
+      part.dispatchEvent(new Event("toggle"));
+    }
     for (const picture of document.querySelectorAll("img[loading]")) picture.removeAttribute("loading");
     restyle();
   });
