@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from cluster import running_cluster
+from signals import hear_signals
 from small_database import WITH_SEARCH, read_site
 
 import shapeviz_report
@@ -61,7 +62,7 @@ def test_the_same_site_though_workers_are_killed_half_way(built, database, tmp_p
 def start_build(database: Path, folder: Path, scheduler: str) -> subprocess.Popen[str]:
     options = ["-o", folder / "site", "--scheduler", scheduler, "--cache", folder / "cache"]
     command = [sys.executable, "-m", "shapeviz_report", "build", database, *options]
-    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True, preexec_fn=hear_signals)
 
 
 def test_a_scheduler_that_goes_ends_the_build_with_a_sentence_and_nothing_else(database, tmp_path) -> None:

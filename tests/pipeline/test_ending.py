@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
+from signals import hear_signals
 from small_database import write_database
 from waiting import wait_until
 
@@ -31,12 +32,6 @@ def start(folder: Path, **options) -> subprocess.Popen[str]:
         preexec_fn=hear_signals,
         **options,
     )
-
-
-def hear_signals() -> None:
-    """As a terminal has it: what runs in the background, or below ``nohup``, ignores some."""
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 def is_listening(process: int, folder: Path) -> bool:
