@@ -41,7 +41,7 @@ def find_copies(
         for shape in sorted({shape for pair in possible for shape in pair}):
             try:
                 files = read(shape)
-            except MeshError:
+            except (MeshError, MemoryError):
                 continue  # its pairs are tried one by one, and say so
             names[shape], weights[shape] = identify(files), sum(map(len, files.values()))
 
@@ -70,7 +70,7 @@ def find_copies(
     return join_copies(certain, found, list(outlines))
 
 
-def share_out(pairs: Sequence[tuple[str, str]], weights: Mapping[str, int]) -> list[list[tuple[str, str]]]:
+def share_out(pairs: Sequence[Pair], weights: Mapping[str, int]) -> list[list[Pair]]:
     """Deal pairs out to tasks so that those of a task have shapes in common.
 
     Parameters
@@ -91,7 +91,7 @@ def share_out(pairs: Sequence[tuple[str, str]], weights: Mapping[str, int]) -> l
     # In this order shapes that are to be compared stand near each other (Cuthill and McKee, 1969).
     place = np.argsort(reverse_cuthill_mckee(graph + graph.T, symmetric_mode=True)) if ids else np.arange(0)
     places = np.sort(place[ends], axis=1)
-    tasks: list[list[tuple[str, str]]] = []
+    tasks: list[list[Pair]] = []
     there: set[str] = set()
     for row in np.lexsort(places.T[::-1]).tolist():
         pair = pairs[row]

@@ -87,3 +87,13 @@ def test_shapes_without_end_of_one_outline_are_compared_with_one_more_each() -> 
     _, pairs = pair_outlines({str(row): Outline(str(row), one) for row, one in enumerate(values)})
     assert len(pairs) < 3000 + (NEAREST_OUTLINES + 1) ** 2
     assert {shape for pair in pairs for shape in pair} == {str(row) for row in range(3000)}
+
+
+def test_a_shape_that_memory_cannot_hold_is_told_of_and_ends_nothing(tmp_path, caplog) -> None:
+    def read(shape):
+        raise MemoryError
+
+    run = Runner(HereExecutor(), Clock(QuietProgress()), Cache(tmp_path), {}, [], Config())
+    outlines = {shape: Outline(shape, np.zeros(20)) for shape in ("a", "b")}
+    assert find_copies(run, read, outlines) == ()
+    assert "Whether a and b are copies is not known: it is larger than the memory" in caplog.text
